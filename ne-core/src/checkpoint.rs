@@ -1,0 +1,55 @@
+use crate::{Champion, Progress, Seed, Strategy, archive, archive::ArchiveError};
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The kind of file a checkpoint is.
+pub const CHECKPOINT_FORMAT: &str = "gambol checkpoint";
+
+/// The version of the checkpoint file this crate writes, and the only one it reads.
+pub const CHECKPOINT_VERSION: u32 = 1;
+
+/// Everything an [`Evolution`](crate::Evolution) needs to go on exactly where it stopped, between two generations.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, bound = "S: Strategy")]
+pub struct Checkpoint<S: Strategy> {
+    /// The run's seed.
+    pub seed: Seed,
+    /// Budgets used.
+    pub progress: Progress,
+    /// The best so far.
+    pub champion: Option<Champion<S::Genome>>,
+    /// The strategy with all its state.
+    pub strategy: S,
+}
+
+impl<S: Strategy> Checkpoint<S> {
+    /// Reads a checkpoint.
+    ///
+    /// # Errors
+    /// If the file cannot be read, is damaged, or is of another format or version; the error names the file.
+    pub fn read(path: &Path) -> Result<Self, ArchiveError> {
+        archive::read(path, CHECKPOINT_FORMAT, CHECKPOINT_VERSION)
+    }
+
+    /// Writes the checkpoint, whole or not at all.
+    ///
+    /// # Errors
+    /// If the file cannot be written; an older file at `path` is then still there.
+    pub fn write(&self, path: &Path) -> Result<(), ArchiveError> {
+        write_parts(path, self)
+    }
+}
+
+/// A checkpoint of borrowed parts, so that writing one clones nothing.
+#[derive(Serialize)]
+#[serde(bound = "S: Strategy")]
+pub(crate) struct CheckpointRef<'a, S: Strategy> {
+    pub(crate) seed: Seed,
+    pub(crate) progress: Progress,
+    pub(crate) champion: Option<&'a Champion<S::Genome>>,
+    pub(crate) strategy: &'a S,
+}
+
+pub(crate) fn write_parts(path: &Path, content: &impl Serialize) -> Result<(), ArchiveError> {
+    archive::write(path, CHECKPOINT_FORMAT, CHECKPOINT_VERSION, content, archive::Layout::Compact)
+}

@@ -1,0 +1,115 @@
+use crate::Fitness;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The result of evaluating one phenotype on a [`Task`](crate::Task).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Evaluation {
+    /// The fitness, or why there is none.
+    pub outcome: Result<Fitness, Failure>,
+    /// The work done, in the task's smallest unit (for bodies: physics steps). Budgets count it.
+    pub steps: u64,
+    /// Several objectives, all to be maximised; empty if the task has only the fitness.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objectives: Vec<f64>,
+    /// What the phenotype did, as a point in a space where near means alike (for novelty search); often empty.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub behaviour: Vec<f64>,
+    /// Named measurements, for reports; the task documents names and units.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub measurements: BTreeMap<String, f64>,
+}
+
+impl Evaluation {
+    /// An evaluation with this fitness and no recorded work; NaN and infinities become [`Failure::NonFinite`].
+    pub fn new(fitness: f64) -> Self {
+        let outcome = Fitness::new(fitness).map_err(|_| Failure::NonFinite { what: "fitness".into() });
+        Self { outcome, steps: 0, objectives: Vec::new(), behaviour: Vec::new(), measurements: BTreeMap::new() }
+    }
+
+    /// An evaluation that failed.
+    pub fn failed(failure: Failure) -> Self {
+        Self { outcome: Err(failure), ..Self::new(0.0) }
+    }
+
+    /// The same, with the work done.
+    #[must_use]
+    pub fn with_steps(self, steps: u64) -> Self {
+        Self { steps, ..self }
+    }
+
+    /// The fitness, if the evaluation did not fail.
+    ///
+    /// `Option`s compare with `None` lowest, so failures rank below every fitness.
+    pub fn fitness(&self) -> Option<Fitness> {
+        self.outcome.as_ref().ok().copied()
+    }
+}
+
+/// Why an evaluation has no fitness.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
+#[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum Failure {
+    /// A number that must be finite was not.
+    #[error("{what} is not finite")]
+    NonFinite {
+        /// Which number: "fitness", "output 3", "position of left leg".
+        what: String,
+    },
+    /// The simulation left the range in which it means anything.
+    #[error("the simulation is unstable: {what}")]
+    Unstable {
+        /// What was seen.
+        what: String,
+    },
+    /// The task's own limit of time or work was reached.
+    #[error("timed out after {steps} steps")]
+    TimedOut {
+        /// Steps done by then.
+        steps: u64,
+    },
+    /// The phenotype does not fit the task.
+    #[error(
+        "the phenotype has {found_inputs} inputs and {found_outputs} outputs, the task needs {inputs} and {outputs}"
+    )]
+    ShapeMismatch {
+        /// Inputs of the phenotype.
+        found_inputs: usize,
+        /// Outputs of the phenotype.
+        found_outputs: usize,
+        /// Inputs of the task.
+        inputs: usize,
+        /// Outputs of the task.
+        outputs: usize,
+    },
+    /// Anything else a task wants to say.
+    #[error("{what}")]
+    Other {
+        /// The reason.
+        what: String,
+    },
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nan_becomes_a_failure_and_ranks_last() {
+        let failed = Evaluation::new(f64::NAN);
+        assert_eq!(failed.outcome, Err(Failure::NonFinite { what: "fitness".into() }));
+        assert!(failed.fitness() < Evaluation::new(-1e300).fitness());
+    }
+
+    #[test]
+    fn survives_serialisation() {
+        let mut evaluation = Evaluation::new(0.1).with_steps(2000);
+        evaluation.measurements.insert("energy_j".into(), 3.5);
+        for evaluation in [evaluation, Evaluation::failed(Failure::TimedOut { steps: 3 })] {
+            let text = serde_json::to_string(&evaluation).expect("serialises");
+            assert_eq!(serde_json::from_str::<Evaluation>(&text).expect("deserialises"), evaluation);
+        }
+    }
+}

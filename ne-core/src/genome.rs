@@ -1,0 +1,18 @@
+use crate::Phenotype;
+use serde::{Serialize, de::DeserializeOwned};
+
+/// Heritable data: what a strategy varies and selects.
+///
+/// An implementor owes:
+/// - `express` is a pure function: equal genomes build phenotypes that behave alike to the bit;
+/// - serialising and deserialising gives a genome that expresses the same phenotype;
+/// - cloning is cheap (share what does not vary between individuals in an `Arc`).
+///
+/// Check yours with [`conformance::check_genome`](https://docs.rs/ne-core).
+pub trait Genome: Clone + Send + Sync + Serialize + DeserializeOwned + 'static {
+    /// The controller this genome describes.
+    type Phenotype: Phenotype;
+
+    /// Builds the phenotype.
+    fn express(&self) -> Self::Phenotype;
+}

@@ -1,0 +1,142 @@
+//! The contracts of neuroevolution, and the loop that runs them.
+//!
+//! Everything in Gambol that can be swapped is swapped at a trait of this crate:
+//!
+//! | trait | one sentence |
+//! |---|---|
+//! | [`Genome`] | heritable data that builds a phenotype |
+//! | [`Phenotype`] | a controller: numbers in, numbers out |
+//! | [`Task`] | scores a phenotype |
+//! | [`Selector`] | picks parents by their scores |
+//! | [`Strategy`] | asks for evaluations of genomes, is told their results |
+//! | `Evaluator` | spreads evaluations over threads |
+//! | `Observer` | is told of each generation |
+//!
+//! The one decision behind all of them: **a run is a function of its settings and one seed.** No contract hands out a
+//! shared random generator. Whoever needs chance derives a [`RandomStream`] of its own from a [`Seed`], which says where
+//! in the run it stands (run, generation, individual, trial) and, with a [`Purpose`], what the numbers are for. Threads,
+//! observers and the moment of a restart cannot reach those streams, so they cannot change a result, and a strategy has
+//! no generator to save.
+//!
+//! With `default-features = false` this crate is the traits and plain data alone. Features:
+//!
+//! - `selection`: the five selectors,
+//! - `evolution` (default): the loop, stop conditions, observers, checkpoints, the serial evaluator, the conformance kit,
+//! - `parallel` (default): the evaluator that uses several threads.
+//!
+//! # A whole run
+//!
+//! ```
+//! # #[cfg(feature = "evolution")] {
+//! use ne_core::{Evaluation, Evolution, Genome, Phenotype, Seed, Strategy, Serial, StopConditions, Task};
+//! use serde::{Deserialize, Serialize};
+//!
+//! /// A genome of one number, expressed as a controller that always answers it.
+//! #[derive(Clone, Serialize, Deserialize)]
+//! struct Constant(f32);
+//! impl Phenotype for Constant {
+//!     fn inputs(&self) -> usize { 0 }
+//!     fn outputs(&self) -> usize { 1 }
+//!     fn reset(&mut self) {}
+//!     fn activate(&mut self, _: &[f32], outputs: &mut [f32]) { outputs[0] = self.0 }
+//! }
+//! impl Genome for Constant {
+//!     type Phenotype = Self;
+//!     fn express(&self) -> Self { self.clone() }
+//! }
+//!
+//! /// Find the number 7.
+//! struct Seven;
+//! impl Task for Seven {
+//!     fn inputs(&self) -> usize { 0 }
+//!     fn outputs(&self) -> usize { 1 }
+//!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
+//!         let mut answer = [0.0];
+//!         phenotype.activate(&[], &mut answer);
+//!         Evaluation::new(-f64::from((answer[0] - 7.0).abs()))
+//!     }
+//! }
+//!
+//! /// Ten candidates on a grid around the best so far; the grid shrinks.
+//! #[derive(Serialize, Deserialize)]
+//! struct Grid { centre: f32, width: f32, candidates: Vec<Constant> }
+//! impl Strategy for Grid {
+//!     type Genome = Constant;
+//!     fn name(&self) -> &str { "grid" }
+//!     fn ask(&mut self, _: Seed) -> &[Constant] {
+//!         self.candidates = (0..10).map(|i| Constant(self.centre + self.width * (i as f32 - 4.5))).collect();
+//!         &self.candidates
+//!     }
+//!     fn tell(&mut self, evaluations: &[Evaluation], _: Seed) {
+//!         let best = (0..10).max_by_key(|&i| evaluations[i].fitness()).unwrap_or(0);
+//!         self.centre = self.candidates[best].0;
+//!         self.width *= 0.5;
+//!     }
+//! }
+//!
+//! let strategy = Grid { centre: 0.0, width: 4.0, candidates: Vec::new() };
+//! let stop = StopConditions { generations: Some(20), ..Default::default() };
+//! let mut evolution = Evolution::new(strategy, Seed::of_run(1), stop);
+//! evolution.run(&Seven, &Serial, &mut [])?;
+//! let champion = evolution.champion().expect("twenty generations have a best");
+//! assert!((champion.genome.0 - 7.0).abs() < 1e-3);
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+mod evaluation;
+mod fitness;
+mod genome;
+mod phenotype;
+mod seed;
+mod selector;
+mod setting;
+mod strategy;
+mod task;
+
+#[cfg(feature = "evolution")]
+pub mod archive;
+#[cfg(feature = "evolution")]
+mod checkpoint;
+#[cfg(feature = "evolution")]
+pub mod conformance;
+#[cfg(feature = "evolution")]
+pub mod digest;
+#[cfg(feature = "evolution")]
+mod evaluator;
+#[cfg(feature = "evolution")]
+mod evolution;
+#[cfg(feature = "evolution")]
+mod observer;
+#[cfg(feature = "evolution")]
+mod statistics;
+#[cfg(feature = "evolution")]
+mod stop;
+
+pub use evaluation::{Evaluation, Failure};
+pub use fitness::{Fitness, NotFinite};
+pub use genome::Genome;
+pub use phenotype::Phenotype;
+pub use seed::{Purpose, RandomStream, Seed};
+pub use selector::Selector;
+#[cfg(feature = "selection")]
+pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
+pub use setting::SettingError;
+pub use strategy::{Statistic, Strategy};
+pub use task::Task;
+
+#[cfg(feature = "evolution")]
+pub use checkpoint::{CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Checkpoint};
+#[cfg(feature = "evolution")]
+pub use evaluator::{Evaluator, Serial};
+#[cfg(feature = "parallel")]
+pub use evaluator::{Parallel, ThreadsError};
+#[cfg(feature = "evolution")]
+pub use evolution::{Champion, Evolution, EvolutionError, Progress};
+#[cfg(feature = "evolution")]
+pub use observer::{Generation, Observer, ObserverError};
+#[cfg(feature = "evolution")]
+pub use statistics::{GenerationReport, Quantiles};
+#[cfg(feature = "evolution")]
+pub use stop::{StopConditions, StopReason, StopSignal};

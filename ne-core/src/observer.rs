@@ -1,0 +1,39 @@
+use crate::{Champion, Evaluation, GenerationReport, Progress, Seed, StopConditions, Strategy};
+
+/// What an observer reports when it cannot do its work (a disk is full): the run ends with this error, nothing lost.
+pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
+
+/// Is told of each generation, and changes nothing.
+///
+/// Observers get shared references and run between generations on the thread of the loop; what takes long belongs on a
+/// thread of its own. With or without observers a run gives the same bits.
+pub trait Observer<S: Strategy> {
+    /// A generation was evaluated and told to the strategy.
+    ///
+    /// # Errors
+    /// An error ends the run; the evolution itself stays whole and can go on.
+    fn generation(&mut self, generation: &Generation<'_, S>) -> Result<(), ObserverError>;
+}
+
+/// All there is to know of a generation that has just been told to the strategy.
+#[derive(Debug)]
+pub struct Generation<'a, S: Strategy> {
+    /// The numbers.
+    pub report: &'a GenerationReport,
+    /// The genomes that were evaluated; the strategy owned them and has bred nothing from them yet.
+    pub genomes: &'a [S::Genome],
+    /// Their evaluations, in the same order.
+    pub evaluations: &'a [Evaluation],
+    /// The best of the run so far, if any evaluation succeeded.
+    pub champion: Option<&'a Champion<S::Genome>>,
+    /// Whether the champion is of this generation.
+    pub improved: bool,
+    /// The strategy after `tell`.
+    pub strategy: &'a S,
+    /// Budgets used.
+    pub progress: Progress,
+    /// The run's seed.
+    pub seed: Seed,
+    /// When the run will end.
+    pub stop: &'a StopConditions,
+}

@@ -1,0 +1,54 @@
+use super::Selector;
+use crate::{Fitness, RandomStream, SettingError};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+/// Tournament selection: each parent is the best of a few drawn uniformly, with repetition.
+///
+/// Of equals the one drawn first wins. A failure loses against any fitness; if failures alone were drawn, the best
+/// individual of all is chosen instead.
+///
+/// Source: Goldberg & Deb, *A Comparative Analysis of Selection Schemes*, FOGA 1991.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Tournament {
+    /// How many compete, at least 1 (uniform choice); default 3. More is more selective.
+    pub size: usize,
+}
+
+impl Default for Tournament {
+    fn default() -> Self {
+        Self { size: 3 }
+    }
+}
+
+impl Tournament {
+    /// Checks the size.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        SettingError::check_at_least("size", self.size, 1)
+    }
+}
+
+impl Selector for Tournament {
+    fn select(&self, scores: &[Option<Fitness>], count: usize, stream: &mut RandomStream, chosen: &mut Vec<usize>) {
+        if scores.is_empty() {
+            return;
+        }
+        for _ in 0..count {
+            let mut winner = stream.random_range(0..scores.len());
+            for _ in 1..self.size {
+                let rival = stream.random_range(0..scores.len());
+                if scores[rival] > scores[winner] {
+                    winner = rival;
+                }
+            }
+            if scores[winner].is_none() {
+                winner = (0..scores.len()).max_by_key(|&index| scores[index]).unwrap_or(winner);
+            }
+            chosen.push(winner);
+        }
+    }
+}

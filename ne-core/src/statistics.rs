@@ -1,0 +1,81 @@
+use crate::{Evaluation, Fitness, Statistic};
+use serde::{Deserialize, Serialize};
+
+/// What happened in one generation: plain data, a line of a log.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GenerationReport {
+    /// Which generation, counted from 1.
+    pub generation: u64,
+    /// Evaluations since the run began, this generation included.
+    pub evaluations: u64,
+    /// Steps of work since the run began.
+    pub steps: u64,
+    /// The best fitness since the run began; `None` while all failed.
+    pub best_so_far: Option<Fitness>,
+    /// The fitnesses of this generation; `None` if all failed.
+    pub fitness: Option<Quantiles>,
+    /// How many evaluations failed.
+    pub failures: u64,
+    /// How many members the population had.
+    pub population: u64,
+    /// What the strategy says of itself.
+    pub strategy: Vec<Statistic>,
+}
+
+/// The distribution of a generation's fitnesses, failures left out.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Quantiles {
+    /// The highest.
+    pub best: f64,
+    /// The arithmetic mean.
+    pub mean: f64,
+    /// The middle one (with an even number the mean of the two in the middle).
+    pub median: f64,
+    /// The lowest.
+    pub worst: f64,
+    /// A tenth are at most this (linear interpolation between neighbours).
+    pub q10: f64,
+    /// A quarter are at most this.
+    pub q25: f64,
+    /// Three quarters are at most this.
+    pub q75: f64,
+    /// Nine tenths are at most this.
+    pub q90: f64,
+}
+
+impl Quantiles {
+    /// The distribution of these evaluations' fitnesses, or `None` if all failed.
+    pub fn of(evaluations: &[Evaluation]) -> Option<Self> {
+        let mut values: Vec<f64> = evaluations.iter().filter_map(Evaluation::fitness).map(Fitness::get).collect();
+        values.sort_by(f64::total_cmp);
+        let (&worst, &best) = (values.first()?, values.last()?);
+        let count = values.len() as f64;
+        let at = |share: f64| {
+            let position = share * (count - 1.0);
+            let (low, high) = (values[position.floor() as usize], values[position.ceil() as usize]);
+            low + (high - low) * position.fract()
+        };
+        // Divided before summing, so that huge fitnesses do not overflow.
+        let mean = values.iter().map(|value| value / count).sum();
+        Some(Self { best, mean, median: at(0.5), worst, q10: at(0.1), q25: at(0.25), q75: at(0.75), q90: at(0.9) })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_interpolate_and_skip_failures() {
+        let evaluations: Vec<_> = [4.0, 1.0, f64::NAN, 3.0, 2.0, 5.0].into_iter().map(Evaluation::new).collect();
+        let quantiles = Quantiles::of(&evaluations).expect("five of six survived");
+        assert_eq!(
+            (quantiles.worst, quantiles.q25, quantiles.median, quantiles.q75, quantiles.best),
+            (1.0, 2.0, 3.0, 4.0, 5.0)
+        );
+        assert_eq!((quantiles.mean, quantiles.q10, quantiles.q90), (3.0, 1.4, 4.6));
+        assert_eq!(Quantiles::of(&evaluations[2..3]), None);
+    }
+}

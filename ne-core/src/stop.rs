@@ -1,0 +1,136 @@
+use crate::{Fitness, Progress, SettingError};
+use serde::{Deserialize, Serialize};
+use std::{
+    fmt,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
+};
+
+/// When a run ends: whichever condition is met first. A condition that is `None` never is.
+///
+/// Conditions are looked at between generations: the generation under way is always finished, so a budget can be
+/// overrun by less than one generation.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StopConditions {
+    /// Generations, at least 1.
+    pub generations: Option<u64>,
+    /// Evaluations, at least 1.
+    pub evaluations: Option<u64>,
+    /// Steps of work (for bodies: physics steps), at least 1.
+    pub steps: Option<u64>,
+    /// Minutes of wall clock since the start, or since the resume; above 0. The only condition that makes the length
+    /// of a run depend on the machine.
+    pub minutes: Option<f64>,
+    /// A fitness that is good enough.
+    pub target: Option<f64>,
+    /// Generations without a better champion, at least 1.
+    pub stagnation: Option<u64>,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum StopReason {
+    /// The generations were done.
+    Generations,
+    /// The evaluations were used up.
+    Evaluations,
+    /// The steps were used up.
+    Steps,
+    /// The time was up.
+    Minutes,
+    /// The target fitness was reached.
+    Target,
+    /// No better champion for too long.
+    Stagnation,
+    /// Somebody asked it to stop (Ctrl-C).
+    Interrupted,
+}
+
+impl fmt::Display for StopReason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Generations => "the generations were done",
+            Self::Evaluations => "the evaluations were used up",
+            Self::Steps => "the physics steps were used up",
+            Self::Minutes => "the time was up",
+            Self::Target => "the target fitness was reached",
+            Self::Stagnation => "there was no progress any more",
+            Self::Interrupted => "it was interrupted",
+        })
+    }
+}
+
+/// A switch by which anybody (a Ctrl-C handler, a window) can end a run after the generation under way.
+#[derive(Clone, Debug, Default)]
+pub struct StopSignal(Arc<AtomicBool>);
+
+impl StopSignal {
+    /// Asks the run to stop.
+    pub fn stop(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Whether somebody asked.
+    pub fn is_set(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+impl StopConditions {
+    /// Checks the ranges, and that the run will end at all.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        let counts = [
+            ("generations", self.generations),
+            ("evaluations", self.evaluations),
+            ("steps", self.steps),
+            ("stagnation", self.stagnation),
+        ];
+        for (field, count) in counts {
+            if count == Some(0) {
+                return Err(SettingError::new(field, 0, "at least 1"));
+            }
+        }
+        if let Some(minutes) = self.minutes
+            && !(minutes > 0.0 && minutes.is_finite())
+        {
+            return Err(SettingError::new("minutes", minutes, "above 0"));
+        }
+        if let Some(target) = self.target
+            && !target.is_finite()
+        {
+            return Err(SettingError::new("target", target, "a finite number"));
+        }
+        if *self == Self::default() {
+            return Err(SettingError::new("stop", "nothing", "at least one condition, or the run would never end"));
+        }
+        Ok(())
+    }
+
+    /// The first condition that is met, if any.
+    pub fn reached(&self, progress: &Progress, best: Option<Fitness>, elapsed: Duration) -> Option<StopReason> {
+        let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);
+        if self.target.zip(best).is_some_and(|(target, best)| best.get() >= target) {
+            Some(StopReason::Target)
+        } else if used_up(self.generations, progress.generations) {
+            Some(StopReason::Generations)
+        } else if used_up(self.evaluations, progress.evaluations) {
+            Some(StopReason::Evaluations)
+        } else if used_up(self.steps, progress.steps) {
+            Some(StopReason::Steps)
+        } else if used_up(self.stagnation, progress.stagnation) {
+            Some(StopReason::Stagnation)
+        } else if self.minutes.is_some_and(|minutes| elapsed.as_secs_f64() >= minutes * 60.0) {
+            Some(StopReason::Minutes)
+        } else {
+            None
+        }
+    }
+}

@@ -1,0 +1,49 @@
+use crate::{Evaluation, Genome, Seed};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+
+/// A search: asks for the evaluation of genomes, is told the results, and asks again.
+///
+/// Conventional neuroevolution, NEAT and evolution strategies all stand behind this contract. The strategy *is* its
+/// state: what it serialises to, settings included, is everything it needs to go on after a restart.
+///
+/// An implementor owes:
+/// - `ask` and `tell` take turns, `ask` first; `tell` gets one evaluation for each genome asked, in the same order;
+/// - chance comes only from the seed handed in, which differs from generation to generation, so that the state holds no
+///   generator and `ask` after a save and a load gives the same genomes;
+/// - a failed evaluation ranks below every fitness;
+/// - no clock, no thread count, no iteration over a hash map: the same evaluations give the same bits.
+pub trait Strategy: Serialize + DeserializeOwned + Send {
+    /// What the strategy varies.
+    type Genome: Genome;
+
+    /// The name users choose it by: lower case, hyphens.
+    fn name(&self) -> &str;
+
+    /// The genomes of the next generation.
+    fn ask(&mut self, seed: Seed) -> &[Self::Genome];
+
+    /// The results of the genomes last asked. `seed` is the one `ask` had.
+    fn tell(&mut self, evaluations: &[Evaluation], seed: Seed);
+
+    /// What the strategy can say of its own state after `tell` (mutation strength, number of species), for logs and
+    /// reports. Same names in the same order each time.
+    fn statistics(&self) -> Vec<Statistic> {
+        Vec::new()
+    }
+}
+
+/// A named number a [`Strategy`] reports.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Statistic {
+    /// Lower case, underscores, unit last: `mutation_deviation`.
+    pub name: String,
+    /// The value in this generation; finite.
+    pub value: f64,
+}
+
+impl Statistic {
+    /// A statistic.
+    pub fn new(name: impl Into<String>, value: f64) -> Self {
+        Self { name: name.into(), value }
+    }
+}
