@@ -1,0 +1,1 @@
+//! Checks that plug-in authors run in their own tests, for the contracts of this crate.

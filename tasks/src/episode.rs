@@ -1,0 +1,215 @@
+use crate::{Environment, Movement, Snapshot, Verdict};
+use ne_core::{Evaluation, Failure, Phenotype, Seed, SettingError, Task};
+use serde::{Deserialize, Serialize};
+
+/// An environment, a movement and trials: the [`Task`] of a body that learns to move.
+#[derive(Clone)]
+pub struct Episode<E: Environment> {
+    environment: E,
+    movement: Box<dyn Movement>,
+    steps: u32,
+    trials: Trials,
+}
+
+/// How many trials make an evaluation, and what their values become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Trials {
+    /// How many, from 1 to 1000; default 1. Trial k gets the seed's trial k, so more trials pay only where the
+    /// environment varies with the seed.
+    pub count: u32,
+    /// How the values of the trials become one fitness; default mean.
+    pub combine: Combine,
+}
+
+/// How the values of several trials become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Combine {
+    /// The arithmetic mean.
+    #[default]
+    Mean,
+    /// The lowest: a gait is worth what it is on its worst day.
+    Worst,
+}
+
+impl Default for Trials {
+    fn default() -> Self {
+        Self { count: 1, combine: Combine::Mean }
+    }
+}
+
+impl Trials {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        SettingError::check_range("count", f64::from(self.count), 1.0, 1000.0)
+    }
+}
+
+/// Watches an episode as it is played: a recorder, a digest, a window.
+pub trait Watcher {
+    /// A step has passed, or, with step 0, the episode is about to begin.
+    fn watch(&mut self, moment: &Moment<'_>);
+}
+
+/// What a [`Watcher`] is shown.
+pub struct Moment<'a> {
+    /// Steps since the clock started; 0 is the start.
+    pub step: u32,
+    /// Where everything is after that step.
+    pub snapshot: &'a Snapshot,
+    /// What the controller saw before the step; at step 0 zeros.
+    pub inputs: &'a [f32],
+    /// What it wanted; at step 0 zeros.
+    pub outputs: &'a [f32],
+    /// The controller itself.
+    pub phenotype: &'a dyn Phenotype,
+}
+
+/// Watches nothing, at no cost.
+impl Watcher for () {
+    fn watch(&mut self, _: &Moment<'_>) {}
+}
+
+impl<F: FnMut(&Moment<'_>)> Watcher for F {
+    fn watch(&mut self, moment: &Moment<'_>) {
+        self(moment);
+    }
+}
+
+/// How one trial ended.
+pub struct Played {
+    /// The movement after the last step.
+    pub movement: Box<dyn Movement>,
+    /// Steps done.
+    pub steps: u32,
+    /// What went wrong, if anything did.
+    pub failure: Option<Failure>,
+}
+
+impl<E: Environment> Episode<E> {
+    /// Episodes of `steps` steps (at least 1).
+    ///
+    /// # Errors
+    /// If steps or trials are out of range.
+    pub fn new(environment: E, movement: Box<dyn Movement>, steps: u32, trials: Trials) -> Result<Self, SettingError> {
+        SettingError::check_at_least("steps", steps as usize, 1)?;
+        trials.validate().map_err(|error| error.within("trials"))?;
+        Ok(Self { environment, movement, steps, trials })
+    }
+
+    /// The environment episodes start from.
+    pub fn environment(&self) -> &E {
+        &self.environment
+    }
+
+    /// The longest an episode lasts, in steps.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// Plays one trial under the eyes of a watcher: exactly what an evaluation does.
+    pub fn play(&self, phenotype: &mut dyn Phenotype, seed: Seed, watcher: &mut impl Watcher) -> Played {
+        let mut stage = Stage::new(self);
+        let (steps, failure) = stage.play(phenotype, seed, self.steps, watcher);
+        Played { movement: stage.movement, steps, failure }
+    }
+}
+
+/// What one evaluation needs of its own, allocated once for all its trials and steps.
+struct Stage<E> {
+    environment: E,
+    movement: Box<dyn Movement>,
+    inputs: Vec<f32>,
+    outputs: Vec<f32>,
+}
+
+impl<E: Environment> Stage<E> {
+    fn new(episode: &Episode<E>) -> Self {
+        let environment = episode.environment.clone();
+        let (inputs, outputs) = (vec![0.0; environment.inputs()], vec![0.0; environment.outputs()]);
+        Self { environment, movement: episode.movement.clone(), inputs, outputs }
+    }
+
+    /// One trial; returns the steps done and the failure that ended it, if one did.
+    fn play(
+        &mut self,
+        phenotype: &mut dyn Phenotype,
+        seed: Seed,
+        steps: u32,
+        watcher: &mut impl Watcher,
+    ) -> (u32, Option<Failure>) {
+        let Self { environment, movement, inputs, outputs } = self;
+        phenotype.reset();
+        inputs.fill(0.0);
+        outputs.fill(0.0);
+        if let Err(failure) = environment.reset(seed) {
+            return (0, Some(failure));
+        }
+        movement.begin(environment.snapshot());
+        watcher.watch(&Moment { step: 0, snapshot: environment.snapshot(), inputs, outputs, phenotype });
+        for step in 1..=steps {
+            environment.sense(inputs);
+            phenotype.activate(inputs, outputs);
+            environment.act(outputs);
+            if let Err(failure) = environment.step() {
+                return (step, Some(failure));
+            }
+            let verdict = movement.observe(environment.snapshot());
+            watcher.watch(&Moment { step, snapshot: environment.snapshot(), inputs, outputs, phenotype });
+            if verdict == Verdict::End {
+                return (step, None);
+            }
+        }
+        (steps, None)
+    }
+}
+
+impl<E: Environment> Task for Episode<E> {
+    fn inputs(&self) -> usize {
+        self.environment.inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.environment.outputs()
+    }
+
+    /// Fitness: the movement's value, combined over the trials. Measurements: each term's value under its name (mean
+    /// over the trials), and `duration`, the length of the episode in s.
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        if let Err(failure) = self.check_shape(phenotype) {
+            return Evaluation::failed(failure);
+        }
+        let mut stage = Stage::new(self);
+        let count = f64::from(self.trials.count);
+        let (mut total_steps, mut sum, mut worst) = (0, 0.0, f64::INFINITY);
+        let mut evaluation = Evaluation::new(0.0);
+        for trial in 0..self.trials.count {
+            let (steps, failure) = stage.play(phenotype, seed.trial(trial), self.steps, &mut ());
+            total_steps += u64::from(steps);
+            if let Some(failure) = failure {
+                return Evaluation::failed(failure).with_steps(total_steps);
+            }
+            let value = stage.movement.value();
+            if !value.is_finite() {
+                return Evaluation::new(value).with_steps(total_steps);
+            }
+            sum += value;
+            worst = worst.min(value);
+            let mut tell = |name: &str, value: f64| match evaluation.measurements.get_mut(name) {
+                Some(mean) => *mean += value / count,
+                None => drop(evaluation.measurements.insert(name.to_owned(), value / count)),
+            };
+            stage.movement.measurements(&mut tell);
+            tell("duration", f64::from(steps) * f64::from(self.environment.time_step()));
+        }
+        let fitness = match self.trials.combine {
+            Combine::Mean => sum / count,
+            Combine::Worst => worst,
+        };
+        Evaluation { measurements: evaluation.measurements, ..Evaluation::new(fitness).with_steps(total_steps) }
+    }
+}

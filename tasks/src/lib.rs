@@ -1,0 +1,42 @@
+//! What a creature has to learn, free of any physics engine.
+//!
+//! Three things make a [`Task`](ne_core::Task) for bodies, and each can be swapped alone:
+//!
+//! - an [`Environment`]: a body in a world that is reset, sensed, acted on and stepped, and tells after each step where
+//!   every part is (a [`Snapshot`]),
+//! - a [`Movement`]: watches the snapshots of an episode and turns them into one number,
+//! - an [`Episode`]: puts a controller into the environment for a number of steps and trials, and is the task.
+//!
+//! The decision behind them: **a movement sees where the parts are, and nothing else.** It knows no engine, no creature
+//! file and no controller, so a movement written once works for every creature in every engine, and fits on a page
+//! ([`Running`] is one). Movements add up: [`Sum`] weighs several, so a penalty is a movement too.
+//!
+//! ```
+//! use ne_core::{Phenotype, Seed, Task};
+//! use tasks::{Environment, Episode, Movement, Running, Snapshot, Trials, Verdict};
+//!
+//! /// Run backwards.
+//! #[derive(Clone, Default)]
+//! struct Retreat { start: f32, now: f32 }
+//! impl Movement for Retreat {
+//!     fn name(&self) -> &str { "retreat" }
+//!     fn unit(&self) -> &str { "m" }
+//!     fn begin(&mut self, start: &Snapshot) { (self.start, self.now) = (start.torso().x, start.torso().x) }
+//!     fn observe(&mut self, now: &Snapshot) -> Verdict { self.now = now.torso().x; Verdict::GoOn }
+//!     fn value(&self) -> f64 { f64::from(self.start - self.now) }
+//! }
+//! # let _: Box<dyn Movement> = Box::new(Retreat::default());
+//! ```
+
+mod catalogue;
+pub mod conformance;
+mod environment;
+mod episode;
+mod movement;
+mod snapshot;
+
+pub use catalogue::{MovementCatalogue, MovementEntry, MovementSpec, MovementSpecError, TermSpec};
+pub use environment::Environment;
+pub use episode::{Combine, Episode, Moment, Played, Trials, Watcher};
+pub use movement::{Energy, FallEnds, Jumping, Movement, MovementClone, Rollovers, Running, Sum, TimeAloft, Verdict};
+pub use snapshot::{PartState, Snapshot};

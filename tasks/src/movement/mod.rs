@@ -1,0 +1,77 @@
+//! Movements: what is rewarded, each in a file of its own.
+
+mod energy;
+mod fall_ends;
+mod jumping;
+mod rollovers;
+mod running;
+mod sum;
+mod time_aloft;
+
+pub use {
+    energy::Energy, fall_ends::FallEnds, jumping::Jumping, rollovers::Rollovers, running::Running, sum::Sum,
+    time_aloft::TimeAloft,
+};
+
+use crate::Snapshot;
+
+/// Turns an episode into a number: the fitness, or a term of it.
+///
+/// A movement is a small accumulator. [`begin`](Self::begin) is called once with the settled body, then
+/// [`observe`](Self::observe) after each step, then [`value`](Self::value).
+///
+/// An implementor owes:
+/// - `begin` forgets everything of an earlier episode;
+/// - `value` depends on the snapshots since `begin` alone, and may be asked at any time after it;
+/// - `observe` allocates nothing.
+///
+/// The type must be `Clone` (each evaluation watches with a clone of its own); the rest of [`MovementClone`] follows.
+pub trait Movement: MovementClone + Send + Sync {
+    /// The name users choose it by: lower case, hyphens.
+    fn name(&self) -> &str;
+
+    /// The unit of the value: "m", "J", "s", "1" for a count.
+    fn unit(&self) -> &str;
+
+    /// An episode begins with the body in this state.
+    fn begin(&mut self, start: &Snapshot);
+
+    /// A step has passed. Says whether the episode goes on.
+    fn observe(&mut self, now: &Snapshot) -> Verdict;
+
+    /// What the episode so far is worth; larger is better for whatever is a fitness of its own.
+    fn value(&self) -> f64;
+
+    /// Calls `tell` with the name and value of everything worth a measurement in the evaluation; by default the
+    /// movement itself.
+    fn measurements(&self, tell: &mut dyn FnMut(&str, f64)) {
+        tell(self.name(), self.value());
+    }
+}
+
+/// Whether an episode goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// It goes on.
+    GoOn,
+    /// It ends here; the value is what it is now.
+    End,
+}
+
+/// Clones a movement behind a box; every `Movement` that is `Clone` has it.
+pub trait MovementClone {
+    /// A boxed copy.
+    fn boxed_clone(&self) -> Box<dyn Movement>;
+}
+
+impl<M: Movement + Clone + 'static> MovementClone for M {
+    fn boxed_clone(&self) -> Box<dyn Movement> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn Movement> {
+    fn clone(&self) -> Self {
+        (**self).boxed_clone()
+    }
+}
