@@ -162,10 +162,11 @@ pub struct Digests {
 /// Reads a file whose content may have been changed by hand, for tools that want to look at it all the same.
 ///
 /// # Errors
-/// As [`read`], without `Damaged` and `Content`.
+/// As [`read`], without `Damaged`; `Content` only if a field around the content is missing or wrong.
 pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value, Digests), ArchiveError> {
-    let text = fs::read_to_string(path).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
-    let value: Value = serde_json::from_str(&text).map_err(|error| malformed(path, &error))?;
+    // As bytes: should they not be UTF-8, the parser says where.
+    let bytes = fs::read(path).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
+    let value: Value = serde_json::from_slice(&bytes).map_err(|error| malformed(path, &error))?;
     let header = |field: &str| value.get(field);
     let found_format = header("format").and_then(Value::as_str).unwrap_or("unknown").to_owned();
     if found_format != format {
@@ -178,8 +179,7 @@ pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value
         let found = u32::try_from(found).unwrap_or(u32::MAX);
         return Err(ArchiveError::Version { path: path.into(), found, supported: version });
     }
-    let envelope: Envelope<Value> = serde_json::from_value(value)
-        .map_err(|error| ArchiveError::Content { path: path.into(), message: error.to_string() })?;
+    let envelope: Envelope<Value> = content(path, value)?;
     let found = Digest::of_json(&envelope.content).to_string();
     Ok((envelope.content, Digests { expected: envelope.digest, found }))
 }
@@ -189,16 +189,26 @@ pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value
 /// # Errors
 /// [`ArchiveError::Content`], which names the field.
 pub fn content<C: DeserializeOwned>(path: &Path, content: Value) -> Result<C, ArchiveError> {
-    serde_path_to_error::deserialize(content).map_err(|error| {
+    // Through text once more: a `Value` holds numbers as f64, and rounding twice, to f64 and then to f32, is not always
+    // rounding once (7.038531e-26 is the one f32 whose shortest decimal tells the difference).
+    let text = content.to_string();
+    let mut reader = serde_json::Deserializer::from_str(&text);
+    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let field = error.path().to_string();
-        ArchiveError::Content { path: path.into(), message: format!("field {field}: {}", error.into_inner()) }
+        // Line and column are those of our text, not of the file: the field says where.
+        ArchiveError::Content { path: path.into(), message: format!("field {field}: {}", without_place(error.inner())) }
     })
 }
 
 fn malformed(path: &Path, error: &serde_json::Error) -> ArchiveError {
+    let (line, column) = (error.line(), error.column());
+    ArchiveError::Malformed { path: path.into(), line, column, message: without_place(error) }
+}
+
+/// What the parser says, without its "at line 1 column 2".
+fn without_place(error: &serde_json::Error) -> String {
     let full = error.to_string();
-    let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
-    ArchiveError::Malformed { path: path.into(), line: error.line(), column: error.column(), message }
+    full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned()
 }
 
 /// Writes bytes to a temporary file beside `path`, flushes it to the disk and renames it to `path`.
@@ -210,7 +220,12 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     };
-    let mut file = tempfile::Builder::new().prefix(".gambol-").suffix(".tmp").tempfile_in(folder)?;
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(".gambol-").suffix(".tmp");
+    // Temporary files are private by default; a result may be read by whom the user lets (the umask still counts).
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    let mut file = builder.tempfile_in(folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path).map_err(|error| error.error)?;

@@ -63,6 +63,16 @@ pub enum EvolutionError {
         /// The generation, from 1.
         generation: u64,
     },
+    /// The evaluator lost or invented evaluations.
+    #[error("the evaluator gave {found} evaluations for {expected} genomes in generation {generation}")]
+    EvaluationCount {
+        /// Evaluations given.
+        found: usize,
+        /// Genomes handed over.
+        expected: usize,
+        /// The generation, from 1.
+        generation: u64,
+    },
 }
 
 impl<S: Strategy> Evolution<S> {
@@ -87,7 +97,8 @@ impl<S: Strategy> Evolution<S> {
     /// Runs until a stop condition is met.
     ///
     /// # Errors
-    /// If an observer fails or the strategy asks for nothing. The evolution stays whole: it can be saved or run again.
+    /// If an observer fails, the strategy asks for nothing, or the evaluator does not give one evaluation for each
+    /// genome. The evolution stays whole: it can be saved or run again.
     pub fn run(
         &mut self,
         task: &dyn Task,
@@ -124,7 +135,10 @@ impl<S: Strategy> Evolution<S> {
             return Err(EvolutionError::EmptyPopulation { strategy: self.strategy.name().into(), generation });
         }
         let evaluations = evaluator.evaluate(task, &genomes, seed);
-        debug_assert_eq!(evaluations.len(), genomes.len());
+        if evaluations.len() != genomes.len() {
+            let (found, expected) = (evaluations.len(), genomes.len());
+            return Err(EvolutionError::EvaluationCount { found, expected, generation });
+        }
         self.strategy.tell(&evaluations, seed);
         self.progress.generations = generation;
         self.progress.evaluations += evaluations.len() as u64;

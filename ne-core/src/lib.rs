@@ -85,6 +85,7 @@
 //! ```
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+pub mod conformance;
 mod evaluation;
 mod fitness;
 mod genome;
@@ -99,8 +100,6 @@ mod task;
 pub mod archive;
 #[cfg(feature = "evolution")]
 mod checkpoint;
-#[cfg(feature = "evolution")]
-pub mod conformance;
 #[cfg(feature = "evolution")]
 pub mod digest;
 #[cfg(feature = "evolution")]

@@ -55,7 +55,9 @@ impl Quantiles {
         let at = |share: f64| {
             let position = share * (count - 1.0);
             let (low, high) = (values[position.floor() as usize], values[position.ceil() as usize]);
-            low + (high - low) * position.fract()
+            let share = position.fract();
+            // The difference of huge fitnesses overflows; then each is weighed first.
+            if (high - low).is_finite() { low + (high - low) * share } else { low * (1.0 - share) + high * share }
         };
         // Divided before summing, so that huge fitnesses do not overflow.
         let mean = values.iter().map(|value| value / count).sum();
@@ -77,5 +79,13 @@ mod tests {
         );
         assert_eq!((quantiles.mean, quantiles.q10, quantiles.q90), (3.0, 1.4, 4.6));
         assert_eq!(Quantiles::of(&evaluations[2..3]), None);
+    }
+
+    #[test]
+    fn quantiles_of_huge_fitnesses_are_finite() {
+        let evaluations: Vec<_> = [f64::MIN, f64::MAX].into_iter().map(Evaluation::new).collect();
+        let quantiles = Quantiles::of(&evaluations).expect("both survived");
+        assert_eq!((quantiles.median, quantiles.mean), (0.0, 0.0));
+        assert!(quantiles.q10.is_finite() && quantiles.q90.is_finite());
     }
 }

@@ -6,7 +6,8 @@ use crate::{Evaluation, Failure, Phenotype, Seed};
 /// - the result is a function of the phenotype's behaviour and the seed: no clock, no shared generator, nothing left
 ///   over from an earlier evaluation; chance comes from [`Seed::stream`];
 /// - the phenotype is [`reset`](Phenotype::reset) before it is used;
-/// - whatever goes wrong is an [`Evaluation`] with a [`Failure`], not a panic.
+/// - whatever goes wrong is an [`Evaluation`] with a [`Failure`], not a panic: a phenotype of another shape, outputs
+///   that are NaN (clamping one into a number would hide it).
 ///
 /// All members of a generation are evaluated with the same seed: they face the same trials, so that the comparison is
 /// fair and a batch can share its worlds.

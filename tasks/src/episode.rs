@@ -111,9 +111,19 @@ impl<E: Environment> Episode<E> {
         self.steps
     }
 
-    /// Plays one trial under the eyes of a watcher: exactly what an evaluation does.
+    /// The same episodes, lasting at most `steps` steps, and at least 1.
+    #[must_use]
+    pub fn shortened(&self, steps: u32) -> Self {
+        Self { steps: self.steps.min(steps).max(1), ..self.clone() }
+    }
+
+    /// Plays one trial under the eyes of a watcher: exactly what an evaluation does. A phenotype of another shape fails
+    /// before the first step.
     pub fn play(&self, phenotype: &mut dyn Phenotype, seed: Seed, watcher: &mut impl Watcher) -> Played {
         let mut stage = Stage::new(self);
+        if let Err(failure) = self.check_shape(phenotype) {
+            return Played { movement: stage.movement, steps: 0, failure: Some(failure) };
+        }
         let (steps, failure) = stage.play(phenotype, seed, self.steps, watcher);
         Played { movement: stage.movement, steps, failure }
     }
@@ -154,6 +164,10 @@ impl<E: Environment> Stage<E> {
         for step in 1..=steps {
             environment.sense(inputs);
             phenotype.activate(inputs, outputs);
+            // A body would clamp a NaN into some number, and nobody would know.
+            if let Some(index) = outputs.iter().position(|output| !output.is_finite()) {
+                return (step - 1, Some(Failure::NonFinite { what: format!("output {index}") }));
+            }
             environment.act(outputs);
             if let Err(failure) = environment.step() {
                 return (step, Some(failure));

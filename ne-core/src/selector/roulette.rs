@@ -20,9 +20,11 @@ impl Roulette {
     pub(super) fn wheel(scores: &[Option<Fitness>]) -> Wheel {
         let lowest = scores.iter().flatten().min().map_or(0.0, |fitness| fitness.get().min(0.0));
         let highest = scores.iter().flatten().max().map_or(0.0, |fitness| fitness.get());
-        // Scaled to at most 1 first, so that no sum overflows; halved so that no difference does.
-        let span = (highest * 0.5 - lowest * 0.5).max(f64::MIN_POSITIVE);
-        let weight = move |fitness: Fitness| (fitness.get() * 0.5 - lowest * 0.5) / span;
+        // Scaled to at most 1, so that no sum overflows; halved first where a difference would (only there: halving the
+        // smallest numbers gives zero).
+        let half = if (highest - lowest).is_finite() { 1.0 } else { 0.5 };
+        let span = highest * half - lowest * half;
+        let weight = move |fitness: Fitness| (fitness.get() * half - lowest * half) / span;
         if highest == lowest {
             // All survivors equal (then zero or negative): equal chances among them, none for failures.
             return Wheel::new(scores.iter().map(|score| f64::from(u8::from(score.is_some()))));

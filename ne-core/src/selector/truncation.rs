@@ -45,7 +45,8 @@ impl Selector for Truncation {
         let order = ascending(scores);
         let survivors = scores.iter().flatten().count();
         let eligible = if survivors == 0 { scores.len() } else { survivors };
-        let parents = ((scores.len() as f64 * self.share).ceil() as usize).clamp(1, eligible);
+        // A little less, because 0.07 × 100 is 7.000000000000001 and means 7.
+        let parents = ((scores.len() as f64 * self.share - 1e-9).ceil() as usize).clamp(1, eligible);
         let best = &order[scores.len() - parents..];
         chosen.extend((0..count).map(|_| best[stream.random_range(0..best.len())]));
     }

@@ -1,0 +1,229 @@
+//! A creature that has been checked and resolved.
+
+use crate::{Creature, CreatureError, Motor, Shape, check, legs, parse};
+
+/// A checked creature in the form engines want: SI units, radians, indices for names, anchors in the parts' own
+/// frames. Whoever holds one need not validate anything.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Blueprint {
+    creature: Creature,
+    parts: Vec<BodyPart>,
+    hinges: Vec<Hinge>,
+    actuated: Vec<usize>,
+    feet: Vec<usize>,
+    legs: Vec<Vec<usize>>,
+    /// Left, bottom, right and top of the start pose, m.
+    bounding_box: [f32; 4],
+}
+
+/// A rigid body, in the pose in which the creature starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyPart {
+    /// Its name, unique in the creature.
+    pub name: String,
+    /// Its tag, such as `torso` or `leg`.
+    pub tag: String,
+    /// Its shape, centred on (`x`, `y`).
+    pub shape: Shape,
+    /// Mass per area, kg/m².
+    pub density: f32,
+    /// Coulomb friction coefficient, 0 to 10.
+    pub friction: f32,
+    /// Centre, forward, m.
+    pub x: f32,
+    /// Centre, up, m.
+    pub y: f32,
+    /// Turned counter-clockwise, rad.
+    pub angle: f32,
+    /// Whether its tag is an actuated one. Its hinge may still lack a motor: see [`Hinge::actuated`].
+    pub actuated: bool,
+}
+
+/// A hinge between two parts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Hinge {
+    /// Index of the part it hangs on; smaller than `child`.
+    pub parent: usize,
+    /// Index of the part that hangs on it; never 0, the torso.
+    pub child: usize,
+    /// The hinge in the parent's own frame, m.
+    pub parent_anchor: [f32; 2],
+    /// The hinge in the child's own frame, m.
+    pub child_anchor: [f32; 2],
+    /// Smallest and largest angle of the child against the parent, rad, relative to the start pose: at most 0, at
+    /// least 0, no more than 2π apart.
+    pub limits: [f32; 2],
+    /// What drives it, if anything does. A motor of a hinge that is not actuated is nobody's to move: hold it still.
+    pub motor: Option<Motor>,
+    /// Whether its motor is an output of the net: it has one, and its child has an actuated tag.
+    pub actuated: bool,
+}
+
+impl Blueprint {
+    /// Checks a creature and resolves it.
+    ///
+    /// # Errors
+    /// [`CreatureError::Invalid`] with every problem found; [`CreatureError::NotACreature`] and
+    /// [`CreatureError::Version`] for a creature whose header was changed.
+    pub fn new(creature: Creature) -> Result<Self, CreatureError> {
+        parse::check_header(&creature)?;
+        let problems = check::check(&creature);
+        if !problems.is_empty() {
+            return Err(CreatureError::Invalid(problems));
+        }
+        Ok(Self::resolve(creature))
+    }
+
+    /// Reads, checks and resolves a creature file.
+    ///
+    /// # Errors
+    /// Those of [`Creature::from_json`] and [`Blueprint::new`].
+    pub fn from_json(text: &str) -> Result<Self, CreatureError> {
+        Self::new(Creature::from_json(text)?)
+    }
+
+    /// The creature must have been checked.
+    fn resolve(creature: Creature) -> Self {
+        let parts: Vec<BodyPart> = creature
+            .parts
+            .iter()
+            .map(|part| BodyPart {
+                name: part.name.clone(),
+                tag: part.tag.clone(),
+                shape: part.shape,
+                density: part.density,
+                friction: part.friction,
+                x: part.position[0],
+                y: part.position[1],
+                angle: part.angle.to_radians(),
+                actuated: creature.actuated_tags.contains(&part.tag),
+            })
+            .collect();
+        let index_of = |name: &str| parts.iter().position(|part| part.name == name);
+        let hinges: Vec<Hinge> = creature
+            .joints
+            .iter()
+            .filter_map(|joint| {
+                // Both are found: the check has looked.
+                let (parent, child) = (index_of(&joint.parent)?, index_of(&joint.child)?);
+                Some(Hinge {
+                    parent,
+                    child,
+                    parent_anchor: parts[parent].to_local(joint.anchor),
+                    child_anchor: parts[child].to_local(joint.anchor),
+                    limits: joint.limits.map(f32::to_radians),
+                    motor: joint.motor,
+                    actuated: joint.motor.is_some() && parts[child].actuated,
+                })
+            })
+            .collect();
+        let actuated = (0..hinges.len()).filter(|&hinge| hinges[hinge].actuated).collect();
+        let feet = legs::feet(&parts, &hinges);
+        let legs = legs::legs(&parts, &hinges, &feet);
+        let bounding_box = bounding_box(&parts);
+        Self { creature, parts, hinges, actuated, feet, legs, bounding_box }
+    }
+
+    /// The creature as its file says it, looks included.
+    pub fn creature(&self) -> &Creature {
+        &self.creature
+    }
+
+    /// Its short name.
+    pub fn name(&self) -> &str {
+        &self.creature.name
+    }
+
+    /// Its parts; the first is the torso.
+    pub fn parts(&self) -> &[BodyPart] {
+        &self.parts
+    }
+
+    /// Its hinges, in the order of the file's joints; one for each part but the torso.
+    pub fn hinges(&self) -> &[Hinge] {
+        &self.hinges
+    }
+
+    /// Indices into [`hinges`](Self::hinges) of those a net moves, in the order of its outputs; at least one.
+    pub fn actuated(&self) -> &[usize] {
+        &self.actuated
+    }
+
+    /// Indices of the feet, the last segments of the legs: actuated parts on which nothing hangs. In the order of the
+    /// parts; the two end segments of a chain whose torso is in the middle.
+    pub fn feet(&self) -> &[usize] {
+        &self.feet
+    }
+
+    /// The legs, one a foot and in the order of [`feet`](Self::feet): indices of the parts from hip to foot. A leg
+    /// starts below the torso or below the last part that is not actuated; where legs branch, they share their upper
+    /// parts. The chains that hang on the torso of an apod count as legs here: see [`is_legless`](Self::is_legless).
+    pub fn legs(&self) -> &[Vec<usize>] {
+        &self.legs
+    }
+
+    /// Whether no foot reaches lower than the torso in the start pose (by at least 1 cm): the creature lies on the
+    /// ground and crawls, like an apod. Its gait is told by its joints rather than by its footfalls.
+    pub fn is_legless(&self) -> bool {
+        let torso = self.parts[0].lowest_point() - 0.01;
+        self.feet.iter().all(|&foot| self.parts[foot].lowest_point() > torso)
+    }
+
+    /// The longer side of the bounding box in the start pose, m.
+    pub fn body_length(&self) -> f32 {
+        let [left, bottom, right, top] = self.bounding_box;
+        (right - left).max(top - bottom)
+    }
+
+    /// Left, bottom, right and top of the creature in the start pose, m.
+    pub fn bounding_box(&self) -> [f32; 4] {
+        self.bounding_box
+    }
+
+    /// Height of the torso's centre above the creature's lowest point in the start pose, m; positive.
+    pub fn start_height(&self) -> f32 {
+        self.parts[0].y - self.bounding_box[1]
+    }
+
+    /// Mass of all parts together, kg.
+    pub fn mass(&self) -> f32 {
+        self.parts.iter().map(BodyPart::mass).sum()
+    }
+
+    /// Whether its parts collide with each other.
+    pub fn self_collision(&self) -> bool {
+        self.creature.self_collision
+    }
+}
+
+impl BodyPart {
+    /// Mass, kg.
+    pub fn mass(&self) -> f32 {
+        self.density * self.shape.area()
+    }
+
+    /// Height of its lowest point in the start pose, m.
+    pub fn lowest_point(&self) -> f32 {
+        self.y + self.shape.lowest_point(libm::cosf(self.angle), libm::sinf(self.angle))
+    }
+
+    /// A point of the world, m, in the frame the part has in the start pose.
+    pub fn to_local(&self, point: [f32; 2]) -> [f32; 2] {
+        to_local([self.x, self.y], self.angle, point)
+    }
+}
+
+/// A point of the world in the frame at `origin` that is turned by `angle`, rad.
+pub(crate) fn to_local(origin: [f32; 2], angle: f32, point: [f32; 2]) -> [f32; 2] {
+    let (cos, sin) = (libm::cosf(angle), libm::sinf(angle));
+    let (x, y) = (point[0] - origin[0], point[1] - origin[1]);
+    [cos * x + sin * y, cos * y - sin * x]
+}
+
+fn bounding_box(parts: &[BodyPart]) -> [f32; 4] {
+    let empty = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+    parts.iter().fold(empty, |[left, bottom, right, top], part| {
+        let [x, y] = part.shape.half_extents(libm::cosf(part.angle), libm::sinf(part.angle));
+        [left.min(part.x - x), bottom.min(part.y - y), right.max(part.x + x), top.max(part.y + y)]
+    })
+}

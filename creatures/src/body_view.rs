@@ -1,0 +1,25 @@
+//! What a body tells about itself.
+
+/// What an engine, or a game, tells about a creature's body at a moment. [`Senses`](crate::Senses) asks only for what
+/// the creature's sensors need; a value it may ask for must be given as described, and NaN is passed on as NaN.
+///
+/// Indices are those of the [`Blueprint`](crate::Blueprint).
+pub trait BodyView {
+    /// Rotation of the torso relative to the start pose, counter-clockwise, rad, in (-π, π].
+    fn torso_rotation(&self) -> f32;
+    /// Angle of a hinge, child against parent, relative to the start pose, rad.
+    fn joint_angle(&self, hinge: usize) -> f32;
+    /// Speed of a hinge, child against parent, rad/s.
+    fn joint_speed(&self, hinge: usize) -> f32;
+    /// Velocity of the torso's centre in the world, forward and up, m/s.
+    fn torso_velocity(&self) -> [f32; 2];
+    /// Height of the torso's centre above its settled start height, m.
+    fn torso_height(&self) -> f32;
+    /// Whether a part touches the ground.
+    fn touches_ground(&self, part: usize) -> bool;
+    /// Distance in m from the torso's centre to the first thing, other than the creature, along a ray at `angle` (rad,
+    /// in the world: 0 looks forward, negative down); `length` if nothing is hit within it.
+    fn distance_along_ray(&self, angle: f32, length: f32) -> f32;
+    /// Time since the clock started, s.
+    fn time(&self) -> f32;
+}

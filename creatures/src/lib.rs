@@ -1,0 +1,86 @@
+//! Creatures as plain data: what they are made of, what they sense, what they move, how they look.
+//!
+//! **The one decision of this crate: a creature is a file, and nothing else.** No code belongs to a particular body,
+//! and nothing here knows about physics or about learning. A [`Creature`] is the JSON file as its author wrote it
+//! (degrees, names, looks). A [`Blueprint`] is the same creature checked and resolved (radians, indices, local
+//! anchors): whoever holds one knows that it makes sense, so engines never validate. Between a body and its net stand
+//! two small tables: [`Senses`] (what the body tells, scaled to what a net likes) and [`Motors`] (what the net asks of
+//! the joints). Any engine takes part by implementing [`BodyView`].
+//!
+//! ```text
+//! creature.json ── Creature ── Blueprint ──┬── engine: bodies, hinges, motors
+//!                                          ├── Senses: BodyView → inputs of the net, in [-range, range]
+//!                                          └── Motors: outputs of the net, in [-1, 1] → rad/s
+//! ```
+//!
+//! # From body to brain
+//! - The first part is the *torso*. Every other part hangs by one hinge on a part that stands earlier in the list.
+//! - A part whose tag is one of the file's `actuated_tags` (default `leg`) is *actuated*: the motor of the hinge it
+//!   hangs on is an output of the net. Other parts come along passively.
+//! - A *foot* is the last segment of a leg: an actuated part on which nothing hangs.
+//! - The file lists the *sensors*; by default the rotation of the torso and the angles of the actuated joints, both
+//!   relative to the start pose.
+//!
+//! # Example
+//! ```
+//! use creatures::{Blueprint, Motors, Senses};
+//!
+//! let creature = creatures::find("tetrapod-2")?;
+//! let blueprint = Blueprint::new(creature)?;
+//!
+//! let senses = Senses::new(&blueprint, &blueprint.creature().sensors, creatures::DEFAULT_INPUT_RANGE)?;
+//! let motors = Motors::new(&blueprint);
+//! let listed: Vec<String> = senses
+//!     .channels()
+//!     .iter()
+//!     .chain(motors.channels())
+//!     .map(|c| format!("{}: {} to {} {}", c.name, c.range[0], c.range[1], c.unit))
+//!     .collect();
+//!
+//! assert_eq!((senses.len(), motors.len()), (9, 8));
+//! assert!(listed[0].starts_with("rotation of case: -3.14"));
+//! assert_eq!(listed[9], "speed of near front thigh: -12 to 12 rad/s");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # Units
+//! Metres, kilograms, seconds, newton metres; x points forward, y up; angles count counter-clockwise. Files hold
+//! degrees, everything else radians.
+
+mod blueprint;
+mod body_view;
+pub mod bounds;
+mod channel;
+mod check;
+mod colour;
+mod creature;
+mod error;
+mod legs;
+pub mod look;
+mod motors;
+mod names;
+mod parse;
+mod problem;
+#[cfg(feature = "schema")]
+mod schema;
+mod senses;
+mod sensor;
+mod shape;
+mod shipped;
+
+pub use blueprint::{Blueprint, BodyPart, Hinge};
+pub use body_view::BodyView;
+pub use bounds::Bounds;
+pub use channel::Channel;
+pub use colour::Colour;
+pub use creature::{Creature, FORMAT, Joint, Motor, Part, VERSION};
+pub use error::{CreatureError, UnknownName};
+pub use look::{Decoration, Form, Look};
+pub use motors::Motors;
+pub use problem::Problem;
+#[cfg(feature = "schema")]
+pub use schema::json_schema;
+pub use senses::{DEFAULT_INPUT_RANGE, Senses};
+pub use sensor::Sensor;
+pub use shape::Shape;
+pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};

@@ -1,0 +1,189 @@
+//! From a body to the inputs of a net.
+
+use std::f32::consts::{PI, TAU};
+
+use crate::bounds::INPUT_RANGE;
+use crate::{Blueprint, BodyView, Channel, CreatureError, Sensor, check};
+
+/// The range the thesis scales inputs to: -3 to 3, where tanh does most of its bending.
+pub const DEFAULT_INPUT_RANGE: f32 = 3.0;
+
+/// Speeds of the torso up to this are told apart, m/s.
+const TOP_TORSO_SPEED: f32 = 5.0;
+/// Joints are thrown about faster than their motors drive them.
+const SPEED_HEADROOM: f32 = 2.0;
+
+/// What a net sees of a body: a list of [`Channel`]s, each scaled linearly so that its range becomes
+/// [-`input_range`, `input_range`], and clamped to it.
+///
+/// The order of the channels is that of the sensors, and within a sensor that of the outputs, feet or rays; only
+/// actuated hinges are sensed. It is part of what a trained net means, and never changes for the same creature and
+/// sensors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Senses {
+    channels: Vec<Channel>,
+    probes: Vec<Probe>,
+    input_range: f32,
+}
+
+/// Where a channel's raw value comes from, and how it is scaled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Probe {
+    source: Source,
+    middle: f32,
+    factor: f32,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Source {
+    TorsoRotation,
+    JointAngle(usize),
+    JointSpeed(usize),
+    VelocityForward,
+    VelocityUp,
+    TorsoHeight,
+    Contact(usize),
+    Ray { angle: f32, length: f32 },
+    ClockSine { period: f32 },
+    ClockCosine { period: f32 },
+}
+
+impl Senses {
+    /// The senses of a creature. The sensors are usually `blueprint.creature().sensors`; `input_range` is usually
+    /// [`DEFAULT_INPUT_RANGE`].
+    ///
+    /// # Errors
+    /// [`CreatureError::InputRange`] if `input_range` is not within 0.001 to 1000, [`CreatureError::Invalid`] if a
+    /// sensor's settings are out of range, a sensor is listed twice, none is listed, or feet are to be sensed that the
+    /// creature does not have.
+    pub fn new(blueprint: &Blueprint, sensors: &[Sensor], input_range: f32) -> Result<Self, CreatureError> {
+        if !INPUT_RANGE.contains(input_range) {
+            return Err(CreatureError::InputRange { found: input_range });
+        }
+        let mut problems = Vec::new();
+        check::check_sensors(sensors, !blueprint.feet().is_empty(), &mut problems);
+        if !problems.is_empty() {
+            return Err(CreatureError::Invalid(problems));
+        }
+        let mut senses = Self { channels: Vec::new(), probes: Vec::new(), input_range };
+        for sensor in sensors {
+            senses.add(blueprint, sensor);
+        }
+        Ok(senses)
+    }
+
+    fn add(&mut self, blueprint: &Blueprint, sensor: &Sensor) {
+        let torso = &blueprint.parts()[0].name;
+        let hinges = blueprint.actuated().iter().map(|&index| (index, &blueprint.hinges()[index]));
+        let name_of = |part: usize| &blueprint.parts()[part].name;
+        match sensor {
+            Sensor::TorsoRotation => {
+                self.push(format!("rotation of {torso}"), "rad", [-PI, PI], Source::TorsoRotation);
+            }
+            Sensor::JointAngles => {
+                for (index, hinge) in hinges {
+                    let most = hinge.limits[0].abs().max(hinge.limits[1].abs());
+                    let name = format!("angle of {}", name_of(hinge.child));
+                    self.push(name, "rad", [-most, most], Source::JointAngle(index));
+                }
+            }
+            Sensor::JointSpeeds => {
+                for (index, hinge) in hinges {
+                    let most = SPEED_HEADROOM * hinge.motor.map_or(1.0, |motor| motor.top_speed);
+                    let name = format!("speed of {}", name_of(hinge.child));
+                    self.push(name, "rad/s", [-most, most], Source::JointSpeed(index));
+                }
+            }
+            Sensor::TorsoVelocity => {
+                let range = [-TOP_TORSO_SPEED, TOP_TORSO_SPEED];
+                self.push(format!("forward velocity of {torso}"), "m/s", range, Source::VelocityForward);
+                self.push(format!("upward velocity of {torso}"), "m/s", range, Source::VelocityUp);
+            }
+            Sensor::TorsoHeight => {
+                let most = blueprint.start_height();
+                self.push(format!("height of {torso} above start"), "m", [-most, most], Source::TorsoHeight);
+            }
+            Sensor::FootContacts => {
+                for &foot in blueprint.feet() {
+                    self.push(format!("contact of {}", name_of(foot)), "", [0.0, 1.0], Source::Contact(foot));
+                }
+            }
+            Sensor::Rangefinder { angles, length } => {
+                for degrees in angles {
+                    let source = Source::Ray { angle: degrees.to_radians(), length: *length };
+                    self.push(format!("distance at {degrees}°"), "m", [0.0, *length], source);
+                }
+            }
+            Sensor::Clock { period } => {
+                let period = *period;
+                self.push(format!("sine of {period} s clock"), "", [-1.0, 1.0], Source::ClockSine { period });
+                self.push(format!("cosine of {period} s clock"), "", [-1.0, 1.0], Source::ClockCosine { period });
+            }
+        }
+    }
+
+    fn push(&mut self, name: String, unit: &'static str, range: [f32; 2], source: Source) {
+        let [min, max] = range;
+        self.channels.push(Channel { name, unit, range });
+        self.probes.push(Probe { source, middle: 0.5 * (min + max), factor: 2.0 * self.input_range / (max - min) });
+    }
+
+    /// The channels, in the order of the net's inputs.
+    pub fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
+    /// Number of channels: inputs of the net. At least one.
+    pub fn len(&self) -> usize {
+        self.probes.len()
+    }
+
+    /// Always false: a creature that senses nothing is an error.
+    pub fn is_empty(&self) -> bool {
+        self.probes.is_empty()
+    }
+
+    /// The size of the range inputs are scaled to.
+    pub fn input_range(&self) -> f32 {
+        self.input_range
+    }
+
+    /// Asks the body and writes the inputs of the net, each within [-`input_range`, `input_range`] or, where the body
+    /// tells NaN, NaN. Allocates nothing.
+    ///
+    /// # Panics
+    /// If `inputs` is not as long as there are channels.
+    pub fn read<B: BodyView + ?Sized>(&self, body: &B, inputs: &mut [f32]) {
+        assert_eq!(inputs.len(), self.probes.len(), "one input for each channel");
+        let range = self.input_range;
+        for (input, probe) in inputs.iter_mut().zip(&self.probes) {
+            let scaled = (probe.source.read(body) - probe.middle) * probe.factor;
+            // `clamp` keeps NaN.
+            *input = scaled.clamp(-range, range);
+        }
+    }
+}
+
+impl Source {
+    #[inline]
+    fn read<B: BodyView + ?Sized>(self, body: &B) -> f32 {
+        match self {
+            Self::TorsoRotation => body.torso_rotation(),
+            Self::JointAngle(hinge) => body.joint_angle(hinge),
+            Self::JointSpeed(hinge) => body.joint_speed(hinge),
+            Self::VelocityForward => body.torso_velocity()[0],
+            Self::VelocityUp => body.torso_velocity()[1],
+            Self::TorsoHeight => body.torso_height(),
+            Self::Contact(part) => f32::from(u8::from(body.touches_ground(part))),
+            Self::Ray { angle, length } => body.distance_along_ray(angle, length),
+            Self::ClockSine { period } => libm::sinf(phase(body.time(), period)),
+            Self::ClockCosine { period } => libm::cosf(phase(body.time(), period)),
+        }
+    }
+}
+
+/// Phase of a clock, rad, 0 to 2π. Whole turns are dropped first: they would cost precision.
+fn phase(time: f32, period: f32) -> f32 {
+    let turns = time / period;
+    (turns - turns.floor()) * TAU
+}

@@ -1,0 +1,101 @@
+//! What a creature can sense.
+
+use serde::{Deserialize, Serialize};
+
+/// One kind of sense, as a creature file or a run names it.
+///
+/// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
+/// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`.
+/// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Sensor {
+    /// Rotation of the torso relative to the start pose: one channel, rad, -π to π.
+    TorsoRotation,
+    /// Angle of each actuated joint relative to the start pose: a channel a joint, rad, plus or minus the larger of
+    /// its limits.
+    JointAngles,
+    /// Speed of each actuated joint: a channel a joint, rad/s, plus or minus twice its motor's top speed.
+    JointSpeeds,
+    /// Velocity of the torso's centre in the world, forward and up: two channels, m/s, -5 to 5.
+    TorsoVelocity,
+    /// Height of the torso's centre above its settled start height: one channel, m, plus or minus the height of the
+    /// torso's centre above the creature's lowest point in the start pose.
+    TorsoHeight,
+    /// Whether each foot (last segment of a leg) touches the ground: a channel a foot, 0 or 1.
+    FootContacts,
+    /// Distances from the torso's centre to whatever lies ahead, along rays that do not turn with the torso: a channel
+    /// a ray, m, 0 to `length`.
+    Rangefinder {
+        /// Direction of each ray, degrees, -180 to 180: 0 looks forward (+x), negative down. 1 to 64 rays.
+        #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 64), inner(range(min = -180.0, max = 180.0))))]
+        angles: Vec<f32>,
+        /// How far a ray reaches, m, 0.01 to 100; also the value of a ray that hits nothing.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 100.0)))]
+        length: f32,
+    },
+    /// Sine and cosine of a phase that turns once a period: two channels, -1 to 1.
+    Clock {
+        /// Time of one turn, s, 0.02 to 100.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
+        period: f32,
+    },
+}
+
+impl Sensor {
+    /// Names of all sensors as files write them, in the order of the variants.
+    pub const NAMES: [&'static str; 8] = [
+        "torso-rotation",
+        "joint-angles",
+        "joint-speeds",
+        "torso-velocity",
+        "torso-height",
+        "foot-contacts",
+        "rangefinder",
+        "clock",
+    ];
+
+    /// The sensor's name as files write it.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::TorsoRotation => Self::NAMES[0],
+            Self::JointAngles => Self::NAMES[1],
+            Self::JointSpeeds => Self::NAMES[2],
+            Self::TorsoVelocity => Self::NAMES[3],
+            Self::TorsoHeight => Self::NAMES[4],
+            Self::FootContacts => Self::NAMES[5],
+            Self::Rangefinder { .. } => Self::NAMES[6],
+            Self::Clock { .. } => Self::NAMES[7],
+        }
+    }
+
+    /// What a creature senses unless its file says otherwise: the rotation of the torso and the angles of its joints.
+    pub fn defaults() -> Vec<Self> {
+        vec![Self::TorsoRotation, Self::JointAngles]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Sensor;
+
+    #[test]
+    fn names_are_those_of_the_files() {
+        let sensors = [
+            Sensor::TorsoRotation,
+            Sensor::JointAngles,
+            Sensor::JointSpeeds,
+            Sensor::TorsoVelocity,
+            Sensor::TorsoHeight,
+            Sensor::FootContacts,
+            Sensor::Rangefinder { angles: vec![0.0], length: 1.0 },
+            Sensor::Clock { period: 1.0 },
+        ];
+        for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
+            assert_eq!(sensor.name(), name);
+            let json = serde_json::to_string(sensor).expect("sensors can be written");
+            assert!(json.contains(&format!("\"{name}\"")), "{json}");
+        }
+    }
+}

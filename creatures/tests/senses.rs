@@ -1,0 +1,237 @@
+//! Raw values in, scaled values out.
+
+mod common;
+
+use std::f32::consts::{FRAC_PI_2, PI};
+
+use common::small;
+use creatures::{Blueprint, BodyView, CreatureError, Motors, Senses, Sensor};
+
+/// A body that tells made-up values.
+#[derive(Default)]
+struct Body {
+    rotation: f32,
+    angles: [f32; 2],
+    speeds: [f32; 2],
+    velocity: [f32; 2],
+    height: f32,
+    contacts: [bool; 3],
+    distance: f32,
+    time: f32,
+}
+
+impl BodyView for Body {
+    fn torso_rotation(&self) -> f32 {
+        self.rotation
+    }
+    fn joint_angle(&self, hinge: usize) -> f32 {
+        self.angles[hinge]
+    }
+    fn joint_speed(&self, hinge: usize) -> f32 {
+        self.speeds[hinge]
+    }
+    fn torso_velocity(&self) -> [f32; 2] {
+        self.velocity
+    }
+    fn torso_height(&self) -> f32 {
+        self.height
+    }
+    fn touches_ground(&self, part: usize) -> bool {
+        self.contacts[part]
+    }
+    fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {
+        // Downward rays see the ground.
+        if angle < 0.0 { self.distance } else { length }
+    }
+    fn time(&self) -> f32 {
+        self.time
+    }
+}
+
+fn all_sensors() -> Vec<Sensor> {
+    vec![
+        Sensor::TorsoRotation,
+        Sensor::JointAngles,
+        Sensor::JointSpeeds,
+        Sensor::TorsoVelocity,
+        Sensor::TorsoHeight,
+        Sensor::FootContacts,
+        Sensor::Rangefinder { angles: vec![-30.0, 0.0], length: 4.0 },
+        Sensor::Clock { period: 2.0 },
+    ]
+}
+
+fn blueprint() -> Blueprint {
+    Blueprint::from_json(&small().to_string()).expect("valid")
+}
+
+fn senses(sensors: &[Sensor], range: f32) -> Senses {
+    Senses::new(&blueprint(), sensors, range).expect("valid")
+}
+
+fn read(senses: &Senses, body: &Body) -> Vec<f32> {
+    let mut inputs = vec![0.0; senses.len()];
+    senses.read(body, &mut inputs);
+    inputs
+}
+
+#[test]
+fn channels_have_names_units_and_ranges() {
+    let senses = senses(&all_sensors(), 3.0);
+    let sixty = 60f32.to_radians();
+    let expected: [(&str, &str, [f32; 2]); 14] = [
+        ("rotation of torso", "rad", [-PI, PI]),
+        ("angle of left leg", "rad", [-sixty, sixty]),
+        ("angle of right leg", "rad", [-sixty, sixty]),
+        ("speed of left leg", "rad/s", [-20.0, 20.0]),
+        ("speed of right leg", "rad/s", [-20.0, 20.0]),
+        ("forward velocity of torso", "m/s", [-5.0, 5.0]),
+        ("upward velocity of torso", "m/s", [-5.0, 5.0]),
+        ("height of torso above start", "m", [-0.8, 0.8]),
+        ("contact of left leg", "", [0.0, 1.0]),
+        ("contact of right leg", "", [0.0, 1.0]),
+        ("distance at -30°", "m", [0.0, 4.0]),
+        ("distance at 0°", "m", [0.0, 4.0]),
+        ("sine of 2 s clock", "", [-1.0, 1.0]),
+        ("cosine of 2 s clock", "", [-1.0, 1.0]),
+    ];
+    assert_eq!(senses.len(), expected.len());
+    for (channel, (name, unit, range)) in senses.channels().iter().zip(expected) {
+        assert_eq!((channel.name.as_str(), channel.unit), (name, unit));
+        assert!((channel.range[0] - range[0]).abs() + (channel.range[1] - range[1]).abs() < 1e-5, "{channel:?}");
+    }
+}
+
+#[test]
+fn ends_of_the_ranges_become_the_input_range() {
+    for range in [1.0, 3.0] {
+        let senses = senses(&all_sensors(), range);
+        for (end, contact, quarter) in [(0, false, 1.5), (1, true, 0.5)] {
+            let raw = |channel: usize| senses.channels()[channel].range[end];
+            let body = Body {
+                rotation: raw(0),
+                angles: [raw(1), raw(2)],
+                speeds: [raw(3), raw(4)],
+                velocity: [raw(5), raw(6)],
+                height: raw(7),
+                contacts: [contact; 3],
+                distance: raw(10),
+                time: quarter,
+            };
+            let expected = if end == 0 { -range } else { range };
+            let inputs = read(&senses, &body);
+            for (channel, input) in inputs.iter().enumerate() {
+                let expected = match channel {
+                    11 => range, // this ray never hits anything
+                    13 => 0.0,   // the cosine, when the sine is at its end
+                    _ => expected,
+                };
+                assert!((input - expected).abs() < 1e-5, "channel {channel}: {input}, expected {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_middle_becomes_zero_and_values_beyond_are_clamped() {
+    let senses = senses(&all_sensors(), 3.0);
+    let middle = read(&senses, &Body { distance: 2.0, ..Body::default() });
+    for channel in (0..8).chain([10, 12]) {
+        assert_eq!(middle[channel], 0.0, "channel {channel}");
+    }
+    let beyond = Body { rotation: 99.0, angles: [-99.0, f32::INFINITY], height: -99.0, ..Body::default() };
+    let inputs = read(&senses, &beyond);
+    assert_eq!([inputs[0], inputs[1], inputs[2], inputs[7]], [3.0, -3.0, 3.0, -3.0]);
+}
+
+#[test]
+fn the_thesis_scaling_is_linear() {
+    let senses = senses(&Sensor::defaults(), 3.0);
+    let inputs = read(&senses, &Body { rotation: FRAC_PI_2, ..Body::default() });
+    assert!((inputs[0] - 1.5).abs() < 1e-6);
+}
+
+#[test]
+fn not_a_number_stays_so() {
+    let senses = senses(&all_sensors(), 3.0);
+    let nan = f32::NAN;
+    let body = Body {
+        rotation: nan,
+        angles: [nan; 2],
+        speeds: [nan; 2],
+        velocity: [nan; 2],
+        height: nan,
+        contacts: [false; 3],
+        distance: nan,
+        time: nan,
+    };
+    let inputs = read(&senses, &body);
+    let finite: Vec<usize> = (0..inputs.len()).filter(|&channel| !inputs[channel].is_nan()).collect();
+    assert_eq!(finite, [8, 9, 11]);
+
+    let motors = Motors::new(&blueprint());
+    let mut speeds = [0.0; 2];
+    motors.speeds(&[nan, 1.0], &mut speeds);
+    assert!(speeds[0].is_nan());
+    assert_eq!(speeds[1], 10.0);
+}
+
+#[test]
+fn motors_scale_and_clamp() {
+    let motors = Motors::new(&blueprint());
+    let mut speeds = [0.0; 2];
+    motors.speeds(&[-0.5, 7.0], &mut speeds);
+    assert_eq!(speeds, [-5.0, 10.0]);
+    motors.speeds(&[f32::NEG_INFINITY, 0.0], &mut speeds);
+    assert_eq!(speeds, [-10.0, 0.0]);
+}
+
+#[test]
+fn a_clock_goes_round() {
+    let senses = senses(&[Sensor::Clock { period: 2.0 }], 1.0);
+    let at = |time| read(&senses, &Body { time, ..Body::default() });
+    assert_eq!(at(0.0), [0.0, 1.0]);
+    assert_eq!(at(0.5)[0], 1.0);
+    assert!((at(1.0)[1] + 1.0).abs() < 1e-6);
+    assert_eq!(at(2000.5), at(0.5));
+}
+
+#[test]
+fn passive_parts_are_not_sensed() {
+    let mut file = small();
+    file["parts"][1]["tag"] = "hat".into();
+    let blueprint = Blueprint::from_json(&file.to_string()).expect("valid");
+    let senses = Senses::new(&blueprint, &Sensor::defaults(), 3.0).expect("valid");
+    assert_eq!(senses.len(), 2);
+    assert_eq!(senses.channels()[1].name, "angle of right leg");
+    assert_eq!(blueprint.actuated(), [1]);
+    assert_eq!(blueprint.feet(), [2]);
+    assert_eq!(Motors::new(&blueprint).len(), 1);
+    assert!(blueprint.hinges()[0].motor.is_some() && !blueprint.hinges()[0].actuated);
+}
+
+#[test]
+fn bad_ranges_and_sensors_are_errors() {
+    for range in [0.0, -3.0, f32::NAN, f32::INFINITY, 1e9] {
+        let error = Senses::new(&blueprint(), &Sensor::defaults(), range).expect_err("bad range");
+        assert!(matches!(error, CreatureError::InputRange { .. }));
+        assert!(error.to_string().starts_with("the input range must be from 0.001 to 1000, found "), "{error}");
+    }
+    for sensors in [vec![], vec![Sensor::Clock { period: -1.0 }], vec![Sensor::TorsoHeight; 2]] {
+        let error = Senses::new(&blueprint(), &sensors, 3.0).expect_err("bad sensors");
+        assert!(matches!(error, CreatureError::Invalid(_)), "{error:?}");
+    }
+}
+
+#[test]
+fn anchors_follow_turned_parts() {
+    let mut file = small();
+    // The leg lies on its side, its hip at the torso's lower edge.
+    file["parts"][1]["angle"] = 90.into();
+    file["parts"][1]["position"] = serde_json::json!([-0.25, 0.55]);
+    let blueprint = Blueprint::from_json(&file.to_string()).expect("valid");
+    let hinge = &blueprint.hinges()[0];
+    let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-5;
+    assert!(near(hinge.parent_anchor, [0.0, -0.25]), "{hinge:?}");
+    assert!(near(hinge.child_anchor, [0.0, -0.25]), "{hinge:?}");
+}

@@ -1,0 +1,91 @@
+use crate::World;
+use creatures::{Blueprint, BodyView, Hinge};
+use rapier2d::prelude::Vector;
+use tasks::{PartState, Snapshot};
+
+/// What the senses need to know of a creature besides where its parts are now.
+#[derive(Clone, Debug)]
+pub(crate) struct RestPose {
+    /// Cosine and sine of the torso's angle in the settled start pose.
+    torso: [f32; 2],
+    /// Height of the torso's centre in the settled start pose, m.
+    height: f32,
+    /// For each hinge: parent, child, and cosine and sine of the child's angle against the parent in the start pose.
+    hinges: Vec<(usize, usize, [f32; 2])>,
+}
+
+impl RestPose {
+    pub(crate) fn new(blueprint: &Blueprint, settled: &Snapshot) -> Self {
+        let parts = blueprint.parts();
+        let hinge = |hinge: &Hinge| {
+            let angle = parts[hinge.child].angle - parts[hinge.parent].angle;
+            (hinge.parent, hinge.child, [libm::cosf(angle), libm::sinf(angle)])
+        };
+        let start = parts[0].angle;
+        Self {
+            torso: [libm::cosf(start), libm::sinf(start)],
+            height: settled.torso().y,
+            hinges: blueprint.hinges().iter().map(hinge).collect(),
+        }
+    }
+}
+
+/// A creature as its sensors see it: the last snapshot against the start pose.
+pub(crate) struct Body<'a> {
+    pub(crate) world: &'a World,
+    pub(crate) snapshot: &'a Snapshot,
+    pub(crate) rest: &'a RestPose,
+}
+
+/// The angle of `direction` (cosine, sine) seen from `reference`, rad.
+fn angle_from(reference: [f32; 2], direction: [f32; 2]) -> f32 {
+    let [cos, sin] = turned_back(reference, direction);
+    libm::atan2f(sin, cos)
+}
+
+fn turned_back([c, s]: [f32; 2], [cos, sin]: [f32; 2]) -> [f32; 2] {
+    [c * cos + s * sin, c * sin - s * cos]
+}
+
+fn direction(part: &PartState) -> [f32; 2] {
+    [part.cos, part.sin]
+}
+
+impl BodyView for Body<'_> {
+    fn torso_rotation(&self) -> f32 {
+        angle_from(self.rest.torso, direction(self.snapshot.torso()))
+    }
+
+    fn joint_angle(&self, hinge: usize) -> f32 {
+        let (parent, child, rest) = self.rest.hinges[hinge];
+        let parts = &self.snapshot.parts;
+        angle_from(rest, turned_back(direction(&parts[parent]), direction(&parts[child])))
+    }
+
+    fn joint_speed(&self, hinge: usize) -> f32 {
+        let (parent, child, _) = self.rest.hinges[hinge];
+        self.snapshot.parts[child].spin - self.snapshot.parts[parent].spin
+    }
+
+    fn torso_velocity(&self) -> [f32; 2] {
+        let torso = self.snapshot.torso();
+        [torso.vx, torso.vy]
+    }
+
+    fn torso_height(&self) -> f32 {
+        self.snapshot.torso().y - self.rest.height
+    }
+
+    fn touches_ground(&self, part: usize) -> bool {
+        self.snapshot.parts[part].touching
+    }
+
+    fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {
+        let torso = self.snapshot.torso();
+        self.world.distance_to_ground(Vector::new(torso.x, torso.y), angle, length)
+    }
+
+    fn time(&self) -> f32 {
+        self.snapshot.time
+    }
+}

@@ -1,0 +1,94 @@
+use ne_core::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// How rapier steps a creature: the settings, each with what breaks without it.
+///
+/// The defaults were found by measuring small creatures with strong motors. They are not rapier's own.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PhysicsSettings {
+    /// Seconds a step lasts, from 1/1000 to 1/20; default 0.02.
+    pub time_step: f32,
+    /// Downward acceleration, m/s², from 0 to 100; default 9.81.
+    pub gravity: f32,
+    /// Friction coefficient of the ground, from 0 to 10; default 1. A part's own coefficient is multiplied with it.
+    pub ground_friction: f32,
+    /// Solver iterations (substeps) a step, from 1 to 32; default 2. Fewer is faster and softer.
+    pub solver_iterations: u32,
+    /// Gauss–Seidel sweeps in each iteration, from 1 to 32; default 4. Fewer lets joints come apart.
+    pub internal_iterations: u32,
+    /// Substeps of continuous collision detection, from 0 to 8; default 0, which turns it off. It moves a fast body
+    /// back without the bodies it is jointed to, which tears joints apart.
+    pub continuous_collision_substeps: u32,
+    /// From how far away contacts are prepared, m, from 0.001 to 1; default 0.1. With less, and without continuous
+    /// collision detection, feet sink deep into the ground before it answers.
+    pub prediction_distance: f32,
+    /// Natural frequency of joints, Hz, from 1 to 1e7; default 60. Joints as hard as rapier's default (1e6) pump energy
+    /// into a body that only falls.
+    pub joint_frequency: f32,
+    /// Damping ratio of joints, from 0.01 to 100; default 1 (critical).
+    pub joint_damping_ratio: f32,
+    /// The fastest a violated constraint is corrected, m/s and rad/s, from 0.1 to 1000; default 20. With rapier's 3 a
+    /// strong motor turns a leg right through its joint limit.
+    pub corrective_speed: f32,
+    /// Gain of the motors, N·m per rad/s, from 0.01 to 1e6; default 20. Large enough that a motor gives its top torque
+    /// unless it is close to the speed asked for.
+    pub motor_gain: f32,
+    /// How long a creature may settle before the clock starts, s, from 0 to 60; default 1. It stops earlier once at
+    /// rest.
+    pub settle_time: f32,
+    /// The speed of any part above which the simulation counts as exploded, m/s, from 1 to 400 (where rapier caps
+    /// speeds); default 100.
+    pub unstable_speed: f32,
+}
+
+impl Default for PhysicsSettings {
+    fn default() -> Self {
+        Self {
+            time_step: 0.02,
+            gravity: 9.81,
+            ground_friction: 1.0,
+            solver_iterations: 2,
+            internal_iterations: 4,
+            continuous_collision_substeps: 0,
+            prediction_distance: 0.1,
+            joint_frequency: 60.0,
+            joint_damping_ratio: 1.0,
+            corrective_speed: 20.0,
+            motor_gain: 20.0,
+            settle_time: 1.0,
+            unstable_speed: 100.0,
+        }
+    }
+}
+
+impl PhysicsSettings {
+    /// Checks every range.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        let ranges = [
+            ("time_step", self.time_step, 0.001, 0.05),
+            ("gravity", self.gravity, 0.0, 100.0),
+            ("ground_friction", self.ground_friction, 0.0, 10.0),
+            ("solver_iterations", self.solver_iterations as f32, 1.0, 32.0),
+            ("internal_iterations", self.internal_iterations as f32, 1.0, 32.0),
+            ("continuous_collision_substeps", self.continuous_collision_substeps as f32, 0.0, 8.0),
+            ("prediction_distance", self.prediction_distance, 0.001, 1.0),
+            ("joint_frequency", self.joint_frequency, 1.0, 1e7),
+            ("joint_damping_ratio", self.joint_damping_ratio, 0.01, 100.0),
+            ("corrective_speed", self.corrective_speed, 0.1, 1000.0),
+            ("motor_gain", self.motor_gain, 0.01, 1e6),
+            ("settle_time", self.settle_time, 0.0, 60.0),
+            ("unstable_speed", self.unstable_speed, 1.0, 400.0),
+        ];
+        for (field, value, low, high) in ranges {
+            // Compared as f32 so that the ends themselves are in; shown as written.
+            if !(low..=high).contains(&value) {
+                return Err(SettingError::new(field, value, format!("from {low} to {high}")));
+            }
+        }
+        Ok(())
+    }
+}

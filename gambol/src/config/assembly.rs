@@ -1,0 +1,138 @@
+//! A configuration put together from a preset, a file and single settings, later ones winning.
+
+use super::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig};
+use crate::suggest;
+use serde_json::{Map, Value};
+
+/// Why a configuration is not one. The message names the field, and the nearest valid name where a name is wrong.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ConfigError {
+    /// A file is not JSON.
+    #[error("line {line}, column {column}: {message}")]
+    Malformed {
+        /// From 1.
+        line: usize,
+        /// From 1.
+        column: usize,
+        /// What the parser says.
+        message: String,
+    },
+    /// A field is unknown, missing or of the wrong type.
+    #[error("{field}: {message}")]
+    Field {
+        /// Its path.
+        field: String,
+        /// What is wrong.
+        message: String,
+    },
+    /// A `key=value` without a key or without `=`.
+    #[error("\"{0}\" is not of the form key=value, such as physics.time_step=0.01")]
+    Assignment(String),
+}
+
+/// A configuration in the making.
+#[derive(Clone, Debug)]
+pub struct Assembly {
+    value: Value,
+}
+
+impl Assembly {
+    /// Starts from a complete configuration.
+    pub fn new(base: &RunConfig) -> Self {
+        // Serialising plain data to a value cannot fail; were it to, the missing fields would be named at the end.
+        Self { value: serde_json::to_value(base).unwrap_or_default() }
+    }
+
+    /// Lays the fields of a configuration file over what is there: a file with some of the fields, or the `config.json`
+    /// of another run. Objects are merged; a choice (an object with one key that names what was chosen, such as
+    /// `{"tournament": {"size": 3}}`) replaces another choice.
+    ///
+    /// # Errors
+    /// If the text is not a JSON object.
+    pub fn lay_over(&mut self, text: &str) -> Result<(), ConfigError> {
+        let layer: Value = serde_json::from_str(text).map_err(|error| {
+            let full = error.to_string();
+            let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
+            ConfigError::Malformed { line: error.line(), column: error.column(), message }
+        })?;
+        if !layer.is_object() {
+            return Err(ConfigError::Field { field: "the file".into(), message: "must be a JSON object".into() });
+        }
+        merge(&mut self.value, unwrapped(layer)?);
+        Ok(())
+    }
+
+    /// Sets one field: `physics.time_step=0.01`, `controller.hidden=[8,8]`, `movement.terms=[{"term":"energy"}]`. The
+    /// value is JSON, or else a string.
+    ///
+    /// # Errors
+    /// If there is no `=` or the path leads through something that is not an object.
+    pub fn set(&mut self, assignment: &str) -> Result<(), ConfigError> {
+        let (path, text) = assignment
+            .split_once('=')
+            .filter(|(path, _)| !path.trim().is_empty())
+            .ok_or_else(|| ConfigError::Assignment(assignment.into()))?;
+        let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
+        let keys: Vec<&str> = path.trim().split('.').collect();
+        let mut layer = value;
+        for key in keys.iter().rev() {
+            layer = Value::Object(Map::from_iter([((*key).to_owned(), layer)]));
+        }
+        let mut place = &self.value;
+        for (depth, key) in keys.iter().enumerate() {
+            match place {
+                Value::Object(fields) => place = fields.get(*key).unwrap_or(&Value::Null),
+                Value::Null => break,
+                _ => {
+                    let field = keys[..depth].join(".");
+                    return Err(ConfigError::Field { field, message: format!("has no field \"{key}\"") });
+                }
+            }
+        }
+        merge(&mut self.value, layer);
+        Ok(())
+    }
+
+    /// The finished configuration. Its numbers are not checked yet: [`Setup::new`](crate::Setup::new) does.
+    ///
+    /// # Errors
+    /// If a field is unknown, missing or of the wrong type.
+    pub fn finish(self) -> Result<RunConfig, ConfigError> {
+        serde_path_to_error::deserialize(self.value).map_err(|error| {
+            let field = error.path().to_string();
+            ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
+        })
+    }
+}
+
+/// The fields of a file, which may stand in the envelope of a run's own `config.json`.
+fn unwrapped(mut layer: Value) -> Result<Value, ConfigError> {
+    let wrong = |field: &str, message: String| Err(ConfigError::Field { field: field.into(), message });
+    let Some(fields) = layer.as_object_mut().filter(|fields| fields.contains_key("content")) else {
+        return Ok(layer);
+    };
+    match (fields.get("format"), fields.get("version")) {
+        (Some(format), _) if format != CONFIG_FORMAT => {
+            wrong("format", format!("is {format}, a configuration has \"{CONFIG_FORMAT}\""))
+        }
+        (_, Some(version)) if *version != CONFIG_VERSION => {
+            wrong("version", format!("is {version}, this Gambol reads version {CONFIG_VERSION}"))
+        }
+        _ => Ok(fields.remove("content").unwrap_or_default()),
+    }
+}
+
+fn merge(base: &mut Value, layer: Value) {
+    match (base, layer) {
+        (Value::Object(base), Value::Object(layer)) if !is_other_choice(base, &layer) => {
+            for (key, value) in layer {
+                merge(base.entry(key).or_insert(Value::Null), value);
+            }
+        }
+        (base, layer) => *base = layer,
+    }
+}
+
+fn is_other_choice(base: &Map<String, Value>, layer: &Map<String, Value>) -> bool {
+    base.len() == 1 && layer.len() == 1 && base.keys().ne(layer.keys())
+}

@@ -1,0 +1,67 @@
+//! Named starting points.
+
+use super::{ControllerSettings, RecordSettings, RunConfig, StrategySettings};
+use creatures::Creature;
+use envs_rapier::{PhysicsSettings, Variation};
+use ne_core::StopConditions;
+use ne_fixed::ConventionalNeSettings;
+use ne_net::Activation;
+use tasks::{MovementSpec, Trials};
+
+/// A named starting point of a configuration.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// Its name.
+    pub name: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+    strategy: fn() -> ConventionalNeSettings,
+    activation: Activation,
+}
+
+/// All presets; the first is the default.
+pub const PRESETS: &[Preset] = &[
+    Preset {
+        name: "default",
+        description: "conventional neuroevolution as we found it to work best",
+        strategy: ConventionalNeSettings::default,
+        activation: Activation::Tanh,
+    },
+    Preset {
+        name: "thesis",
+        description: "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite",
+        strategy: ConventionalNeSettings::thesis,
+        activation: Activation::RationalTanh,
+    },
+];
+
+/// The preset of this name.
+pub fn preset(name: &str) -> Option<&'static Preset> {
+    PRESETS.iter().find(|preset| preset.name == name)
+}
+
+impl Preset {
+    /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations.
+    pub fn config(&self, creature: Creature, movement: &str) -> RunConfig {
+        RunConfig {
+            preset: self.name.into(),
+            seed: 1,
+            movement: MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
+            trials: Trials::default(),
+            variation: Variation::default(),
+            strategy: StrategySettings::Conventional((self.strategy)()),
+            controller: ControllerSettings {
+                hidden: vec![10],
+                hidden_activation: self.activation,
+                output_activation: self.activation,
+                hidden_scale: 3.0,
+                input_range: creatures::DEFAULT_INPUT_RANGE,
+            },
+            stop: StopConditions { generations: Some(300), ..StopConditions::default() },
+            physics: PhysicsSettings::default(),
+            record: RecordSettings { checkpoint_every: 10, populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300] },
+            sensors: None,
+            creature,
+        }
+    }
+}

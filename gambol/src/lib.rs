@@ -1,0 +1,52 @@
+//! Gambol: evolves controllers for 2D creatures, shows the gait, and saves it for a game.
+//!
+//! This library ties the others together: it is what the `gambol` program, a studio or a test calls. Its one decision:
+//! **a run is a folder.** Everything that happens is a file in it, written whole or not at all, and everything that
+//! looks at a run (resuming, reporting, verifying, replaying) reads those files and nothing else. So viewers attach and
+//! detach as they like, and a run can be killed at any moment.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`config`] | the configuration of a run; presets; putting one together |
+//! | [`setup`] | from a configuration to a task |
+//! | [`training`] | train, resume |
+//! | [`run_folder`] | which file is what |
+//! | [`champion`] | the saved champion; verifying it |
+//! | [`trajectory`] | recording what a champion does; CSV |
+//! | [`report`] | the HTML page |
+//! | [`source`] | finding a creature by name or path |
+//!
+//! # Train, verify
+//!
+//! ```
+//! use gambol::{config::preset, training::{TrainOptions, train}};
+//! use tasks::MovementCatalogue;
+//!
+//! let mut config = preset("default").expect("there is one").config(creatures::find("biped-1")?, "jumping");
+//! config.stop.generations = Some(2);
+//! config.movement.steps = Some(50);
+//! let folder = tempfile::tempdir()?;
+//! let options = TrainOptions {
+//!     threads: 1,
+//!     catalogue: MovementCatalogue::default(),
+//!     signal: Default::default(),
+//!     on_generation: &mut |report| assert!(report.failures == 0),
+//! };
+//! let outcome = train(&config, &folder.path().join("run"), options)?;
+//! let champion = outcome.champion.expect("somebody jumped");
+//! assert!(champion.verify(&MovementCatalogue::default())?.is_identical());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod champion;
+pub mod config;
+mod recorder;
+pub mod report;
+pub mod run_folder;
+pub mod setup;
+pub mod source;
+pub mod suggest;
+pub mod training;
+pub mod trajectory;
+
+pub use setup::Setup;

@@ -1,0 +1,133 @@
+//! Writes a run down while it goes on.
+
+use crate::{
+    champion::Champion,
+    config::RunConfig,
+    run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, LineFile, RunFolder, Timing},
+    setup::Setup,
+};
+use ne_core::{Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy};
+use ne_net::Network;
+use serde::Deserialize;
+use std::time::Instant;
+
+/// The observer that fills a run folder.
+///
+/// Lines are appended each generation; checkpoint and champion are brought up to date every few generations, after the
+/// lines they belong to are on the disk.
+pub(crate) struct Recorder<'a> {
+    folder: &'a RunFolder,
+    config: &'a RunConfig,
+    setup: &'a Setup,
+    log: LineFile,
+    gallery: LineFile,
+    timing: LineFile,
+    last: Instant,
+    called: &'a mut dyn FnMut(&GenerationReport),
+}
+
+/// The one field by which lines are kept or dropped.
+#[derive(Deserialize)]
+struct OfGeneration {
+    generation: u64,
+}
+
+impl<'a> Recorder<'a> {
+    /// Goes on after `generations` generations; whatever the files hold beyond them is dropped.
+    pub(crate) fn new(
+        folder: &'a RunFolder,
+        config: &'a RunConfig,
+        setup: &'a Setup,
+        generations: u64,
+        called: &'a mut dyn FnMut(&GenerationReport),
+    ) -> Result<Self, FolderError> {
+        let done = |line: &str| {
+            serde_json::from_str::<serde_json::Value>(line)
+                .ok()
+                .and_then(|value| OfGeneration::deserialize(value).ok())
+                .is_some_and(|line| line.generation <= generations)
+        };
+        let (log, gallery, timing) = (
+            LineFile::open(&folder.log(), generations, done)?,
+            LineFile::open(&folder.gallery(), 0, done)?,
+            LineFile::open(&folder.timing(), 0, done)?,
+        );
+        Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), called })
+    }
+
+    /// Brings everything to the disk: lines first, then champion, then checkpoint.
+    pub(crate) fn save<S: Strategy>(&mut self, evolution: &Evolution<S>) -> Result<(), FolderError>
+    where
+        <S::Genome as Genome>::Phenotype: Into<Network>,
+    {
+        self.sync()?;
+        self.write_champion(evolution.champion())?;
+        Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
+    }
+
+    fn sync(&mut self) -> Result<(), FolderError> {
+        self.log.sync()?;
+        self.gallery.sync()?;
+        Ok(self.timing.sync()?)
+    }
+
+    fn write_champion<G: Genome>(&self, champion: Option<&ne_core::Champion<G>>) -> Result<(), FolderError>
+    where
+        G::Phenotype: Into<Network>,
+    {
+        let Some(champion) = champion else { return Ok(()) };
+        let network = champion.genome.express().into();
+        let ne_core::Champion { seed, generation, fitness, .. } = *champion;
+        let champion = Champion::new(self.config, self.setup, network, seed, generation, fitness);
+        Ok(champion.write(&self.folder.champion())?)
+    }
+
+    fn keep(
+        &mut self,
+        generation: u64,
+        kind: GalleryKind,
+        members: Vec<GalleryMember>,
+    ) -> Result<(), FolderError> {
+        Ok(self.gallery.write(&GalleryEntry { generation, kind, members })?)
+    }
+
+    fn record<S: Strategy>(&mut self, event: &Generation<'_, S>) -> Result<(), FolderError>
+    where
+        <S::Genome as Genome>::Phenotype: Into<Network>,
+    {
+        let generation = event.report.generation;
+        self.log.write(event.report)?;
+        if let Some(champion) = event.champion.filter(|_| event.improved) {
+            let member = GalleryMember { fitness: Some(champion.fitness), network: champion.genome.express().into() };
+            self.keep(generation, GalleryKind::Champion, vec![member])?;
+        }
+        if self.config.record.populations_at.contains(&generation) {
+            let member = |(genome, evaluation): (&S::Genome, &Evaluation)| GalleryMember {
+                fitness: evaluation.fitness(),
+                network: genome.express().into(),
+            };
+            let members = event.genomes.iter().zip(event.evaluations).map(member).collect();
+            self.keep(generation, GalleryKind::Population, members)?;
+        }
+        let seconds = self.last.elapsed().as_secs_f64();
+        self.last = Instant::now();
+        self.timing.write(&Timing { generation, seconds })?;
+        if generation.is_multiple_of(self.config.record.checkpoint_every) {
+            self.sync()?;
+            self.write_champion(event.champion)?;
+            event.write_checkpoint(&self.folder.checkpoint())?;
+        }
+        Ok(())
+    }
+}
+
+impl<S: Strategy> Observer<S> for &mut Recorder<'_>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
+    fn generation(&mut self, event: &Generation<'_, S>) -> Result<(), ObserverError> {
+        self.record(event)?;
+        (self.called)(event.report);
+        Ok(())
+    }
+}

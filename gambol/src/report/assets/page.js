@@ -1,0 +1,166 @@
+// The page: what it says at the top, which sections there are, settings and versions, and the start of it all. A
+// section whose data is missing stays hidden.
+
+function element(name, text, className) {
+  const made = document.createElement(name);
+  if (text !== undefined) made.textContent = text;
+  if (className) made.className = className;
+  return made;
+}
+
+function terms(list, pairs) {
+  for (const [term, value] of pairs) {
+    const group = element("div");
+    group.append(element("dt", term), element("dd", value));
+    list.append(group);
+  }
+}
+
+function buildHeading(run) {
+  const movement = run.movement?.name;
+  const name = run.creature?.title || run.creatureName;
+  document.getElementById("heading").textContent = movement ? `${name} · ${movement}` : run.title || name;
+  const lead = document.getElementById("lead");
+  const facts = [];
+  const summary = run.summary || {};
+  const fitness = summary.fitness ?? run.champion?.fitness;
+  const number = value => value !== null && value !== undefined;
+  if (number(fitness)) facts.push(`best ${withUnit(fitness, run.unit)}`);
+  if (number(summary.generations)) facts.push(count(summary.generations, "generation", "generations"));
+  if (number(summary.body_lengths_per_second)) facts.push(`${fixed(summary.body_lengths_per_second, 2)} body lengths per second`);
+  facts.forEach((fact, i) => {
+    if (i) lead.append(" · ");
+    lead.append(element(i ? "span" : "strong", fact));
+  });
+  if (run.movement?.description) {
+    const text = run.movement.description.trim();
+    lead.after(element("p", text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : "."), "described"));
+  }
+}
+
+function buildChampion(run, model) {
+  const replay = decodeReplay(run.champion?.replay);
+  if (!replay) return;
+  const contacts = readContacts(run.champion.contacts, replay.frames);
+  const clock = loop.addClock(new Clock(replay.duration));
+  document.getElementById("replay").hidden = false;
+  loop.addView(new ReplayView(run, model, replay, contacts, clock));
+  if (contacts && replay.duration > 0) {
+    document.getElementById("footfalls").hidden = false;
+    loop.addView(new FootfallView(model, replay, contacts, clock));
+  }
+  buildNetwork(run, model, replay, contacts, clock);
+}
+
+function buildNetwork(run, model, replay, contacts, clock) {
+  const network = run.champion.network;
+  if (!network || !network.layers || network.layers.length < 2 || !network.weights) return;
+  const sizes = network.layers.map(layer => layer.length);
+  const activations = readActivations(network.activations, sizes.reduce((a, b) => a + b, 0));
+  document.getElementById("network").hidden = false;
+  const words = [count(sizes[0], "input", "inputs")];
+  if (sizes.length > 2) words.push(`${sizes.slice(1, -1).join(" and ")} hidden`);
+  words.push(count(sizes[sizes.length - 1], "output", "outputs"));
+  const weights = network.weights.reduce((sum, matrix) => sum + matrix.reduce((n, row) => n + row.length, 0), 0);
+  document.getElementById("network-intro").textContent = `${words.join(", ")}; ${count(weights, "weight", "weights")}. `
+    + (activations ? "Sensors on the left, motors on the right; an edge brightens with the signal it carries."
+      : "Sensors on the left, motors on the right.");
+  playButton(document.getElementById("network-play"), clock);
+  loop.addView(new NetworkStage(model, replay, contacts, clock));
+  loop.addView(new NetworkView(network, activations, replay, clock));
+}
+
+function buildGait(run) {
+  if (!run.gait || !run.gait.length) return;
+  const list = document.getElementById("gait");
+  list.hidden = false;
+  terms(list, run.gait.map(({ label, value }) => [label, value]));
+}
+
+function buildFitness(run) {
+  if (!run.history || !run.history.length) return;
+  document.getElementById("fitness").hidden = false;
+  const rows = run.history;
+  const size = rows[rows.length - 1].evaluations;
+  const text = rows.length > 1 ? [`From ${withUnit(rows[0].best_so_far, run.unit)} to ${withUnit(rows[rows.length - 1].best_so_far, run.unit)} `
+    + `in ${count(rows.length, "generation", "generations")}`] : ["One generation"];
+  if (size) text.push(` of ${count(size, "evaluation", "evaluations")} each`);
+  document.getElementById("fitness-intro").textContent = text.join("") + ".";
+  new FitnessChart(run);
+}
+
+// A command line with a button that copies it.
+function commandLine({ what, command }) {
+  const box = element("div", undefined, "command");
+  const code = element("code", command);
+  const button = element("button", "Copy", "small");
+  button.type = "button";
+  button.setAttribute("aria-label", `Copy the command: ${what}`);
+  button.addEventListener("click", async () => {
+    try {
+      await navigator.clipboard.writeText(command);
+      button.textContent = "Copied";
+      setTimeout(() => { button.textContent = "Copy"; }, 1500);
+    } catch {
+      getSelection().selectAllChildren(code);
+    }
+  });
+  const line = element("div", undefined, "command-line");
+  line.append(code, button);
+  box.append(element("p", what), line);
+  return box;
+}
+
+function buildSettings(run) {
+  const summary = run.summary || {};
+  const pairs = (run.settings || []).map(({ label, value }) => [label, String(value)]);
+  if (summary.evaluations) pairs.push(["Evaluations", fixed(summary.evaluations, 0)]);
+  if (summary.physics_steps) pairs.push(["Physics steps", large(summary.physics_steps)]);
+  if (summary.stopped_because) pairs.push(["Stopped because", summary.stopped_because]);
+  const commands = run.commands || [];
+  const versions = run.versions || [];
+  const config = run.config && Object.keys(run.config).length ? run.config : null;
+  if (!pairs.length && !commands.length && !versions.length && !config) return;
+  document.getElementById("settings").hidden = false;
+  terms(document.getElementById("settings-list"), pairs);
+  if (commands.length) {
+    const place = document.getElementById("settings-commands");
+    place.hidden = false;
+    place.append(...commands.map(commandLine));
+  }
+  if (versions.length) {
+    document.getElementById("settings-versions").hidden = false;
+    terms(document.getElementById("versions-list"), versions.map(({ name, version }) => [name, version]));
+  }
+  if (config) {
+    const details = document.getElementById("settings-config");
+    details.hidden = false;
+    details.querySelector("pre").textContent = JSON.stringify(config, null, 2);
+  }
+}
+
+function startPage() {
+  const run = readRun();
+  if (!run || !run.creature) {
+    document.getElementById("lead").textContent = "This page holds no run.";
+    return;
+  }
+  readTheme();
+  run.creatureName = run.creature.name || "creature";
+  run.unit = run.movement?.unit ?? "";
+  const model = makeModel(run.creature);
+  buildHeading(run);
+  buildChampion(run, model);
+  buildGait(run);
+  buildFitness(run);
+  buildStrip(run, model);
+  buildPopulations(run, model);
+  buildSettings(run);
+  window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    readTheme();
+    loop.redrawAll();
+  });
+  loop.start();
+}
+
+startPage();

@@ -1,0 +1,159 @@
+//! The report: one HTML file that works offline, with the champion's replay, the fitness curves, the gait as it emerged
+//! and the net at work.
+
+mod data;
+mod page;
+mod replays;
+
+use crate::{
+    champion::Champion,
+    run_folder::{FolderError, GalleryEntry, GalleryKind, RunFolder, read_lines},
+    setup::SetupError,
+};
+use data::{ChampionData, Command, Fact, HistoryPoint, MovementData, Report, Summary};
+use ne_core::{GenerationReport, StopReason, archive};
+use replays::{Stills, play};
+use std::{io, path::Path};
+use tasks::MovementCatalogue;
+
+/// Why a report cannot be made.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReportError {
+    /// The run cannot be read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The champion's task cannot be built.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The page cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The page.
+        path: std::path::PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+}
+
+/// How many champions the strip shows.
+const STRIP: usize = 8;
+/// How many generations show their whole population.
+const POPULATIONS: usize = 6;
+
+/// Makes the report of a run and writes it into its folder. `ended`: why the run ended, if it has.
+///
+/// # Errors
+/// If a file of the run cannot be read, or the page cannot be written.
+pub fn write_report(
+    folder: &RunFolder,
+    catalogue: &MovementCatalogue,
+    ended: Option<StopReason>,
+) -> Result<(), ReportError> {
+    let config = folder.read_config()?;
+    let log: Vec<GenerationReport> = read_lines(&folder.log())?;
+    let gallery: Vec<GalleryEntry> = read_lines(&folder.gallery())?;
+    let champion = match folder.champion().is_file() {
+        true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
+        false => None,
+    };
+    let setup = crate::setup::Setup::new(&config, catalogue)?;
+    let stills = Stills::new(&setup, config.seed);
+    let champions: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Champion).collect();
+    let populations: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Population).collect();
+    let movement = movement_data(catalogue, &config.movement.name, &setup.unit);
+    let last = log.last();
+    let body_lengths = champion.as_ref().filter(|_| movement.name == "running").map(|champion| {
+        let seconds = f64::from(setup.episode.steps()) * f64::from(config.physics.time_step);
+        let length = f64::from(setup.episode.environment().blueprint().body_length());
+        champion.fitness.get() / seconds / length
+    });
+    let report = Report {
+        title: format!("{} · {} · Gambol", config.creature.name, config.movement.name),
+        creature: config.creature.clone(),
+        movement,
+        summary: last.map(|last| Summary {
+            fitness: last.best_so_far.map(f64::from),
+            generations: last.generation,
+            evaluations: last.evaluations,
+            physics_steps: last.steps,
+            stopped_because: ended.map(|reason| reason.to_string()),
+            body_lengths_per_second: body_lengths,
+        }),
+        history: log.iter().map(HistoryPoint::from).collect(),
+        champion: champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?,
+        strip: stills.champions(&spread(&champions, STRIP)),
+        populations: stills.populations(&spread(&populations, POPULATIONS)),
+        settings: data::settings(&config),
+        config: serde_json::to_value(&config).unwrap_or_default(),
+        commands: commands(folder),
+        versions: data::versions(),
+    };
+    write_page(&folder.report(), &report)
+}
+
+/// Makes a page that replays a champion, and nothing else.
+///
+/// # Errors
+/// If the champion's task cannot be built, or the page cannot be written.
+pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &Path) -> Result<(), ReportError> {
+    let unit = catalogue.find(&champion.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
+    let report = Report {
+        title: format!("{} · {} · Gambol", champion.creature.name, champion.movement.name),
+        creature: champion.creature.clone(),
+        movement: movement_data(catalogue, &champion.movement.name, &unit),
+        summary: None,
+        history: Vec::new(),
+        champion: Some(champion_data(champion, catalogue)?),
+        strip: Vec::new(),
+        populations: Vec::new(),
+        settings: vec![
+            Fact::new("Creature", &champion.creature.name),
+            Fact::new("Movement", &champion.movement.name),
+            Fact::new("Fitness", format!("{:.3} {unit}", champion.fitness)),
+            Fact::new("Found in generation", champion.generation),
+            Fact::new("Strategy", &champion.strategy),
+            Fact::new("Physics", format!("{} {}", champion.engine.name, champion.engine.version)),
+        ],
+        config: serde_json::Value::Null,
+        commands: Vec::new(),
+        versions: data::versions(),
+    };
+    write_page(path, &report)
+}
+
+fn write_page(path: &Path, report: &Report) -> Result<(), ReportError> {
+    let page = page::render(report);
+    archive::write_whole(path, page.as_bytes()).map_err(|source| ReportError::Write { path: path.into(), source })
+}
+
+fn movement_data(catalogue: &MovementCatalogue, name: &str, unit: &str) -> MovementData {
+    let description = catalogue.find(name).map_or_else(String::new, |entry| entry.description.clone());
+    MovementData { name: name.into(), unit: unit.into(), description }
+}
+
+fn champion_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<ChampionData, ReportError> {
+    let episode = champion.episode(catalogue)?;
+    let recording = play(&episode, champion.network.clone(), champion.seed, episode.steps());
+    Ok(ChampionData::new(champion, &recording, champion.physics.time_step))
+}
+
+/// About `count` of the items, evenly spread, the first and the last among them.
+fn spread<'a, T>(items: &[&'a T], count: usize) -> Vec<&'a T> {
+    if items.len() <= count {
+        return items.to_vec();
+    }
+    (0..count).map(|index| items[index * (items.len() - 1) / (count - 1)]).collect()
+}
+
+fn commands(folder: &RunFolder) -> Vec<Command> {
+    let path = folder.path().display();
+    [
+        ("Repeat this run", format!("gambol train --config {path}/config.json --out again")),
+        ("Go on training", format!("gambol resume {path} --generations 1000")),
+        ("Prove the champion", format!("gambol verify {path}/champion.json")),
+        ("Take the trajectory", format!("gambol replay {path}/champion.json --trajectory gait.csv")),
+    ]
+    .map(|(what, command)| Command { what: what.into(), command })
+    .into()
+}

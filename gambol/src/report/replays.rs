@@ -1,0 +1,75 @@
+//! Replays of champions and populations for the page, played anew: a run keeps the nets, not the films.
+
+use super::data::{PopulationEntry, PopulationMember, Replay, StripEntry};
+use crate::{
+    run_folder::{GalleryEntry, GalleryMember},
+    setup::Setup,
+    trajectory::Recording,
+};
+use envs_rapier::RapierEnvironment;
+use ne_core::{Fitness, Seed};
+use ne_net::Network;
+use rayon::prelude::*;
+use tasks::Episode;
+
+/// Seconds a small replay shows.
+const STILL_SECONDS: f32 = 8.0;
+/// Frames a second of a small replay.
+const STILL_RATE: f32 = 12.5;
+/// Members of a population that are drawn.
+const MEMBERS: usize = 16;
+
+/// Plays a controller's first trial for at most `steps` steps.
+pub(super) fn play(episode: &Episode<RapierEnvironment>, mut network: Network, seed: Seed, steps: u32) -> Recording {
+    let mut recording = Recording::default();
+    episode.shortened(steps).play(&mut network, seed.trial(0), &mut recording);
+    recording
+}
+
+/// Makes the small replays of a run.
+pub(super) struct Stills<'a> {
+    setup: &'a Setup,
+    seed: Seed,
+    steps: u32,
+    stride: usize,
+}
+
+impl<'a> Stills<'a> {
+    pub(super) fn new(setup: &'a Setup, seed: u64) -> Self {
+        let time_step = setup.episode.environment().settings().time_step;
+        let steps = setup.episode.steps().min((STILL_SECONDS / time_step) as u32);
+        let stride = ((1.0 / STILL_RATE / time_step).round() as usize).max(1);
+        Self { setup, seed: Seed::of_run(seed), steps, stride }
+    }
+
+    pub(super) fn champions(&self, entries: &[&GalleryEntry]) -> Vec<StripEntry> {
+        let still = |entry: &&GalleryEntry| {
+            let champion = entry.members.first()?;
+            let replay = self.replay(entry.generation, champion);
+            Some(StripEntry { generation: entry.generation, fitness: champion.fitness.map(Fitness::get), replay })
+        };
+        entries.par_iter().filter_map(still).collect()
+    }
+
+    pub(super) fn populations(&self, entries: &[&GalleryEntry]) -> Vec<PopulationEntry> {
+        let population = |entry: &&GalleryEntry| {
+            let mut members: Vec<&GalleryMember> = entry.members.iter().collect();
+            members.sort_by_key(|member| std::cmp::Reverse(member.fitness));
+            // From the best to the worst, evenly.
+            let members = super::spread(&members, MEMBERS);
+            let member = |member: &&GalleryMember| PopulationMember {
+                fitness: member.fitness.map(Fitness::get),
+                replay: self.replay(entry.generation, member),
+            };
+            PopulationEntry { generation: entry.generation, members: members.par_iter().map(member).collect() }
+        };
+        entries.iter().map(population).collect()
+    }
+
+    fn replay(&self, generation: u64, member: &GalleryMember) -> Replay {
+        let seed = self.seed.generation(generation);
+        let recording = play(&self.setup.episode, member.network.clone(), seed, self.steps);
+        let time_step = self.setup.episode.environment().settings().time_step;
+        Replay::new(&recording.snapshots, time_step, self.stride)
+    }
+}

@@ -1,0 +1,137 @@
+//! From a configuration to the things a run is made of.
+
+use crate::config::{ControllerSettings, RunConfig, StrategySettings};
+use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
+use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
+use ne_core::SettingError;
+use ne_net::DenseShape;
+use tasks::{Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
+
+/// The task and the shape of the controller a configuration describes: checked, built, ready.
+#[derive(Clone)]
+pub struct Setup {
+    /// The task.
+    pub episode: Episode<RapierEnvironment>,
+    /// The controller's shape.
+    pub shape: DenseShape,
+    /// The unit of the fitness.
+    pub unit: String,
+}
+
+/// Why a configuration cannot be built. Each says which field.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SetupError {
+    /// The creature is not valid.
+    #[error("creature: {0}")]
+    Creature(#[from] CreatureError),
+    /// The movement is unknown or its terms are.
+    #[error("movement.{0}")]
+    Movement(#[from] MovementSpecError),
+    /// A setting is out of range.
+    #[error("{0}")]
+    Setting(#[from] SettingError),
+    /// The physics cannot build it.
+    #[error("{0}")]
+    Environment(#[from] EnvironmentError),
+}
+
+/// What an episode is made of: the part of a configuration that a champion keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct EpisodeParts<'a> {
+    /// The body.
+    pub creature: &'a Creature,
+    /// What the controller senses; `None`: what the creature asks for.
+    pub sensors: Option<&'a [Sensor]>,
+    /// Sensors are scaled to ± this.
+    pub input_range: f32,
+    /// What is learned.
+    pub movement: &'a MovementSpec,
+    /// Trials of an evaluation.
+    pub trials: Trials,
+    /// How trials differ.
+    pub variation: Variation,
+    /// The physics.
+    pub physics: PhysicsSettings,
+}
+
+impl EpisodeParts<'_> {
+    /// Builds the task.
+    ///
+    /// # Errors
+    /// Names the field that is wrong.
+    pub fn build(&self, catalogue: &MovementCatalogue) -> Result<Episode<RapierEnvironment>, SetupError> {
+        let movement = catalogue.build(self.movement)?;
+        let steps = catalogue.steps(self.movement)?;
+        let blueprint = Blueprint::new(self.creature.clone())?;
+        let sensors = self.sensors.unwrap_or(&self.creature.sensors);
+        let environment =
+            RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?;
+        Ok(Episode::new(environment, movement, steps, self.trials)?)
+    }
+}
+
+impl Setup {
+    /// Checks a configuration and builds its task.
+    ///
+    /// # Errors
+    /// Names the field that is wrong.
+    pub fn new(config: &RunConfig, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+        config.stop.validate().map_err(|error| error.within("stop"))?;
+        config.record.validate().map_err(|error| error.within("record"))?;
+        match &config.strategy {
+            StrategySettings::Conventional(settings) => {
+                settings.validate().map_err(|error| error.within("strategy.conventional"))?;
+            }
+        }
+        let episode = config.episode_parts().build(catalogue)?;
+        let (inputs, outputs) = (episode.environment().senses().len(), episode.environment().motors().len());
+        let shape = config.controller.shape(inputs, outputs).map_err(|error| error.within("controller"))?;
+        let unit = catalogue.build(&config.movement)?.unit().to_owned();
+        Ok(Self { episode, shape, unit })
+    }
+
+    /// What each input of the controller is.
+    pub fn inputs(&self) -> &[Channel] {
+        self.episode.environment().senses().channels()
+    }
+
+    /// What each output of the controller does.
+    pub fn outputs(&self) -> &[Channel] {
+        self.episode.environment().motors().channels()
+    }
+}
+
+impl RunConfig {
+    /// The part that makes the task.
+    pub fn episode_parts(&self) -> EpisodeParts<'_> {
+        EpisodeParts {
+            creature: &self.creature,
+            sensors: self.sensors.as_deref(),
+            input_range: self.controller.input_range,
+            movement: &self.movement,
+            trials: self.trials,
+            variation: self.variation,
+            physics: self.physics,
+        }
+    }
+}
+
+impl ControllerSettings {
+    /// The shape of a controller with these settings.
+    ///
+    /// # Errors
+    /// If a layer is empty or too wide, or the scale is out of range.
+    pub fn shape(&self, inputs: usize, outputs: usize) -> Result<DenseShape, SettingError> {
+        let shape = DenseShape {
+            inputs,
+            hidden: self.hidden.clone(),
+            outputs,
+            hidden_activation: self.hidden_activation,
+            output_activation: self.output_activation,
+            hidden_scale: self.hidden_scale,
+        };
+        shape.validate()?;
+        Ok(shape)
+    }
+}

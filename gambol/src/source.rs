@@ -1,0 +1,55 @@
+//! Finding a creature by its name or its file.
+
+use creatures::{Blueprint, Creature, CreatureError, UnknownCreature};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// Why there is no creature.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SourceError {
+    /// No shipped creature has this name.
+    #[error("{0}\n(a creature of your own is given by its file, such as ./my-creature.json)")]
+    Unknown(#[from] UnknownCreature),
+    /// The file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// The file is not a valid creature.
+    #[error("{}: {source}", path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: Box<CreatureError>,
+    },
+}
+
+/// The shipped creature of this name, or the one in this file. What has a slash, a backslash or `.json` in it is a file.
+///
+/// # Errors
+/// If there is no such creature or its file is not valid.
+pub fn creature(name_or_path: &str) -> Result<Creature, SourceError> {
+    if name_or_path.contains(['/', '\\']) || name_or_path.ends_with(".json") {
+        creature_file(Path::new(name_or_path))
+    } else {
+        Ok(creatures::find(name_or_path)?)
+    }
+}
+
+/// The creature in a file, checked.
+///
+/// # Errors
+/// If the file cannot be read or is not valid.
+pub fn creature_file(path: &Path) -> Result<Creature, SourceError> {
+    let text = fs::read_to_string(path).map_err(|source| SourceError::Read { path: path.into(), source })?;
+    let blueprint = Blueprint::from_json(&text)
+        .map_err(|source| SourceError::Invalid { path: path.into(), source: Box::new(source) })?;
+    Ok(blueprint.creature().clone())
+}

@@ -1,0 +1,223 @@
+//! Training: a run from its configuration to its folder, and on from where it stopped.
+
+use crate::{
+    champion::Champion,
+    config::{RunConfig, StrategySettings},
+    recorder::Recorder,
+    run_folder::{FolderError, RunFolder},
+    setup::{Setup, SetupError},
+};
+use ne_core::{
+    Checkpoint, Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
+    StopConditions, StopReason, StopSignal, Strategy, ThreadsError,
+};
+use ne_fixed::ConventionalNe;
+use ne_net::Network;
+use std::path::Path;
+use tasks::MovementCatalogue;
+
+/// How a run is to be carried out; none of it changes what the run finds.
+pub struct TrainOptions<'a> {
+    /// Threads; 0: one for each core.
+    pub threads: usize,
+    /// The movements there are.
+    pub catalogue: MovementCatalogue,
+    /// Ends the run after the generation under way.
+    pub signal: StopSignal,
+    /// Called after each generation, for a progress bar.
+    pub on_generation: &'a mut dyn FnMut(&GenerationReport),
+}
+
+/// How a run ended.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Where everything is.
+    pub folder: RunFolder,
+    /// Why it ended.
+    pub reason: StopReason,
+    /// What it used.
+    pub progress: Progress,
+    /// The best it found; `None` if every evaluation failed.
+    pub champion: Option<Champion>,
+}
+
+/// Why a run could not be started or could not go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TrainError {
+    /// The configuration is not one that can run.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The folder cannot be used, or could not be written.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The threads cannot be started.
+    #[error(transparent)]
+    Threads(#[from] ThreadsError),
+    /// The run broke off.
+    #[error("{source}\nthe run stopped in generation {generation}; what was saved before is whole{}", resume_hint(folder))]
+    BrokeOff {
+        /// The generation under way.
+        generation: u64,
+        /// Where the run is.
+        folder: RunFolder,
+        /// What happened.
+        source: EvolutionError,
+    },
+    /// The run is over and there is nothing left to do.
+    #[error(
+        "the run in {} has ended: {reason} (generation {generations}); to go on, raise its limit, such as --generations {}",
+        folder.path().display(), generations + 100
+    )]
+    Over {
+        /// Where the run is.
+        folder: RunFolder,
+        /// Why it ended.
+        reason: StopReason,
+        /// Generations done.
+        generations: u64,
+    },
+}
+
+fn resume_hint(folder: &RunFolder) -> String {
+    if folder.checkpoint().is_file() {
+        format!("; go on with: gambol resume {}", folder.path().display())
+    } else {
+        String::new()
+    }
+}
+
+impl From<SettingError> for TrainError {
+    fn from(error: SettingError) -> Self {
+        Self::Setup(error.into())
+    }
+}
+
+/// Runs a configuration in a new folder.
+///
+/// # Errors
+/// If the configuration is not valid, the folder is not empty or cannot be written.
+pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
+    let setup = Setup::new(config, &options.catalogue)?;
+    match &config.strategy {
+        StrategySettings::Conventional(settings) => {
+            let strategy = ConventionalNe::new(settings.clone(), setup.shape.clone())
+                .map_err(|error| error.within("strategy.conventional"))?;
+            train_with(strategy, config, &setup, folder, options)
+        }
+    }
+}
+
+/// Runs a configuration with a strategy of your own in place of the one it names.
+///
+/// # Errors
+/// As [`train`].
+pub fn train_with<S: Strategy>(
+    strategy: S,
+    config: &RunConfig,
+    setup: &Setup,
+    folder: &Path,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, TrainError>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
+    let evaluator = Parallel::new(options.threads)?;
+    let folder = RunFolder::create(folder, config)?;
+    let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
+    drive(evolution, config, setup, folder, &evaluator, options)
+}
+
+/// Goes on with a run from its last checkpoint. `stop` replaces the conditions of the configuration where it has any;
+/// they are written into the folder, so that the run is again what its configuration says.
+///
+/// # Errors
+/// If the folder is no run, a file is damaged or of another version (nothing is changed then), or the run is over.
+pub fn resume(folder: &Path, stop: StopConditions, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
+    let folder = RunFolder::open(folder)?;
+    let config = folder.read_config()?;
+    match &config.strategy {
+        StrategySettings::Conventional(_) => resume_with::<ConventionalNe>(folder, config, stop, options),
+    }
+}
+
+/// Goes on with a run that was started by [`train_with`].
+///
+/// # Errors
+/// As [`resume`].
+pub fn resume_with<S: Strategy>(
+    folder: RunFolder,
+    mut config: RunConfig,
+    stop: StopConditions,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, TrainError>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
+    let planned = config.stop;
+    config.stop = overlaid(planned, stop);
+    let setup = Setup::new(&config, &options.catalogue)?;
+    let evaluator = Parallel::new(options.threads)?;
+    let missing = || FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() };
+    if !folder.checkpoint().is_file() {
+        return Err(missing().into());
+    }
+    let checkpoint = Checkpoint::<S>::read(&folder.checkpoint()).map_err(FolderError::from)?;
+    let best = checkpoint.champion.as_ref().map(|champion| champion.fitness);
+    if let Some(reason) = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO) {
+        return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
+    }
+    if config.stop != planned {
+        folder.write_config(&config)?;
+    }
+    let evolution = Evolution::resume(checkpoint, config.stop);
+    drive(evolution, &config, &setup, folder, &evaluator, options)
+}
+
+/// Every condition of `new`, and those of `old` where `new` has none.
+fn overlaid(old: StopConditions, new: StopConditions) -> StopConditions {
+    StopConditions {
+        generations: new.generations.or(old.generations),
+        evaluations: new.evaluations.or(old.evaluations),
+        steps: new.steps.or(old.steps),
+        minutes: new.minutes.or(old.minutes),
+        target: new.target.or(old.target),
+        stagnation: new.stagnation.or(old.stagnation),
+    }
+}
+
+fn drive<S: Strategy>(
+    evolution: Evolution<S>,
+    config: &RunConfig,
+    setup: &Setup,
+    folder: RunFolder,
+    evaluator: &Parallel,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, TrainError>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
+    let mut evolution = evolution.with_signal(options.signal);
+    let generations = evolution.progress().generations;
+    let mut recorder = Recorder::new(&folder, config, setup, generations, options.on_generation)?;
+    if generations == 0 {
+        // So that a run killed in its first generations can be resumed too.
+        recorder.save(&evolution)?;
+    }
+    let ended = {
+        let mut observers: [Box<dyn Observer<S> + '_>; 1] = [Box::new(&mut recorder)];
+        evolution.run(&setup.episode, evaluator, &mut observers)
+    };
+    let progress = evolution.progress();
+    let reason = ended.map_err(|source| TrainError::BrokeOff {
+        generation: progress.generations,
+        folder: folder.clone(),
+        source,
+    })?;
+    recorder.save(&evolution)?;
+    let champion = match evolution.champion() {
+        Some(_) => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
+        None => None,
+    };
+    Ok(Outcome { folder, reason, progress, champion })
+}

@@ -1,0 +1,149 @@
+use crate::{
+    Cases, assert_caught,
+    common::{Climber, Weights},
+};
+use ne_core::{
+    Evaluation, Seed, Statistic, Strategy,
+    conformance::{StrategyOptions, check_strategy, genome, strategy::*},
+};
+use serde::{Deserialize, Serialize};
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// The toy strategy, with one flaw.
+#[derive(Serialize, Deserialize)]
+struct Flawed {
+    inner: Climber,
+    flaw: Flaw,
+    asked: Vec<Weights>,
+    #[serde(skip)]
+    unsaved: u32,
+    failed: bool,
+    extreme: bool,
+    restless: f32,
+}
+
+#[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
+enum Flaw {
+    None,
+    GivesUp,
+    NameWithSpaces,
+    NameCounts,
+    AsksNothing,
+    Dwindles,
+    StatisticNan,
+    StatisticComesAndGoes,
+    StatisticTwice,
+    AskedByChance,
+    IgnoresSeed,
+    ForgetsInFile,
+    CannotBeReadBack,
+    GenomesWithNan,
+    PanicsWhenAllFail,
+    ShrinksWhenAllFail,
+    NanAtExtremes,
+}
+
+static ASKED: AtomicU32 = AtomicU32::new(0);
+
+impl Flawed {
+    fn new(flaw: Flaw) -> Self {
+        let restless = if flaw == Flaw::CannotBeReadBack { f32::INFINITY } else { 0.0 };
+        let inner = Climber::new(6);
+        Self { inner, flaw, asked: Vec::new(), unsaved: 0, failed: false, extreme: false, restless }
+    }
+}
+
+impl Strategy for Flawed {
+    type Genome = Weights;
+
+    fn name(&self) -> &str {
+        match self.flaw {
+            Flaw::NameWithSpaces => "Hill Climber",
+            Flaw::NameCounts if self.unsaved % 2 == 1 => "climber-1",
+            _ => self.inner.name(),
+        }
+    }
+
+    fn ask(&mut self, seed: Seed) -> &[Weights] {
+        let generation = seed.generation_index();
+        let seed = if self.flaw == Flaw::IgnoresSeed { Seed::of_run(9).generation(generation) } else { seed };
+        self.asked = self.inner.ask(seed).to_vec();
+        match self.flaw {
+            Flaw::AsksNothing if generation == 3 => self.asked.clear(),
+            Flaw::Dwindles if generation > 4 => self.asked.truncate(5),
+            Flaw::AskedByChance => self.asked[0].0[0] = ASKED.fetch_add(1, Ordering::Relaxed) as f32,
+            Flaw::ForgetsInFile => self.asked[1].0[0] += self.unsaved as f32,
+            Flaw::GenomesWithNan => self.asked[0].0.push(f32::NAN),
+            Flaw::ShrinksWhenAllFail if self.failed => self.asked.truncate(1),
+            Flaw::NanAtExtremes if self.extreme => self.asked[2].0.push(f32::NAN),
+            _ => {}
+        }
+        &self.asked
+    }
+
+    fn tell(&mut self, evaluations: &[Evaluation], seed: Seed) {
+        self.failed = evaluations.iter().all(|evaluation| evaluation.outcome.is_err());
+        self.extreme |= evaluations.iter().filter_map(Evaluation::fitness).any(|fitness| fitness.get() > 1e100);
+        self.unsaved += 1;
+        assert!(!(self.failed && self.flaw == Flaw::PanicsWhenAllFail), "nobody left");
+        assert!(!(self.flaw == Flaw::GivesUp && seed.generation_index() == 2), "this is hopeless");
+        self.inner.tell(evaluations, seed);
+    }
+
+    fn statistics(&self) -> Vec<Statistic> {
+        let mut statistics = self.inner.statistics();
+        match self.flaw {
+            Flaw::StatisticNan => statistics.push(Statistic::new("ratio", f64::from(self.unsaved / 8) / 0.0)),
+            Flaw::StatisticComesAndGoes if self.unsaved == 3 => drop(statistics.pop()),
+            Flaw::StatisticTwice => statistics.extend(statistics.clone()),
+            _ => {}
+        }
+        statistics
+    }
+}
+
+#[test]
+fn broken_strategies_are_caught() {
+    let check = |flaw: Flaw| check_strategy(|| Flawed::new(flaw), &StrategyOptions::default());
+    assert_eq!(check(Flaw::None), Ok(()));
+    let cases: Cases<'_> = vec![
+        (RUNS, "gives up", check(Flaw::GivesUp)),
+        (NAME, "name with spaces", check(Flaw::NameWithSpaces)),
+        (NAME, "name counts", check(Flaw::NameCounts)),
+        (POPULATION, "asks nothing", check(Flaw::AsksNothing)),
+        (POPULATION, "dwindles", check(Flaw::Dwindles)),
+        (SHAPE, "genomes of two shapes", check_strategy(|| Mixed(Vec::new()), &StrategyOptions::default())),
+        (STATISTICS, "a statistic is NaN", check(Flaw::StatisticNan)),
+        (STATISTICS, "a statistic comes and goes", check(Flaw::StatisticComesAndGoes)),
+        (STATISTICS, "a statistic twice", check(Flaw::StatisticTwice)),
+        (DETERMINISTIC, "asks by chance of its own", check(Flaw::AskedByChance)),
+        (USES_SEED, "ignores the seed", check(Flaw::IgnoresSeed)),
+        (RESUMES, "forgets in a file", check(Flaw::ForgetsInFile)),
+        (RESUMES, "cannot be read back", check(Flaw::CannotBeReadBack)),
+        (genome::SURVIVES_A_FILE, "genomes with NaN", check(Flaw::GenomesWithNan)),
+        (OUTLIVES_FAILURE, "panics when all fail", check(Flaw::PanicsWhenAllFail)),
+        (OUTLIVES_FAILURE, "shrinks when all fail", check(Flaw::ShrinksWhenAllFail)),
+        (OUTLIVES_EXTREMES, "NaN at extremes", check(Flaw::NanAtExtremes)),
+    ];
+    assert_caught(&cases, PROMISES);
+}
+
+/// Asks for puppets of two shapes.
+#[derive(Serialize, Deserialize)]
+struct Mixed(Vec<ne_core::conformance::Puppet>);
+
+impl Strategy for Mixed {
+    type Genome = ne_core::conformance::Puppet;
+
+    fn name(&self) -> &str {
+        "mixed"
+    }
+
+    fn ask(&mut self, seed: Seed) -> &[Self::Genome] {
+        let puppet = |outputs| Self::Genome::new(2, outputs, seed.generation_index());
+        self.0 = vec![puppet(1), puppet(2)];
+        &self.0
+    }
+
+    fn tell(&mut self, _: &[Evaluation], _: Seed) {}
+}

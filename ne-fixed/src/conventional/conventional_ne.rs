@@ -1,0 +1,217 @@
+use super::{ConventionalNeSettings, state::State};
+use crate::{Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector};
+use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
+use ne_net::DenseShape;
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+use std::{cmp::Reverse, sync::Arc};
+
+const FIRST_GENERATION: Purpose = Purpose::new("conventional-ne first generation");
+const PARENTS: Purpose = Purpose::new("conventional-ne parents");
+const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
+
+/// Conventional neuroevolution: a generational genetic algorithm over the weights of a net of fixed shape.
+///
+/// A generation consists of, in this order:
+/// 1. the elites, best first, unchanged (of equals those with the lower index);
+/// 2. children: two parents are selected; with the crossover rate the child is their crossover, else a copy of the
+///    first; then it mutates;
+/// 3. the immigrants, drawn like the first generation.
+///
+/// Failed evaluations rank below every fitness. A child's mutation deviation (see
+/// [`SelfAdaptiveMutation`](crate::SelfAdaptiveMutation)) starts as the mean of its parents'.
+///
+/// Selection, crossover and mutation can be types of your own in place of the choices this crate offers.
+///
+/// # Statistics
+/// - `mutation_strength`: what mutations are multiplied by, 1 unless the population stagnates;
+/// - `mutation_deviation`: mean of the individuals' deviations, in units of the weights; 0 unless self-adaptive;
+/// - `stagnation_generations`: generations since the best fitness so far was beaten;
+/// - `diversity`: the standard deviation of a gene over the population, mean of all genes, in units of the weights;
+/// - `distinct_parents`: how many individuals were selected to breed the generation; 0 for the first.
+///
+/// Source: Holland, *Adaptation in Natural and Artificial Systems*, 1975; for nets Montana & Davis, *Training
+/// Feedforward Neural Networks Using Genetic Algorithms*, IJCAI 1989.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(
+    into = "State<S, C, M>",
+    try_from = "State<S, C, M>",
+    bound(serialize = "S: Setting, C: Setting, M: Setting", deserialize = "S: Setting, C: Setting, M: Setting")
+)]
+pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
+    pub(super) settings: ConventionalNeSettings<S, C, M>,
+    pub(super) shape: Arc<DenseShape>,
+    /// The generation last told, with its scores: the parents of the next. Empty before the first.
+    pub(super) parents: Vec<WeightVector>,
+    pub(super) scores: Vec<Option<Fitness>>,
+    /// The generation last asked. Once told, it is a parent, and what stands here is memory to be used again.
+    pub(super) population: Vec<WeightVector>,
+    /// Whether `population` was asked and not told yet.
+    pub(super) asked: bool,
+    /// The best score so far.
+    pub(super) best: Option<Fitness>,
+    /// Generations since `best` was beaten.
+    pub(super) stagnation: u64,
+    pub(super) distinct_parents: usize,
+    /// The indices of the selected parents, two for each child; memory to be used again.
+    pub(super) chosen: Vec<usize>,
+}
+
+impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
+    /// A search for weights of nets of this shape.
+    ///
+    /// # Errors
+    /// If a setting or a width of the shape (`shape.hidden[0]`) is out of range.
+    pub fn new(
+        settings: ConventionalNeSettings<S, C, M>,
+        shape: impl Into<Arc<DenseShape>>,
+    ) -> Result<Self, SettingError> {
+        let shape = shape.into();
+        settings.validate()?;
+        shape.validate().map_err(|error| error.within("shape"))?;
+        Ok(Self {
+            settings,
+            shape,
+            parents: Vec::new(),
+            scores: Vec::new(),
+            population: Vec::new(),
+            asked: false,
+            best: None,
+            stagnation: 0,
+            distinct_parents: 0,
+            chosen: Vec::new(),
+        })
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &ConventionalNeSettings<S, C, M> {
+        &self.settings
+    }
+
+    /// The shape of all nets.
+    pub fn shape(&self) -> &Arc<DenseShape> {
+        &self.shape
+    }
+
+    /// What mutations are multiplied by now: 1 unless the population stagnates.
+    pub fn mutation_strength(&self) -> f64 {
+        self.settings.stagnation_boost.map_or(1.0, |boost| boost.strength(self.stagnation))
+    }
+
+    /// The standard deviation of a gene over the individuals last told, mean of all genes.
+    fn diversity(&self) -> f64 {
+        let Some(reference) = self.parents.first() else { return 0.0 };
+        let (count, genes) = (self.parents.len() as f64, reference.weights().len());
+        let (mut sums, mut squares) = (vec![0.0; genes], vec![0.0; genes]);
+        for parent in &self.parents {
+            for (gene, (weight, origin)) in parent.weights().iter().zip(reference.weights()).enumerate() {
+                // Differences, since squares of a common large offset would swamp the deviation.
+                let difference = f64::from(weight - origin);
+                sums[gene] += difference;
+                squares[gene] += difference * difference;
+            }
+        }
+        let variance = |(sum, square): (&f64, &f64)| ((square - sum * sum / count) / count).max(0.0);
+        sums.iter().zip(&squares).map(|sums| variance(sums).sqrt()).sum::<f64>() / genes as f64
+    }
+}
+
+impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
+    /// Draws the weights of an individual as in the first generation.
+    fn draw(&self, individual: &mut WeightVector, seed: Seed) {
+        self.settings.initialization.draw(individual, &mut seed.stream(FIRST_GENERATION));
+        *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
+    }
+
+    /// Copies the best parents.
+    fn copy_elites(&self, elites: &mut [WeightVector]) {
+        if elites.is_empty() {
+            return;
+        }
+        let mut order: Vec<usize> = (0..self.parents.len()).collect();
+        let rank = |&index: &usize| (Reverse(self.scores[index]), index);
+        order.select_nth_unstable_by_key(elites.len() - 1, rank);
+        order.truncate(elites.len());
+        order.sort_unstable_by_key(rank);
+        elites.iter_mut().zip(order).for_each(|(elite, index)| elite.copy_from(&self.parents[index]));
+    }
+
+    /// Selects two parents for each of `children`.
+    fn select_parents(&mut self, children: usize, seed: Seed) {
+        self.chosen.clear();
+        self.settings.selection.select(&self.scores, 2 * children, &mut seed.stream(PARENTS), &mut self.chosen);
+        assert_eq!(self.chosen.len(), 2 * children, "number of parents the selector chose");
+        let mut breeds = vec![false; self.parents.len()];
+        self.chosen.iter().for_each(|&parent| breeds[parent] = true);
+        self.distinct_parents = breeds.into_iter().filter(|&breeds| breeds).count();
+    }
+
+    /// Writes the child of two parents.
+    fn breed(&self, child: &mut WeightVector, parents: &[usize], strength: f32, seed: Seed) {
+        let (first, second) = (&self.parents[parents[0]], &self.parents[parents[1]]);
+        let mut stream = seed.stream(REPRODUCTION);
+        if stream.random::<f64>() < self.settings.crossover_rate {
+            let (weights, deviation) = child.genes_mut();
+            self.settings.crossover.cross(first.weights(), second.weights(), weights, &mut stream);
+            *deviation = 0.5 * (first.mutation_deviation() + second.mutation_deviation());
+        } else {
+            child.copy_from(first);
+        }
+        let (weights, deviation) = child.genes_mut();
+        self.settings.mutation.mutate(weights, deviation, strength, &mut stream);
+    }
+}
+
+impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for ConventionalNe<S, C, M> {
+    type Genome = WeightVector;
+
+    fn name(&self) -> &str {
+        "conventional-ne"
+    }
+
+    /// # Panics
+    /// If a selector of your own does not choose as many parents as it is asked for.
+    fn ask(&mut self, seed: Seed) -> &[WeightVector] {
+        let ConventionalNeSettings { population: size, elites, immigrants, .. } = self.settings;
+        let mut population = std::mem::take(&mut self.population);
+        population.resize_with(size, || WeightVector::zero(Arc::clone(&self.shape)));
+        let place = |index: usize| seed.individual(index as u64);
+        let first_drawn = if self.parents.is_empty() { 0 } else { size - immigrants };
+        if !self.parents.is_empty() {
+            self.copy_elites(&mut population[..elites]);
+            self.select_parents(first_drawn - elites, seed);
+            let strength = self.mutation_strength() as f32;
+            for (index, parents) in (elites..first_drawn).zip(self.chosen.chunks_exact(2)) {
+                self.breed(&mut population[index], parents, strength, place(index));
+            }
+        }
+        for (index, individual) in population.iter_mut().enumerate().skip(first_drawn) {
+            self.draw(individual, place(index));
+        }
+        self.population = population;
+        self.asked = true;
+        &self.population
+    }
+
+    fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
+        debug_assert_eq!(evaluations.len(), self.population.len());
+        std::mem::swap(&mut self.parents, &mut self.population);
+        self.asked = false;
+        self.scores.clear();
+        self.scores.extend(evaluations.iter().map(Evaluation::fitness));
+        let best = self.scores.iter().copied().max().flatten();
+        self.stagnation = if best > self.best { 0 } else { self.stagnation + 1 };
+        self.best = self.best.max(best);
+    }
+
+    fn statistics(&self) -> Vec<Statistic> {
+        let deviations: f64 = self.parents.iter().map(|parent| f64::from(parent.mutation_deviation())).sum();
+        vec![
+            Statistic::new("mutation_strength", self.mutation_strength()),
+            Statistic::new("mutation_deviation", deviations / self.parents.len().max(1) as f64),
+            Statistic::new("stagnation_generations", self.stagnation as f64),
+            Statistic::new("diversity", self.diversity()),
+            Statistic::new("distinct_parents", self.distinct_parents as f64),
+        ]
+    }
+}

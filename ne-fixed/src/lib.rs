@@ -1,0 +1,62 @@
+//! Neuroevolution of weights on a fixed topology: the net's shape stays, its weights evolve.
+//!
+//! The genome is a [`WeightVector`]; each strategy is a file that reads like its paper. So far there is
+//! [`ConventionalNe`], a generational genetic algorithm, in the form of the thesis
+//! ([`ConventionalNeSettings::thesis`]) and in a better one ([`ConventionalNeSettings::default`]); CMA-ES, OpenAI-ES
+//! and CoSyNE will stand beside it.
+//!
+//! The one decision behind the operators: **they are plain numbers on plain slices.** A [`Crossover`] or [`Mutation`]
+//! sees weights and a random stream of its own and knows nothing of nets, populations or generations. A [`Setting`], it
+//! is named and adjusted in a configuration file, checked once, and saved with the strategy.
+//!
+//! | part of conventional neuroevolution | choices |
+//! |---|---|
+//! | [`Initialization`] | uniform, Gaussian scaled by fan-in |
+//! | selection of parents | [`Selection`](ne_core::Selection), or any [`Selector`](ne_core::Selector) of yours |
+//! | [`CrossoverChoice`] | [`OnePoint`], [`TwoPoint`], [`UniformCrossover`], [`Arithmetic`], or your [`Crossover`] |
+//! | [`MutationChoice`] | [`UniformMutation`], [`GaussianMutation`], [`SelfAdaptiveMutation`], or your [`Mutation`] |
+//! | [`StagnationBoost`] | larger mutations when a population stagnates |
+//!
+//! ```
+//! use ne_core::{Evaluation, Evolution, Phenotype, Seed, Serial, StopConditions, Task};
+//! use ne_fixed::{ConventionalNe, ConventionalNeSettings};
+//! use ne_net::DenseShape;
+//!
+//! /// Answer with the half of the input.
+//! struct Half;
+//! impl Task for Half {
+//!     fn inputs(&self) -> usize { 1 }
+//!     fn outputs(&self) -> usize { 1 }
+//!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
+//!         let mut error = 0.0;
+//!         for step in -10..=10 {
+//!             let (input, mut answer) = (step as f32 * 0.1, [0.0]);
+//!             phenotype.activate(&[input], &mut answer);
+//!             error += f64::from((answer[0] - 0.5 * input).powi(2));
+//!         }
+//!         Evaluation::new(-error)
+//!     }
+//! }
+//!
+//! let strategy = ConventionalNe::new(ConventionalNeSettings::default(), DenseShape::new(1, vec![4], 1))?;
+//! let stop = StopConditions { generations: Some(30), ..Default::default() };
+//! let mut evolution = Evolution::new(strategy, Seed::of_run(1), stop);
+//! evolution.run(&Half, &Serial, &mut [])?;
+//! assert!(evolution.champion().expect("there is a best").fitness.get() > -0.1);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod chance;
+mod conventional;
+mod crossover;
+mod genome;
+mod initialization;
+mod mutation;
+mod setting;
+
+pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost, StateError};
+pub use crossover::{Arithmetic, Crossover, CrossoverChoice, OnePoint, TwoPoint, UniformCrossover};
+pub use genome::{WeightVector, WeightVectorError};
+pub use initialization::Initialization;
+pub use mutation::{GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation};
+pub use setting::Setting;

@@ -1,0 +1,9 @@
+//! Dense feed-forward nets.
+
+mod net;
+mod shape;
+
+pub use {
+    net::{DenseNet, DenseNetError},
+    shape::DenseShape,
+};
