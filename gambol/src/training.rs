@@ -155,7 +155,7 @@ where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
     let planned = config.stop;
-    config.stop = overlaid(planned, stop);
+    config.stop = planned.overlaid(stop);
     let setup = Setup::new(&config, &options.catalogue)?;
     let evaluator = Parallel::new(options.threads)?;
     let missing = || FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() };
@@ -172,18 +172,6 @@ where
     }
     let evolution = Evolution::resume(checkpoint, config.stop);
     drive(evolution, &config, &setup, folder, &evaluator, options)
-}
-
-/// Every condition of `new`, and those of `old` where `new` has none.
-fn overlaid(old: StopConditions, new: StopConditions) -> StopConditions {
-    StopConditions {
-        generations: new.generations.or(old.generations),
-        evaluations: new.evaluations.or(old.evaluations),
-        steps: new.steps.or(old.steps),
-        minutes: new.minutes.or(old.minutes),
-        target: new.target.or(old.target),
-        stagnation: new.stagnation.or(old.stagnation),
-    }
 }
 
 fn drive<S: Strategy>(

@@ -114,6 +114,19 @@ impl StopConditions {
         Ok(())
     }
 
+    /// Every condition of `newer`, and those of `self` where `newer` has none.
+    #[must_use]
+    pub fn overlaid(self, newer: Self) -> Self {
+        Self {
+            generations: newer.generations.or(self.generations),
+            evaluations: newer.evaluations.or(self.evaluations),
+            steps: newer.steps.or(self.steps),
+            minutes: newer.minutes.or(self.minutes),
+            target: newer.target.or(self.target),
+            stagnation: newer.stagnation.or(self.stagnation),
+        }
+    }
+
     /// The first condition that is met, if any.
     pub fn reached(&self, progress: &Progress, best: Option<Fitness>, elapsed: Duration) -> Option<StopReason> {
         let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);

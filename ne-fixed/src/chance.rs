@@ -37,33 +37,6 @@ fn gap(per_index: f64, stream: &mut RandomStream) -> usize {
     (libm::log(uniform) * per_index) as usize
 }
 
-/// A source of normally distributed numbers with mean 0 and deviation 1.
-///
-/// Source: Marsaglia & Bray, *A Convenient Method for Generating Normal Variables*, SIAM Review 6(3), 1964.
-#[derive(Default)]
-pub(crate) struct Normal {
-    /// The method gives two at a time.
-    spare: Option<f32>,
-}
-
-impl Normal {
-    #[inline]
-    pub(crate) fn next(&mut self, stream: &mut RandomStream) -> f32 {
-        if let Some(spare) = self.spare.take() {
-            return spare;
-        }
-        loop {
-            let (x, y) = (symmetric(stream), symmetric(stream));
-            let square = x * x + y * y;
-            if square > 0.0 && square < 1.0 {
-                let factor = (-2.0 * libm::logf(square) / square).sqrt();
-                self.spare = Some(y * factor);
-                return x * factor;
-            }
-        }
-    }
-}
-
 /// Uniform from -1 (included) to 1 (excluded).
 #[inline]
 pub(crate) fn symmetric(stream: &mut RandomStream) -> f32 {
@@ -100,17 +73,5 @@ mod tests {
             for_each_chosen(rate, 50, &mut stream(1), |index, _| chosen.push(index));
             assert_eq!(chosen, (0..expected).collect::<Vec<_>>());
         }
-    }
-
-    #[test]
-    fn normal_numbers_have_normal_moments() {
-        let (mut normal, mut stream) = (Normal::default(), stream(2));
-        let numbers: Vec<f64> = (0..200_000).map(|_| f64::from(normal.next(&mut stream))).collect();
-        let moment = |power| numbers.iter().map(|x| x.powi(power)).sum::<f64>() / numbers.len() as f64;
-        for (power, expected, tolerance) in [(1, 0.0, 0.01), (2, 1.0, 0.02), (3, 0.0, 0.04), (4, 3.0, 0.15)] {
-            assert!((moment(power) - expected).abs() < tolerance, "moment {power}: {}", moment(power));
-        }
-        let beyond = numbers.iter().filter(|x| x.abs() > 1.96).count() as f64 / numbers.len() as f64;
-        assert!((beyond - 0.05).abs() < 0.003, "{beyond}");
     }
 }

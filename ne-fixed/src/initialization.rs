@@ -1,6 +1,7 @@
 use crate::{
     WeightVector,
-    chance::{Normal, symmetric},
+    chance::symmetric,
+    normal::Normal,
 };
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
@@ -48,7 +49,7 @@ impl Initialization {
                 weights.iter_mut().for_each(|weight| *weight = symmetric(stream) * limit);
             }
             Self::ScaledGaussian { scale } => {
-                let mut normal = Normal::default();
+                let normal = Normal::new();
                 for (sources, targets) in shape.connections() {
                     let deviation = (scale / ((sources + 1) as f64).sqrt()) as f32;
                     let (layer, rest) = weights.split_at_mut((sources + 1) * targets);

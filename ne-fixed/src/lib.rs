@@ -52,6 +52,7 @@ mod crossover;
 mod genome;
 mod initialization;
 mod mutation;
+mod normal;
 mod setting;
 
 pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost, StateError};

@@ -110,10 +110,10 @@ fn logistic(a: f32) -> f32 {
 
 #[inline(always)]
 fn rational_tanh(a: f32) -> f32 {
-    // At ±3 the expression is exactly ±1, and flat.
+    // At ±3 the expression is exactly ±1, and flat: next to it, rounding may step over 1.
     let a = limit(a, -3.0, 3.0);
     let square = a * a;
-    a * (27.0 + square) / (27.0 + 9.0 * square)
+    limit(a * (27.0 + square) / (27.0 + 9.0 * square), -1.0, 1.0)
 }
 
 #[inline(always)]
@@ -167,6 +167,9 @@ mod tests {
     fn rational_tanh_is_clamped() {
         for a in [3.0, 3.1, 1e30, f32::INFINITY] {
             assert_eq!((rational_tanh(a), rational_tanh(-a)), (1.0, -1.0));
+        }
+        for a in (2.9_f32.to_bits()..3.0_f32.to_bits()).map(f32::from_bits) {
+            assert!(rational_tanh(a) <= 1.0, "{a}");
         }
     }
 

@@ -43,23 +43,25 @@ impl Assembly {
         Self { value: serde_json::to_value(base).unwrap_or_default() }
     }
 
-    /// Lays the fields of a configuration file over what is there: a file with some of the fields, or the `config.json`
-    /// of another run. Objects are merged; a choice (an object with one key that names what was chosen, such as
-    /// `{"tournament": {"size": 3}}`) replaces another choice.
-    ///
-    /// # Errors
-    /// If the text is not a JSON object.
-    pub fn lay_over(&mut self, text: &str) -> Result<(), ConfigError> {
-        let layer: Value = serde_json::from_str(text).map_err(|error| {
-            let full = error.to_string();
-            let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
-            ConfigError::Malformed { line: error.line(), column: error.column(), message }
-        })?;
-        if !layer.is_object() {
-            return Err(ConfigError::Field { field: "the file".into(), message: "must be a JSON object".into() });
+    /// Lays fields over what is there. Objects are merged; a choice (an object with one key that names what was chosen,
+    /// such as `{"tournament": {"size": 3}}`) replaces another choice.
+    pub fn lay_over(&mut self, layer: Value) {
+        merge(&mut self.value, layer);
+    }
+
+    /// Puts these fields back to what they are in `base`.
+    pub(super) fn keep(&mut self, base: &RunConfig, fields: &[&str]) {
+        let base = Self::new(base);
+        for &field in fields {
+            self.value[field] = base.value[field].clone();
         }
-        merge(&mut self.value, unwrapped(layer)?);
-        Ok(())
+    }
+
+    /// Puts the movement's name in place.
+    pub(super) fn keep_movement(&mut self, name: &str) {
+        if let Some(movement) = self.value.get_mut("movement").and_then(Value::as_object_mut) {
+            movement.insert("name".into(), name.into());
+        }
     }
 
     /// Sets one field: `physics.time_step=0.01`, `controller.hidden=[8,8]`, `movement.terms=[{"term":"energy"}]`. The
@@ -98,11 +100,29 @@ impl Assembly {
     /// # Errors
     /// If a field is unknown, missing or of the wrong type.
     pub fn finish(self) -> Result<RunConfig, ConfigError> {
-        serde_path_to_error::deserialize(self.value).map_err(|error| {
+        self.check()
+    }
+
+    /// As [`finish`](Self::finish), for a look in between.
+    pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
+        serde_path_to_error::deserialize(&self.value).map_err(|error| {
             let field = error.path().to_string();
             ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
         })
     }
+}
+
+/// Reads the fields of a configuration file: one with some of the fields, or the `config.json` of another run.
+pub(super) fn parse(text: &str) -> Result<Value, ConfigError> {
+    let layer: Value = serde_json::from_str(text).map_err(|error| {
+        let full = error.to_string();
+        let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
+        ConfigError::Malformed { line: error.line(), column: error.column(), message }
+    })?;
+    if !layer.is_object() {
+        return Err(ConfigError::Field { field: "the file".into(), message: "must be a JSON object".into() });
+    }
+    unwrapped(layer)
 }
 
 /// The fields of a file, which may stand in the envelope of a run's own `config.json`.

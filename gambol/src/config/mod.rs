@@ -2,9 +2,11 @@
 
 mod assembly;
 mod presets;
+mod request;
 
 pub use assembly::{Assembly, ConfigError};
 pub use presets::{PRESETS, Preset, preset};
+pub use request::{Request, RequestError};
 
 use creatures::{Creature, Sensor};
 use envs_rapier::{PhysicsSettings, Variation};

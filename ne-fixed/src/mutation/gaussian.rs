@@ -1,7 +1,8 @@
 use super::Mutation;
 use crate::{
     Setting,
-    chance::{Normal, for_each_chosen},
+    chance::for_each_chosen,
+    normal::Normal,
 };
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
@@ -34,7 +35,7 @@ impl Setting for GaussianMutation {
 impl Mutation for GaussianMutation {
     fn mutate(&self, weights: &mut [f32], _deviation: &mut f32, strength: f32, stream: &mut RandomStream) {
         let deviation = self.deviation as f32 * strength;
-        let mut normal = Normal::default();
+        let normal = Normal::new();
         for_each_chosen(self.rate, weights.len(), stream, |index, stream| {
             weights[index] += normal.next(stream) * deviation;
         });

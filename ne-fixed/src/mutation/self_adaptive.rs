@@ -1,7 +1,8 @@
 use super::Mutation;
 use crate::{
     Setting,
-    chance::{Normal, for_each_chosen},
+    chance::for_each_chosen,
+    normal::Normal,
 };
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
@@ -49,7 +50,7 @@ impl Setting for SelfAdaptiveMutation {
 
 impl Mutation for SelfAdaptiveMutation {
     fn mutate(&self, weights: &mut [f32], deviation: &mut f32, strength: f32, stream: &mut RandomStream) {
-        let mut normal = Normal::default();
+        let normal = Normal::new();
         let learning_rate = self.learning_rate.unwrap_or_else(|| 1.0 / (2.0 * weights.len().max(1) as f64).sqrt());
         *deviation *= libm::expf(learning_rate as f32 * normal.next(stream));
         *deviation = deviation.clamp(self.minimum as f32, self.maximum as f32);

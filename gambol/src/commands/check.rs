@@ -1,0 +1,95 @@
+use super::Outcome;
+use clap::Args;
+use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use gambol::{
+    Setup,
+    champion::{CHAMPION_FORMAT, Champion},
+    config::Request,
+    source,
+};
+use ne_core::CHECKPOINT_FORMAT;
+use serde_json::Value;
+use std::{
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol check my-creature.json
+  gambol check my-config.json
+  gambol check runs/biped-1-running/champion.json")]
+pub(crate) struct Check {
+    /// A creature, configuration or champion file
+    file: PathBuf,
+}
+
+impl Check {
+    pub(crate) fn run(self) -> Outcome {
+        let path = &self.file;
+        let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        // What is not even JSON is left to the reader of creatures, which says where.
+        let value: Value = serde_json::from_str(&text).unwrap_or_default();
+        match value.get("format").and_then(Value::as_str) {
+            Some(CHAMPION_FORMAT) => check_champion(path)?,
+            Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),
+            Some(creatures::FORMAT) => check_creature(path)?,
+            _ if !value.is_object() || value.get("parts").is_some() => check_creature(path)?,
+            _ => check_config(path, &value)?,
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
+    let creature = source::creature_file(path)?;
+    let blueprint = Blueprint::new(creature)?;
+    let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
+    let motors = Motors::new(&blueprint);
+    println!(
+        "{}: a valid creature, \"{}\": {} parts, {} joints, {} inputs, {} outputs",
+        path.display(),
+        blueprint.name(),
+        blueprint.parts().len(),
+        blueprint.hinges().len(),
+        senses.len(),
+        motors.len()
+    );
+    for channel in senses.channels() {
+        println!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit);
+    }
+    for channel in motors.channels() {
+        println!("  out  {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit);
+    }
+    Ok(())
+}
+
+fn check_champion(path: &Path) -> Result<(), Box<dyn Error>> {
+    let champion = Champion::read(path)?;
+    champion.episode(&MovementCatalogue::default()).map_err(|error| format!("{}: {error}", path.display()))?;
+    let (creature, movement) = (&champion.creature.name, &champion.movement.name);
+    println!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness);
+    println!("  to prove that it still does the same: gambol verify {}", path.display());
+    Ok(())
+}
+
+/// A configuration may leave out creature and movement, which are then given to `train`.
+fn check_config(path: &Path, value: &Value) -> Result<(), Box<dyn Error>> {
+    let fields = value.get("content").unwrap_or(value);
+    let missing = |pointer: &str, stand_in: &str| fields.pointer(pointer).is_none().then(|| stand_in.to_owned());
+    let catalogue = MovementCatalogue::default();
+    let request = Request {
+        creature: missing("/creature", "biped-1"),
+        movement: missing("/movement/name", "running"),
+        config: Some(path.into()),
+        ..Request::default()
+    };
+    let config = request.resolve(&catalogue)?;
+    Setup::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    println!("{}: a valid configuration", path.display());
+    Ok(())
+}

@@ -1,0 +1,71 @@
+use super::Outcome;
+use clap::Args;
+use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use serde_json::json;
+use std::process::ExitCode;
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+pub(crate) struct Creatures {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Creatures {
+    pub(crate) fn run(self) -> Outcome {
+        let mut rows = Vec::new();
+        for shipped in creatures::shipped() {
+            let blueprint = Blueprint::from_json(shipped.json)?;
+            let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
+            let counts = [blueprint.parts().len(), blueprint.hinges().len(), senses.len(), Motors::new(&blueprint).len()];
+            rows.push((shipped.name, blueprint.creature().title.clone(), counts));
+        }
+        if self.json {
+            let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| {
+                json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs })
+            };
+            println!("{}", rows.iter().map(row).collect::<serde_json::Value>());
+        } else {
+            println!("{:<12} {:<20} {:>5} {:>6} {:>6} {:>7}", "name", "", "parts", "joints", "inputs", "outputs");
+            for (name, title, [parts, joints, inputs, outputs]) in rows {
+                println!("{name:<12} {title:<20} {parts:>5} {joints:>6} {inputs:>6} {outputs:>7}");
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[derive(Args)]
+pub(crate) struct Movements {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Movements {
+    pub(crate) fn run(self) -> Outcome {
+        let catalogue = MovementCatalogue::default();
+        if self.json {
+            let row = |entry: &tasks::MovementEntry| {
+                json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description })
+            };
+            println!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>());
+            return Ok(ExitCode::SUCCESS);
+        }
+        let line = |entry: &tasks::MovementEntry, steps: String| {
+            println!("  {:<12} {:<3} {steps:<11} {}", entry.name, entry.unit, entry.description);
+        };
+        println!("movements");
+        for entry in catalogue.entries() {
+            if let Some(steps) = entry.steps {
+                line(entry, format!("{steps} steps"));
+            }
+        }
+        println!("terms, to be added with --set 'movement.terms=[{{\"term\":NAME,\"weight\":W}}]'");
+        for entry in catalogue.entries().iter().filter(|entry| entry.steps.is_none()) {
+            line(entry, String::new());
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}

@@ -1,0 +1,78 @@
+//! The commands of the program.
+
+mod check;
+mod list;
+mod progress;
+mod replay;
+mod report;
+mod resume;
+mod train;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use std::{error::Error, process::ExitCode};
+
+/// What a command gives back: an exit code, or an error to be shown.
+type Outcome = Result<ExitCode, Box<dyn Error>>;
+
+/// The exit code of `verify` when the replay is not what the file says.
+const DIVERGED: u8 = 3;
+/// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
+const INTERRUPTED: u8 = 130;
+
+/// Gambol evolves controllers for 2D creatures: pick a creature and a movement, watch it learn, keep the gait.
+#[derive(Parser)]
+#[command(version, propagate_version = true, after_help = "\
+Examples:
+  gambol train biped-1 running             train a shipped creature; the run goes to runs/biped-1-running
+  gambol train my-creature.json jumping    train a creature of your own
+  gambol resume runs/biped-1-running --generations 600
+  gambol verify runs/biped-1-running/champion.json
+
+Exit codes:
+  0    done
+  1    something was wrong: the message says which file and which field
+  2    the command line was not understood
+  3    verify: the replay is not what the champion file says
+  130  a run was interrupted; it is saved and can be resumed
+
+Set GAMBOL_LOG=debug to see what the libraries do.")]
+pub(crate) struct Program {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Subcommand)]
+pub(crate) enum Command {
+    /// Evolves a controller for a creature and a movement
+    Train(train::Train),
+    /// Goes on with a run from its last checkpoint
+    Resume(resume::Resume),
+    /// Makes the HTML report of a run anew
+    Report(report::Report),
+    /// Replays a champion and proves that it does what its file says, to the bit
+    Verify(verify::Verify),
+    /// Replays a champion: as a page, as a trajectory
+    Replay(replay::Replay),
+    /// Checks a creature, configuration or champion file and says what is wrong where
+    Check(check::Check),
+    /// Lists the shipped creatures
+    Creatures(list::Creatures),
+    /// Lists the movements and the terms that can be added to them
+    Movements(list::Movements),
+}
+
+impl Command {
+    pub(crate) fn run(self) -> Outcome {
+        match self {
+            Self::Train(train) => train.run(),
+            Self::Resume(resume) => resume.run(),
+            Self::Report(report) => report.run(),
+            Self::Verify(verify) => verify.run(),
+            Self::Replay(replay) => replay.run(),
+            Self::Check(check) => check.run(),
+            Self::Creatures(creatures) => creatures.run(),
+            Self::Movements(movements) => movements.run(),
+        }
+    }
+}

@@ -1,0 +1,72 @@
+use super::Outcome;
+use clap::Args;
+use gambol::{champion::Champion, report, trajectory::Recording};
+use ne_core::archive;
+use std::{path::PathBuf, process::ExitCode};
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol replay runs/biped-1-running/champion.json --html gait.html
+  gambol replay champion.json --trajectory gait.csv --seconds 10
+
+The trajectory has a row for each step and part, the start included:
+  step,time_s,part,x_m,y_m,angle_rad,ground_contact")]
+pub(crate) struct Replay {
+    /// A champion file
+    champion: PathBuf,
+    /// Write a page that shows the gait
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Write where every part is after every step, as CSV
+    #[arg(long, value_name = "FILE")]
+    trajectory: Option<PathBuf>,
+    /// How long to play [default: as long as an evaluation]
+    #[arg(long)]
+    seconds: Option<f64>,
+    /// Overwrite files that exist
+    #[arg(long)]
+    force: bool,
+}
+
+impl Replay {
+    pub(crate) fn run(self) -> Outcome {
+        for path in [&self.html, &self.trajectory].into_iter().flatten() {
+            if path.exists() && !self.force {
+                return Err(format!("{} exists; say --force to overwrite it", path.display()).into());
+            }
+        }
+        let catalogue = MovementCatalogue::default();
+        let mut champion = Champion::read(&self.champion)?;
+        if let Some(seconds) = self.seconds {
+            let steps = seconds / f64::from(champion.physics.time_step);
+            if !(1.0..=1e6).contains(&steps) {
+                return Err(format!("--seconds {seconds}: must give from 1 to 1000000 steps").into());
+            }
+            champion.movement.steps = Some(steps.round() as u32);
+        }
+        let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
+        let episode = champion.episode(&catalogue).map_err(|error| in_file(&error))?;
+        let mut recording = Recording::default();
+        let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut recording);
+        if let Some(failure) = &played.failure {
+            println!("the replay failed after {} steps: {failure}", played.steps);
+        }
+        if let Some(path) = &self.trajectory {
+            let names: Vec<String> = champion.creature.parts.iter().map(|part| part.name.clone()).collect();
+            let mut csv = Vec::new();
+            recording.write_csv(&names, &mut csv)?;
+            archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+            println!("trajectory  {}", path.display());
+        }
+        if let Some(path) = &self.html {
+            report::write_replay(&champion, &catalogue, path)?;
+            println!("page        {}", path.display());
+        }
+        let (value, unit) = (played.movement.value(), played.movement.unit());
+        let seconds = f64::from(played.steps) * f64::from(champion.physics.time_step);
+        println!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name);
+        Ok(ExitCode::SUCCESS)
+    }
+}

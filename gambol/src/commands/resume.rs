@@ -1,0 +1,35 @@
+use super::{
+    Outcome,
+    train::{Limits, Manner, carry_out},
+};
+use clap::Args;
+use gambol::{run_folder::RunFolder, training};
+use std::path::PathBuf;
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol resume runs/biped-1-running                      go on after Ctrl-C, a crash or a power cut
+  gambol resume runs/biped-1-running --generations 600    go on with a run that has ended
+
+The rest of the run is, to the bit, what it would have been without the interruption.")]
+pub(crate) struct Resume {
+    /// The folder of the run
+    folder: PathBuf,
+    #[command(flatten)]
+    limits: Limits,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+impl Resume {
+    pub(crate) fn run(self) -> Outcome {
+        let stop = self.limits.conditions();
+        let mut config = RunFolder::open(&self.folder)?.read_config()?;
+        config.stop.generations = stop.generations.or(config.stop.generations);
+        carry_out(&self.manner, &config, MovementCatalogue::default(), |options| {
+            training::resume(&self.folder, stop, options)
+        })
+    }
+}

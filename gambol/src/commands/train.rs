@@ -1,0 +1,186 @@
+use super::{INTERRUPTED, Outcome, progress::Show};
+use clap::Args;
+use gambol::{
+    config::{Request, RunConfig},
+    report,
+    training::{self, TrainOptions},
+};
+use ne_core::{StopConditions, StopReason, StopSignal};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Instant,
+};
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol train biped-1 running
+  gambol train tetrapod-2 jumping --generations 100 --seed 7 --out runs/leap
+  gambol train biped-1 running --preset thesis
+  gambol train apod running --set strategy.conventional.population=200 --set physics.time_step=0.01
+  gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
+  gambol train --config runs/leap/config.json --out runs/leap-again
+
+A run ends at the first limit it meets; without any, after 300 generations. Ctrl-C finishes the generation and saves.")]
+pub(crate) struct Train {
+    /// A shipped creature's name (see: gambol creatures) or a creature file
+    creature: Option<String>,
+    /// What it is to learn (see: gambol movements)
+    movement: Option<String>,
+    /// Where to start from: default, or thesis (the reference algorithm)
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// A configuration file, whole or in part, laid over the preset
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+    /// One setting, such as physics.time_step=0.01; can be given several times
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// The seed: the same seed gives the same run to the bit
+    #[arg(long)]
+    seed: Option<u64>,
+    /// Individuals in a generation
+    #[arg(long)]
+    population: Option<usize>,
+    #[command(flatten)]
+    limits: Limits,
+    /// The folder of the run; it must be new or empty [default: runs/CREATURE-MOVEMENT, numbered]
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+    #[command(flatten)]
+    manner: Manner,
+}
+
+/// When a run ends.
+#[derive(Args, Clone, Copy)]
+pub(super) struct Limits {
+    /// End after so many generations
+    #[arg(long)]
+    generations: Option<u64>,
+    /// End after so many evaluations
+    #[arg(long)]
+    evaluations: Option<u64>,
+    /// End after so many physics steps
+    #[arg(long)]
+    steps: Option<u64>,
+    /// End after so many minutes
+    #[arg(long)]
+    minutes: Option<f64>,
+    /// End when this fitness is reached
+    #[arg(long, allow_hyphen_values = true)]
+    target: Option<f64>,
+    /// End after so many generations without progress
+    #[arg(long, value_name = "GENERATIONS")]
+    stagnation: Option<u64>,
+}
+
+/// How a run is carried out and shown; none of it changes what is found.
+#[derive(Args, Clone, Copy)]
+pub(super) struct Manner {
+    /// Threads [default: one for each core]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    threads: usize,
+    /// Show nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+    /// Print each generation, and the result, as a line of JSON
+    #[arg(long, conflicts_with = "quiet")]
+    json: bool,
+    /// Do not make the HTML report at the end
+    #[arg(long)]
+    no_report: bool,
+}
+
+impl Limits {
+    /// These limits in place of the planned ones. Another budget takes the place of the planned generations; a target
+    /// or stagnation alone comes on top of them, or a run might never end.
+    fn over(self, planned: StopConditions) -> StopConditions {
+        let limits = self.conditions();
+        let budget = limits.evaluations.or(limits.steps).is_some() || limits.minutes.is_some();
+        let planned = StopConditions { generations: planned.generations.filter(|_| !budget), ..planned };
+        planned.overlaid(limits)
+    }
+
+    pub(super) fn conditions(self) -> StopConditions {
+        let Self { generations, evaluations, steps, minutes, target, stagnation } = self;
+        StopConditions { generations, evaluations, steps, minutes, target, stagnation }
+    }
+}
+
+impl Train {
+    pub(crate) fn run(self) -> Outcome {
+        let catalogue = MovementCatalogue::default();
+        let Self { creature, movement, preset, config, set, .. } = &self;
+        let request = Request {
+            creature: creature.clone(),
+            movement: movement.clone(),
+            preset: preset.clone(),
+            config: config.clone(),
+            set: set.clone(),
+        };
+        let mut config = request.resolve(&catalogue)?;
+        if let Some(seed) = self.seed {
+            config.seed = seed;
+        }
+        if let Some(population) = self.population {
+            config.strategy.set_population(population);
+        }
+        config.stop = self.limits.over(config.stop);
+        let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
+        if let Some(generation) = config.stop.generations {
+            // The last generation is worth a look, whichever it is.
+            config.record.populations_at.push(generation);
+            config.record.populations_at.sort_unstable();
+            config.record.populations_at.dedup();
+        }
+        carry_out(&self.manner, &config.clone(), catalogue, |options| training::train(&config, &folder, options))
+    }
+}
+
+/// `runs/biped-1-running`, or with a number behind it if that is taken.
+fn unused_folder(config: &RunConfig) -> PathBuf {
+    let name = format!("{}-{}", config.creature.name, config.movement.name);
+    let numbered = (2..).map(|number| format!("{name}-{number}"));
+    std::iter::once(name.clone())
+        .chain(numbered)
+        .map(|name| Path::new("runs").join(name))
+        .find(|path| !path.exists())
+        .unwrap_or_default()
+}
+
+/// Runs what `start` starts, with progress shown, Ctrl-C caught, and a report at the end.
+pub(super) fn carry_out(
+    manner: &Manner,
+    config: &RunConfig,
+    catalogue: MovementCatalogue,
+    start: impl FnOnce(TrainOptions<'_>) -> Result<training::Outcome, training::TrainError>,
+) -> Outcome {
+    let signal = StopSignal::default();
+    let on_interrupt = signal.clone();
+    ctrlc::set_handler(move || {
+        if on_interrupt.is_set() {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+        eprintln!("\nfinishing this generation, then saving; Ctrl-C once more to stop at once");
+        on_interrupt.stop();
+    })?;
+    let unit = catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
+    let mut show = Show::new(manner.quiet, manner.json, config, &unit);
+    let began = Instant::now();
+    let ended = start(TrainOptions {
+        threads: manner.threads,
+        catalogue: catalogue.clone(),
+        signal,
+        on_generation: &mut |generation| show.generation(generation),
+    });
+    show.end();
+    let outcome = ended?;
+    let seconds = began.elapsed().as_secs_f64();
+    if !manner.no_report {
+        report::write_report(&outcome.folder, &catalogue, Some(outcome.reason))?;
+    }
+    show.result(&outcome, seconds, !manner.no_report);
+    Ok(if outcome.reason == StopReason::Interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+}

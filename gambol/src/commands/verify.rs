@@ -1,0 +1,74 @@
+use super::{DIVERGED, Outcome};
+use clap::Args;
+use gambol::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
+use ne_core::archive;
+use serde_json::json;
+use std::{path::PathBuf, process::ExitCode};
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  gambol verify runs/biped-1-running/champion.json
+
+Exit code 0: identical. 3: the replay differs, or the file was changed after it was saved.")]
+pub(crate) struct Verify {
+    /// A champion file
+    champion: PathBuf,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Verify {
+    pub(crate) fn run(self) -> Outcome {
+        let path = &self.champion;
+        // A file whose content was edited is replayed too: the user wants to know what the edit did.
+        let (content, digests) = archive::read_unverified(path, CHAMPION_FORMAT, CHAMPION_VERSION)?;
+        let champion: Champion = archive::content(path, content)?;
+        let unchanged = digests.expected == digests.found;
+        let verification = champion
+            .verify(&MovementCatalogue::default())
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        let identical = verification.is_identical();
+        if self.json {
+            let Verification { evaluation, recorded, diverges_at } = &verification;
+            println!(
+                "{}",
+                json!({
+                    "identical": identical, "unchanged": unchanged, "diverges_at_step": diverges_at,
+                    "recorded_fitness": recorded, "fitness": evaluation.fitness(),
+                })
+            );
+        } else {
+            say(&champion, &verification, unchanged);
+        }
+        Ok(if identical && unchanged { ExitCode::SUCCESS } else { ExitCode::from(DIVERGED) })
+    }
+}
+
+fn say(champion: &Champion, verification: &Verification, unchanged: bool) {
+    let Verification { evaluation, recorded, diverges_at } = verification;
+    if !unchanged {
+        println!("changed: the file was edited or damaged after it was saved (its digest does not fit)");
+    }
+    let engine = Engine::current();
+    if champion.engine != engine {
+        let (was, is) = (&champion.engine, &engine);
+        println!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version);
+    }
+    let again = match &evaluation.outcome {
+        Ok(fitness) => format!("fitness {fitness}"),
+        Err(failure) => format!("failed: {failure}"),
+    };
+    match diverges_at {
+        Some(step) => {
+            let seconds = f64::from(*step) * f64::from(champion.physics.time_step);
+            println!("differs: the trajectory diverges at step {step} ({seconds:.2} s); {again}, recorded {recorded}");
+        }
+        None if evaluation.fitness() == Some(*recorded) => {
+            println!("identical: {again}, {} steps, to the bit", champion.trajectory.steps);
+        }
+        None => println!("differs: the same trajectory, but {again}, recorded {recorded}"),
+    }
+}

@@ -1,1 +1,0 @@
-//! Checks that plug-in authors run in their own tests, for the contracts of this crate.

@@ -1,0 +1,17 @@
+//! Checks that plug-in authors run in their own tests, for the contracts of this crate: [`check_environment`] and
+//! [`check_movement`]. What they have in common with all checks is said in [`ne_core::conformance`].
+//!
+//! ```
+//! use tasks::{Energy, Running, Sum, conformance::check_movement};
+//!
+//! check_movement(&Sum::of(Running::default()).plus(-0.01, Energy::default()))?;
+//! # Ok::<(), ne_core::conformance::Violation>(())
+//! ```
+
+pub mod environment;
+pub mod movement;
+mod playing;
+mod stories;
+
+pub use environment::check_environment;
+pub use movement::check_movement;

@@ -1,0 +1,67 @@
+//! Small trajectories, as no engine would make them, that movements are shown.
+
+use crate::{PartState, Snapshot};
+
+const STEPS: usize = 150;
+const TIME_STEP: f32 = 1.0 / 60.0;
+
+/// Snapshots of one episode; the first is the start.
+pub(super) struct Story {
+    pub(super) name: &'static str,
+    pub(super) snapshots: Vec<Snapshot>,
+}
+
+/// How the torso goes, in terms of seconds; the other parts follow.
+struct Path {
+    name: &'static str,
+    parts: usize,
+    x: fn(f32) -> f32,
+    y: fn(f32) -> f32,
+    angle: fn(f32) -> f32,
+    work: fn(f32) -> f64,
+}
+
+/// Standing, moving, jumping, spinning and falling bodies, of one to four parts.
+pub(super) fn stories() -> Vec<Story> {
+    const NOTHING: fn(f32) -> f32 = |_| 0.0;
+    let still = Path { name: "standing", parts: 3, x: NOTHING, y: |_| 1.0, angle: NOTHING, work: |_| 0.0 };
+    let tireless = |time: f32| 5.0 * f64::from(time);
+    let paths = [
+        Path { name: "walking", x: |time| 0.8 * time, work: tireless, ..still },
+        Path { name: "going backwards", parts: 1, x: |time| 7.0 - 30.0 * time, ..still },
+        Path { name: "jumping", parts: 4, y: |time| 1.0 + (libm::sinf(6.0 * time)).max(0.0), work: tireless, ..still },
+        Path { name: "spinning", parts: 1, angle: |time| 9.0 * time, ..still },
+        Path { name: "spinning back", angle: |time| 2.0 - 20.0 * time, work: tireless, ..still },
+        Path { name: "rocking", angle: |time| 3.0 * libm::sinf(4.0 * time), ..still },
+        Path { name: "falling", parts: 2, y: |time| (1.0 - time).max(0.0), angle: |time| time.min(1.5), ..still },
+        Path { name: "flying away", x: |time| 1e4 * time, y: |time| 2.0 + 1e4 * time, ..still },
+        still,
+    ];
+    paths.iter().map(Path::story).collect()
+}
+
+impl Path {
+    fn story(&self) -> Story {
+        Story { name: self.name, snapshots: (0..=STEPS).map(|step| self.snapshot(step as f32 * TIME_STEP)).collect() }
+    }
+
+    fn snapshot(&self, time: f32) -> Snapshot {
+        let speed = |of: fn(f32) -> f32| (of(time) - of(time - TIME_STEP)) / TIME_STEP;
+        let angle = (self.angle)(time);
+        let part = |index: usize| {
+            let below = 0.4 * index as f32;
+            let y = ((self.y)(time) - below).max(0.0);
+            PartState {
+                x: (self.x)(time) + 0.1 * index as f32,
+                y,
+                cos: libm::cosf(angle),
+                sin: libm::sinf(angle),
+                vx: speed(self.x),
+                vy: speed(self.y),
+                spin: speed(self.angle),
+                touching: y <= 0.21,
+            }
+        };
+        Snapshot { time, parts: (0..self.parts).map(part).collect(), motor_work: (self.work)(time) }
+    }
+}

@@ -1,0 +1,66 @@
+//! Steps allocate nothing: an episode of a thousand allocates what one of ten does.
+//!
+//! In a program of its own, because it counts every allocation of the thread.
+
+mod common;
+
+use common::{Constant, PointMass};
+use ne_core::{Evaluation, Seed, Task};
+use std::{
+    alloc::{GlobalAlloc, Layout, System},
+    cell::Cell,
+};
+use tasks::{Combine, Energy, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials};
+
+thread_local! {
+    static COUNT: Cell<u64> = const { Cell::new(0) };
+}
+
+struct Counting;
+
+// SAFETY: hands everything on to the system's allocator; the count is a thread's own and allocates nothing.
+#[allow(unsafe_code, reason = "an allocator cannot be written without")]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.set(COUNT.get() + 1);
+        // SAFETY: as our caller promises.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: as our caller promises.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+fn allocations(steps: u32, trials: u32) -> (u64, Evaluation) {
+    let movement = Sum::of(Running::default())
+        .plus(1.0, Jumping::default())
+        .plus(-0.1, Energy::default())
+        .plus(-1.0, Rollovers::default())
+        .plus(0.5, TimeAloft::default())
+        .plus(-1.0, FallEnds::default());
+    let movement: Box<dyn Movement> = Box::new(movement);
+    let trials = Trials { count: trials, combine: Combine::Mean };
+    let episode = Episode::new(PointMass::new(), movement, steps, trials).expect("settings in range");
+    let before = COUNT.get();
+    let evaluation = episode.evaluate(&mut Constant(0.5), Seed::of_run(1));
+    (COUNT.get() - before, evaluation)
+}
+
+#[test]
+fn steps_allocate_nothing() {
+    let ((few, short), (many, long)) = (allocations(10, 1), allocations(1000, 1));
+    assert_eq!((short.steps, long.steps), (10, 1000));
+    assert_eq!(few, many, "allocations of 10 and of 1000 steps");
+    assert!(few > 0, "the counter counts");
+}
+
+#[test]
+fn trials_share_what_is_allocated() {
+    let ((one, _), (many, _)) = (allocations(10, 1), allocations(10, 50));
+    assert_eq!(one, many, "allocations of 1 and of 50 trials");
+}

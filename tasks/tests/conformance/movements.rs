@@ -1,0 +1,147 @@
+use crate::{Cases, assert_caught};
+use ne_core::conformance::Violation;
+use std::sync::{
+    Arc,
+    atomic::{AtomicU32, Ordering},
+};
+use tasks::{
+    Movement, Running, Snapshot, Sum, Verdict,
+    conformance::{check_movement, movement::*},
+};
+
+/// The mean height of the torso, with one flaw.
+struct Flawed {
+    flaw: Flaw,
+    sum: f64,
+    steps: u32,
+    begun: u32,
+    asked: Arc<AtomicU32>,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Flaw {
+    None,
+    NameWithSpace,
+    NameCounts,
+    NoUnit,
+    DividesByZeroAtFirst,
+    CountsAllClones,
+    AskingCounts,
+    ObserverNeedsAsking,
+    BeginKeepsTheSum,
+    VerdictRemembers,
+    CloneForgets,
+    ClonesShare,
+    MeasuresTwice,
+    MeasuresNan,
+    MeasuresAtHeightsOnly,
+    Panics,
+}
+
+static WATCHED: AtomicU32 = AtomicU32::new(0);
+
+impl Flawed {
+    fn new(flaw: Flaw) -> Self {
+        Self { flaw, sum: 0.0, steps: 0, begun: 0, asked: Arc::default() }
+    }
+
+    fn is(&self, flaw: Flaw) -> bool {
+        self.flaw == flaw
+    }
+}
+
+impl Clone for Flawed {
+    fn clone(&self) -> Self {
+        let sum = if self.is(Flaw::CloneForgets) { 0.0 } else { self.sum };
+        // What is asked of one clone is no other's concern, unless the flaw is that they share it.
+        let asked = if self.is(Flaw::ClonesShare) { self.asked.clone() } else { Arc::default() };
+        asked.store(self.asked.load(Ordering::Relaxed), Ordering::Relaxed);
+        Self { sum, asked, ..*self }
+    }
+}
+
+impl Movement for Flawed {
+    fn name(&self) -> &str {
+        match self.flaw {
+            Flaw::NameWithSpace => "mean height",
+            Flaw::NameCounts if self.begun > 0 => "mean-height-1",
+            _ => "mean-height",
+        }
+    }
+
+    fn unit(&self) -> &str {
+        if self.is(Flaw::NoUnit) { "" } else { "m" }
+    }
+
+    fn begin(&mut self, _: &Snapshot) {
+        if !self.is(Flaw::BeginKeepsTheSum) {
+            self.sum = 0.0;
+        }
+        self.steps = 0;
+        self.begun += 1;
+        self.asked.store(0, Ordering::Relaxed);
+        WATCHED.fetch_add(u32::from(self.is(Flaw::CountsAllClones)), Ordering::Relaxed);
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        assert!(!(self.is(Flaw::Panics) && self.steps > 20), "on purpose");
+        self.sum += f64::from(now.torso().y);
+        self.steps += 1;
+        if self.is(Flaw::ObserverNeedsAsking) {
+            self.sum += f64::from(self.asked.swap(0, Ordering::Relaxed));
+        }
+        if self.is(Flaw::ClonesShare) {
+            self.asked.fetch_add(1, Ordering::Relaxed);
+        }
+        if self.is(Flaw::VerdictRemembers) && self.begun > 3 { Verdict::End } else { Verdict::GoOn }
+    }
+
+    fn value(&self) -> f64 {
+        let asked = match self.flaw {
+            Flaw::AskingCounts | Flaw::ObserverNeedsAsking => self.asked.fetch_add(1, Ordering::Relaxed),
+            Flaw::ClonesShare => self.asked.load(Ordering::Relaxed),
+            _ => 0,
+        };
+        let asked = if self.is(Flaw::ObserverNeedsAsking) { 0 } else { asked };
+        let watched = if self.is(Flaw::CountsAllClones) { WATCHED.load(Ordering::Relaxed) } else { 0 };
+        let steps = if self.is(Flaw::DividesByZeroAtFirst) { self.steps } else { self.steps.max(1) };
+        self.sum / f64::from(steps) + f64::from(asked) + f64::from(watched)
+    }
+
+    fn measurements(&self, tell: &mut dyn FnMut(&str, f64)) {
+        if !self.is(Flaw::MeasuresAtHeightsOnly) || self.sum > 160.0 {
+            tell(self.name(), self.value());
+        }
+        match self.flaw {
+            Flaw::MeasuresTwice => tell(self.name(), self.value()),
+            Flaw::MeasuresNan => tell("ratio", self.sum * 0.0 / 0.0),
+            _ => {}
+        }
+    }
+}
+
+#[test]
+fn broken_movements_are_caught() {
+    let check = |flaw: Flaw| check_movement(&Flawed::new(flaw));
+    assert_eq!(check(Flaw::None), Ok(()));
+    let twice: Result<(), Violation> = check_movement(&Sum::of(Running::default()).plus(1.0, Running::default()));
+    let cases: Cases<'_> = vec![
+        (LABELS, "name with a space", check(Flaw::NameWithSpace)),
+        (LABELS, "name counts", check(Flaw::NameCounts)),
+        (LABELS, "no unit", check(Flaw::NoUnit)),
+        (LABELS, "panics", check(Flaw::Panics)),
+        (FINITE, "divides by zero at first", check(Flaw::DividesByZeroAtFirst)),
+        (DETERMINISTIC, "counts all clones", check(Flaw::CountsAllClones)),
+        (PURE, "asking counts", check(Flaw::AskingCounts)),
+        (PURE, "needs to be asked each step", check(Flaw::ObserverNeedsAsking)),
+        (FORGETS, "begin keeps the sum", check(Flaw::BeginKeepsTheSum)),
+        (FORGETS, "the verdict remembers", check(Flaw::VerdictRemembers)),
+        (CLONES, "clone forgets", check(Flaw::CloneForgets)),
+        (CLONES, "clones share", check(Flaw::ClonesShare)),
+        (MEASURES, "a name twice", check(Flaw::MeasuresTwice)),
+        (MEASURES, "a sum of two of the same name", twice),
+        (MEASURES, "measures NaN", check(Flaw::MeasuresNan)),
+        (MEASURES, "measures at heights only", check(Flaw::MeasuresAtHeightsOnly)),
+    ];
+    assert_caught(&cases, PROMISES);
+}

@@ -1,0 +1,223 @@
+//! Episodes of a mass that is pushed: trials, ends, failures, measurements.
+
+mod common;
+
+use common::{Constant, PointMass, TIME_STEP};
+use ne_core::{
+    Evaluation, Failure, Genome, Seed, Task,
+    conformance::{Puppet, check_task},
+};
+use tasks::{Combine, Energy, Environment, Episode, Moment, Movement, Running, Snapshot, Sum, Trials, Verdict};
+
+const SEED: Seed = Seed::of_run(1);
+const ONE: Trials = Trials { count: 1, combine: Combine::Mean };
+
+fn episode(
+    environment: PointMass,
+    movement: impl Movement + 'static,
+    steps: u32,
+    trials: Trials,
+) -> Episode<PointMass> {
+    Episode::new(environment, Box::new(movement), steps, trials).expect("settings in range")
+}
+
+fn fitness(evaluation: &Evaluation) -> f64 {
+    evaluation.fitness().expect("the evaluation succeeds").get()
+}
+
+/// Where a mass at rest is after `steps` steps of a push of 1 N: h² (1 + 2 + ... + n).
+fn way(steps: u32) -> f64 {
+    let step = f64::from(TIME_STEP);
+    step * step * f64::from(steps * (steps + 1) / 2)
+}
+
+#[test]
+fn an_episode_passes_the_check_of_tasks() -> Result<(), Box<dyn std::error::Error>> {
+    let varied = PointMass::varied(0.5, 2.0);
+    let movement = Sum::of(Running::default()).plus(-0.1, Energy::default());
+    for trials in [ONE, Trials { count: 4, combine: Combine::Worst }] {
+        check_task(&episode(varied.clone(), movement.clone(), 50, trials), &Puppet::sample(2, 1, 6), SEED)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn fitness_is_the_movements_value_after_all_steps() {
+    for steps in [1, 10, 40] {
+        let evaluation = episode(PointMass::new(), Running::default(), steps, ONE).evaluate(&mut Constant(1.0), SEED);
+        assert_eq!(fitness(&evaluation), way(steps));
+        assert_eq!(evaluation.steps, u64::from(steps));
+    }
+}
+
+/// The torso's place at the start, so that trials can be told apart.
+#[derive(Clone, Default)]
+struct StartPlace(f32);
+
+impl Movement for StartPlace {
+    fn name(&self) -> &str {
+        "start-place"
+    }
+    fn unit(&self) -> &str {
+        "m"
+    }
+    fn begin(&mut self, start: &Snapshot) {
+        self.0 = start.torso().x;
+    }
+    fn observe(&mut self, _: &Snapshot) -> Verdict {
+        Verdict::GoOn
+    }
+    fn value(&self) -> f64 {
+        f64::from(self.0)
+    }
+}
+
+#[test]
+fn trials_are_different_and_become_their_mean_or_their_worst() {
+    let varied = PointMass::varied(1.0, 1e6);
+    let starts: Vec<f64> = (0..5)
+        .map(|trial| {
+            let mut one = varied.clone();
+            one.reset(SEED.trial(trial)).expect("it always starts");
+            f64::from(one.snapshot().torso().x)
+        })
+        .collect();
+    assert!((1..5).all(|trial| starts[trial] != starts[0]), "{starts:?}");
+    let evaluate = |combine| {
+        episode(varied.clone(), StartPlace::default(), 3, Trials { count: 5, combine })
+            .evaluate(&mut Constant(0.0), SEED)
+    };
+    let (mean, worst) = (evaluate(Combine::Mean), evaluate(Combine::Worst));
+    assert!((fitness(&mean) - starts.iter().sum::<f64>() / 5.0).abs() < 1e-12);
+    assert_eq!(fitness(&worst), starts.iter().copied().fold(f64::INFINITY, f64::min));
+    assert_eq!((mean.steps, worst.steps), (15, 15));
+    // Measurements are means, whatever becomes of the fitness.
+    assert!((worst.measurements["start-place"] - fitness(&mean)).abs() < 1e-12);
+}
+
+/// Ends the episode beyond a place.
+#[derive(Clone)]
+struct Until(f32, Running);
+
+impl Movement for Until {
+    fn name(&self) -> &str {
+        "until"
+    }
+    fn unit(&self) -> &str {
+        "m"
+    }
+    fn begin(&mut self, start: &Snapshot) {
+        self.1.begin(start);
+    }
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        self.1.observe(now);
+        if now.torso().x > self.0 { Verdict::End } else { Verdict::GoOn }
+    }
+    fn value(&self) -> f64 {
+        self.1.value()
+    }
+}
+
+#[test]
+fn a_movement_ends_the_episode_early() {
+    let evaluation =
+        episode(PointMass::new(), Until(0.1, Running::default()), 1000, ONE).evaluate(&mut Constant(1.0), SEED);
+    // h² × 28 = 0.109 is the first beyond 0.1, after 7 steps.
+    assert_eq!((fitness(&evaluation), evaluation.steps), (way(7), 7));
+    assert_eq!(evaluation.measurements["duration"], 7.0 * f64::from(TIME_STEP));
+}
+
+#[test]
+fn a_failing_environment_fails_the_evaluation_and_says_how_far_it_came() {
+    let short = PointMass::varied(0.0, 0.1);
+    let evaluation =
+        episode(short, Running::default(), 1000, Trials { count: 3, ..ONE }).evaluate(&mut Constant(1.0), SEED);
+    assert_eq!(evaluation.outcome, Err(Failure::Unstable { what: "off the rails".into() }));
+    assert_eq!(evaluation.steps, 7);
+}
+
+#[test]
+fn a_controller_without_numbers_fails() {
+    let episode = episode(PointMass::new(), Running::default(), 10, ONE);
+    for output in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let evaluation = episode.evaluate(&mut Constant(output), SEED);
+        assert_eq!(evaluation.outcome, Err(Failure::NonFinite { what: "output 0".into() }));
+        assert_eq!(evaluation.steps, 0);
+    }
+}
+
+/// A movement that divides by zero.
+#[derive(Clone)]
+struct Nonsense;
+
+impl Movement for Nonsense {
+    fn name(&self) -> &str {
+        "nonsense"
+    }
+    fn unit(&self) -> &str {
+        "1"
+    }
+    fn begin(&mut self, _: &Snapshot) {}
+    fn observe(&mut self, _: &Snapshot) -> Verdict {
+        Verdict::GoOn
+    }
+    fn value(&self) -> f64 {
+        f64::NAN
+    }
+}
+
+#[test]
+fn a_movement_without_a_number_fails() {
+    let evaluation = episode(PointMass::new(), Nonsense, 10, ONE).evaluate(&mut Constant(0.0), SEED);
+    assert_eq!(evaluation.outcome, Err(Failure::NonFinite { what: "fitness".into() }));
+    assert_eq!(evaluation.steps, 10);
+}
+
+#[test]
+fn a_controller_of_another_shape_fails() {
+    let episode = episode(PointMass::new(), Running::default(), 10, ONE);
+    let expected = Failure::ShapeMismatch { found_inputs: 3, found_outputs: 1, inputs: 2, outputs: 1 };
+    assert_eq!(episode.evaluate(&mut Puppet::new(3, 1, 0).express(), SEED).outcome, Err(expected.clone()));
+    let played = episode.play(&mut Puppet::new(3, 1, 0).express(), SEED, &mut ());
+    assert_eq!((played.steps, played.failure), (0, Some(expected)));
+}
+
+#[test]
+fn measurements_have_the_names_of_the_terms() {
+    let movement = Sum::of(Running::default()).plus(-0.5, Energy::default());
+    let evaluation = episode(PointMass::new(), movement, 16, ONE).evaluate(&mut Constant(1.0), SEED);
+    let names: Vec<&str> = evaluation.measurements.keys().map(String::as_str).collect();
+    assert_eq!(names, ["duration", "energy", "running"]);
+    assert_eq!(evaluation.measurements["running"], way(16));
+    assert_eq!(evaluation.measurements["duration"], 1.0);
+    assert_eq!(fitness(&evaluation), way(16) - 0.5 * evaluation.measurements["energy"]);
+}
+
+#[test]
+fn play_shows_a_watcher_what_an_evaluation_does() {
+    let episode = episode(PointMass::varied(1.0, 1e6), Running::default(), 20, ONE);
+    let mut seen: Vec<(u32, f32, Vec<f32>, Vec<f32>)> = Vec::new();
+    let mut watcher = |moment: &Moment<'_>| {
+        seen.push((moment.step, moment.snapshot.torso().x, moment.inputs.to_vec(), moment.outputs.to_vec()));
+    };
+    let mut puppet = Puppet::new(2, 1, 4).express();
+    let played = episode.play(&mut puppet, SEED.trial(0), &mut watcher);
+    assert_eq!(played.movement.value(), fitness(&episode.evaluate(&mut puppet, SEED)));
+    assert_eq!((played.steps, played.failure), (20, None));
+    assert_eq!(seen.iter().map(|(step, ..)| *step).collect::<Vec<_>>(), (0..=20).collect::<Vec<_>>());
+    assert_eq!((&seen[0].2[..], &seen[0].3[..]), (&[0.0, 0.0][..], &[0.0][..]));
+    // What the controller saw before a step is where the mass was after the step before.
+    assert!(seen.windows(2).all(|pair| pair[1].2[0] == pair[0].1));
+}
+
+#[test]
+fn settings_out_of_range_are_named() {
+    let new = |steps, trials| {
+        let result = Episode::new(PointMass::new(), Box::new(Running::default()), steps, trials);
+        result.err().map(|error| error.to_string())
+    };
+    assert_eq!(new(0, ONE).as_deref(), Some("steps = 0: must be at least 1"));
+    let none = Trials { count: 0, ..ONE };
+    assert_eq!(new(1, none).as_deref(), Some("trials.count = 0: must be from 1 to 1000"));
+    assert_eq!(new(1, ONE), None);
+}
