@@ -1,8 +1,4 @@
-use crate::{
-    WeightVector,
-    chance::symmetric,
-    normal::Normal,
-};
+use crate::{WeightVector, chance::symmetric, normal::Normal};
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
 

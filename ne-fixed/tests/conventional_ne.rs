@@ -129,7 +129,10 @@ fn damaged_states_are_errors_that_name_the_field() {
             "parents[0].mutation_deviation = -1: must be at least 0",
         ),
         (|s| s["shape"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
-        (|s| s["asked"] = serde_json::json!([s["parents"][0]["genes"]]), "asked: found 1 individuals, the settings say 50"),
+        (
+            |s| s["asked"] = serde_json::json!([s["parents"][0]["genes"]]),
+            "asked: found 1 individuals, the settings say 50",
+        ),
     ];
     for (damage, message) in damages {
         let mut damaged = state.clone();
@@ -232,7 +235,8 @@ fn operators_of_someone_else_fit_in() {
     let first = generation(&mut strategy, 1);
     let best = (0..10).max_by_key(|&index| score(&first)[index].fitness()).expect("ten");
     let text = serde_json::to_string(&strategy).expect("serialises");
-    let mut loaded: ConventionalNe<Best, TwoPoint, UniformMutation> = serde_json::from_str(&text).expect("deserialises");
+    let mut loaded: ConventionalNe<Best, TwoPoint, UniformMutation> =
+        serde_json::from_str(&text).expect("deserialises");
     assert!(generation(&mut loaded, 2).iter().all(|child| *child == first[best]));
     assert_eq!(loaded.statistics()[4].value, 1.0);
 }

@@ -50,7 +50,7 @@ pub(crate) fn sin(x: f32) -> f32 {
     let sine = r + r * r2 * (C3 + r2 * (C5 + r2 * (C7 + r2 * (C9 + r2 * (C11 + r2 * C13)))));
     // Half turns flip the sign, and so does a negative x. The last term is 0, or NaN for an infinite x.
     let flips = ((rounded.to_bits() as u32) << 31) ^ (x.to_bits() & 0x8000_0000);
-    f32::from_bits((sine as f32).to_bits() ^ flips) + (x - x)
+    f32::from_bits((sine as f32).to_bits() ^ flips) + x * 0.0
 }
 
 /// `x` limited to the range; NaN stays NaN.
@@ -67,7 +67,7 @@ pub(crate) fn limit(x: f32, low: f32, high: f32) -> f32 {
 #[inline(always)]
 fn exp_parts(x: f32) -> (f32, f32) {
     // The upper part of ln 2 has 9 bits, so that its product with n is exact.
-    const LN_2_UPPER: f32 = 0.693_359_375;
+    const LN_2_UPPER: f32 = 355.0 / 512.0;
     const LN_2_LOWER: f32 = -2.121_944_4e-4;
     const C2: f32 = 1.0 / 2.0;
     const C3: f32 = 1.0 / 6.0;

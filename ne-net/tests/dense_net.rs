@@ -13,7 +13,8 @@ fn reference(shape: &DenseShape, weights: &[f32], inputs: &[f32]) -> Vec<Vec<f32
         let mut outputs = Vec::new();
         for _ in 0..targets {
             let mine: Vec<f32> = weights.by_ref().take(sources + 1).copied().collect();
-            let sum = layers[layer].iter().zip(&mine).fold(mine[sources], |sum, (source, weight)| sum + weight * source);
+            let sum =
+                layers[layer].iter().zip(&mine).fold(mine[sources], |sum, (source, weight)| sum + weight * source);
             outputs.push(if layer == last {
                 shape.output_activation.apply(sum)
             } else {
@@ -119,9 +120,8 @@ fn errors_name_the_field() {
     let shape = DenseShape::new(9, vec![10], 8);
     let mut weights = vec![0.0; 188];
     weights[17] = f32::NAN;
-    let error = |shape: &DenseShape, weights: &[f32]| {
-        DenseNet::new(shape.clone(), weights).expect_err("not a net").to_string()
-    };
+    let error =
+        |shape: &DenseShape, weights: &[f32]| DenseNet::new(shape.clone(), weights).expect_err("not a net").to_string();
     assert_eq!(error(&shape, &weights), "weights[17] = NaN: must be finite");
     assert_eq!(error(&shape, &weights[..187]), "weights: found 187, a net of shape 9-10-8 has 188");
     let empty = DenseShape::new(9, vec![0], 8);
@@ -171,9 +171,7 @@ fn bits_are_the_same_for_ever() {
     let weights: Vec<f32> = (0..188).map(|index| ((index * 37 % 101) as f32 - 50.0) * 0.006).collect();
     let mut net = DenseNet::new(DenseShape::new(9, vec![10], 8), &weights).expect("valid");
     let inputs: Vec<f32> = (0..9).map(|index| (index as f32 - 4.0) * 0.7).collect();
-    let golden = [
-        0xbf68_860c, 0xbf5c_c2cb, 0xbf4b_bc31, 0xbf0a_de43,
-        0xbebf_2d4a, 0xbe33_7872, 0x3e91_47e1, 0x3eef_6c55,
-    ];
+    let golden =
+        [0xbf68_860c, 0xbf5c_c2cb, 0xbf4b_bc31, 0xbf0a_de43, 0xbebf_2d4a, 0xbe33_7872, 0x3e91_47e1, 0x3eef_6c55];
     assert_eq!(bits(&activate(&mut net, &inputs)), golden);
 }

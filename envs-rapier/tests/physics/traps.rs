@@ -85,7 +85,7 @@ fn a_passive_drop_gains_no_energy() {
 
 /// The torque on a free body in weightlessness, from its angular acceleration, over the motor's top torque.
 fn torque_ratio(motor_gain: f32) -> f32 {
-    let blueprint = altered("biped-1", 5.0, |motor| Motor { top_torque: 5.0, top_speed: 50.0 * motor.top_speed });
+    let blueprint = altered("biped-1", 5.0, |_| Motor { top_torque: 5.0, top_speed: 100.0 });
     let settings = PhysicsSettings { gravity: 0.0, settle_time: 0.0, motor_gain, ..OURS() };
     let mut environment = gauge::environment(blueprint.clone(), settings);
     environment.reset(Seed::of_run(1)).expect("settles");

@@ -68,7 +68,7 @@ impl From<&GenerationReport> for HistoryPoint {
         let fitness = report.fitness;
         Self {
             generation: report.generation,
-            evaluations: report.evaluations,
+            evaluations: report.population,
             failures: report.failures,
             best_so_far: report.best_so_far.map(f64::from),
             best: fitness.map(|of| of.best),

@@ -60,7 +60,8 @@ mod tests {
     #[test]
     fn rises_in_steps_to_the_limit() {
         let boost = StagnationBoost { patience: 10, factor: 2.0, limit: 5.0 };
-        for (stagnation, strength) in [(0, 1.0), (9, 1.0), (10, 2.0), (19, 2.0), (20, 4.0), (30, 5.0), (u64::MAX, 5.0)] {
+        for (stagnation, strength) in [(0, 1.0), (9, 1.0), (10, 2.0), (19, 2.0), (20, 4.0), (30, 5.0), (u64::MAX, 5.0)]
+        {
             assert_eq!(boost.strength(stagnation), strength, "{stagnation}");
         }
     }

@@ -1,9 +1,5 @@
 use super::Mutation;
-use crate::{
-    Setting,
-    chance::for_each_chosen,
-    normal::Normal,
-};
+use crate::{Setting, chance::for_each_chosen, normal::Normal};
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
 
@@ -82,6 +78,9 @@ mod tests {
         let error = |mutation: GaussianMutation| mutation.validate().expect_err("out of range").to_string();
         let default = GaussianMutation::default();
         assert_eq!(error(GaussianMutation { rate: f64::NAN, ..default }), "rate = NaN: must be from 0 to 1");
-        assert_eq!(error(GaussianMutation { deviation: 1001.0, ..default }), "deviation = 1001: must be from 0 to 1000");
+        assert_eq!(
+            error(GaussianMutation { deviation: 1001.0, ..default }),
+            "deviation = 1001: must be from 0 to 1000"
+        );
     }
 }

@@ -1,9 +1,5 @@
 use super::Mutation;
-use crate::{
-    Setting,
-    chance::for_each_chosen,
-    normal::Normal,
-};
+use crate::{Setting, chance::for_each_chosen, normal::Normal};
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
 

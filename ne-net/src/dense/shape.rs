@@ -98,7 +98,11 @@ impl DenseShape {
         }
         if self.weight_count() > Self::MAX_WEIGHTS {
             let found = format!("{:?} ({} weights)", self.hidden, self.weight_count());
-            return Err(SettingError::new("hidden", found, format!("so that there are at most {} weights", Self::MAX_WEIGHTS)));
+            return Err(SettingError::new(
+                "hidden",
+                found,
+                format!("so that there are at most {} weights", Self::MAX_WEIGHTS),
+            ));
         }
         Ok(())
     }
