@@ -40,6 +40,7 @@
 
 pub mod champion;
 pub mod config;
+mod lines;
 mod recorder;
 pub mod report;
 pub mod run_folder;

@@ -3,12 +3,12 @@
 use crate::{
     champion::Champion,
     config::RunConfig,
-    run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, LineFile, RunFolder, Timing},
+    lines::{Kept, LineFile},
+    run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing},
     setup::Setup,
 };
 use ne_core::{Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy};
 use ne_net::Network;
-use serde::Deserialize;
 use std::time::Instant;
 
 /// The observer that fills a run folder.
@@ -26,32 +26,43 @@ pub(crate) struct Recorder<'a> {
     called: &'a mut dyn FnMut(&GenerationReport),
 }
 
-/// The one field by which lines are kept or dropped.
-#[derive(Deserialize)]
-struct OfGeneration {
-    generation: u64,
+/// The lines of an earlier run as far as its checkpoint goes: checked, and nothing changed on the disk yet.
+pub(crate) struct EarlierLines {
+    log: Kept,
+    gallery: Kept,
+    timing: Kept,
+}
+
+impl EarlierLines {
+    /// Checks the lines of the first `generations` generations.
+    pub(crate) fn check(folder: &RunFolder, config: &RunConfig, generations: u64) -> Result<Self, FolderError> {
+        let generations = usize::try_from(generations).unwrap_or(usize::MAX);
+        let (log, reports) = Kept::check::<GenerationReport>(&folder.log(), generations)?;
+        // The log tells how many lines the gallery must have.
+        let mut best = None;
+        let mut entries = 0;
+        for report in &reports {
+            entries += usize::from(report.best_so_far > best);
+            entries += usize::from(config.record.populations_at.contains(&report.generation));
+            best = report.best_so_far;
+        }
+        let (gallery, _) = Kept::check::<GalleryEntry>(&folder.gallery(), entries)?;
+        let (timing, _) = Kept::check::<Timing>(&folder.timing(), generations)?;
+        Ok(Self { log, gallery, timing })
+    }
 }
 
 impl<'a> Recorder<'a> {
-    /// Goes on after `generations` generations; whatever the files hold beyond them is dropped.
+    /// Goes on after these lines; whatever the files hold beyond them is dropped.
     pub(crate) fn new(
         folder: &'a RunFolder,
         config: &'a RunConfig,
         setup: &'a Setup,
-        generations: u64,
+        earlier: EarlierLines,
         called: &'a mut dyn FnMut(&GenerationReport),
     ) -> Result<Self, FolderError> {
-        let done = |line: &str| {
-            serde_json::from_str::<serde_json::Value>(line)
-                .ok()
-                .and_then(|value| OfGeneration::deserialize(value).ok())
-                .is_some_and(|line| line.generation <= generations)
-        };
-        let (log, gallery, timing) = (
-            LineFile::open(&folder.log(), generations, done)?,
-            LineFile::open(&folder.gallery(), 0, done)?,
-            LineFile::open(&folder.timing(), 0, done)?,
-        );
+        let EarlierLines { log, gallery, timing } = earlier;
+        let (log, gallery, timing) = (log.open()?, gallery.open()?, timing.open()?);
         Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), called })
     }
 

@@ -1,15 +1,17 @@
 //! The folder of a run: which file is what, and how each is written.
 
-use crate::config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig};
+use crate::{
+    config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig},
+    lines::read_lines,
+};
 use ne_core::{
-    Fitness,
+    Fitness, GenerationReport,
     archive::{self, ArchiveError, Layout},
 };
 use ne_net::Network;
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 use std::{
-    fs::{self, File, OpenOptions},
-    io::{self, BufRead, BufReader, BufWriter, Write},
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -24,6 +26,8 @@ use std::{
 /// | `checkpoint` | to resume from |
 /// | `champion.json` | the best so far |
 /// | `report.html` | to look at |
+///
+/// Each line of a `.jsonl` file ends with a field `digest`, over the file up to there: no damage goes unnoticed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunFolder {
     path: PathBuf,
@@ -35,8 +39,9 @@ pub struct RunFolder {
 pub enum FolderError {
     /// There is something already; nothing was touched.
     #[error(
-        "{} already exists and is not empty; choose another folder with --out, or go on with: gambol resume {}",
-        path.display(), path.display()
+        "{} already exists{}; choose another folder with --out{}", path.display(),
+        if path.is_dir() { " and is not empty" } else { " and is no folder" },
+        if path.join("config.json").is_file() { format!(", or go on with: gambol resume {}", path.display()) } else { String::new() }
     )]
     Exists {
         /// The folder.
@@ -123,7 +128,7 @@ impl RunFolder {
     pub fn create(path: &Path, config: &RunConfig) -> Result<Self, FolderError> {
         let occupied = match fs::read_dir(path) {
             Ok(mut entries) => entries.next().is_some(),
-            Err(error) => error.kind() == io::ErrorKind::NotADirectory || path.is_file(),
+            Err(_) => path.exists(),
         };
         if occupied {
             return Err(FolderError::Exists { path: path.into() });
@@ -202,70 +207,20 @@ impl RunFolder {
     pub fn read_config(&self) -> Result<RunConfig, FolderError> {
         Ok(archive::read(&self.config(), CONFIG_FORMAT, CONFIG_VERSION)?)
     }
-}
 
-/// Reads a `.jsonl` file; one that does not exist has no lines.
-///
-/// # Errors
-/// If a line is not as it should be; the error names file and line.
-pub fn read_lines<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, FolderError> {
-    let file = match File::open(path) {
-        Ok(file) => file,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
-        Err(source) => return Err(ArchiveError::Read { path: path.into(), source }.into()),
-    };
-    let read = |(index, line): (usize, io::Result<String>)| {
-        let failed = |message: String| FolderError::Line { path: path.into(), line: index + 1, message };
-        let line = line.map_err(|error| failed(error.to_string()))?;
-        serde_json::from_str(&line).map_err(|error| failed(error.to_string()))
-    };
-    BufReader::new(file).lines().enumerate().map(read).collect()
-}
-
-/// A `.jsonl` file that is appended to.
-#[derive(Debug)]
-pub(crate) struct LineFile {
-    path: PathBuf,
-    file: BufWriter<File>,
-}
-
-impl LineFile {
-    /// Opens the file, keeping only the lines before the first that `keep` rejects: what a killed run wrote after its
-    /// last checkpoint goes, a half-written line included. If fewer than `least` lines remain the file is damaged, and
-    /// stays as it is.
-    pub(crate) fn open(path: &Path, least: u64, keep: impl Fn(&str) -> bool) -> Result<Self, ArchiveError> {
-        let failed = |source| ArchiveError::Write { path: path.into(), source };
-        let text = match fs::read_to_string(path) {
-            Ok(text) => text,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
-            Err(source) => return Err(ArchiveError::Read { path: path.into(), source }),
-        };
-        let good = text.split_inclusive('\n').take_while(|line| line.ends_with('\n') && keep(line));
-        let (lines, kept) = good.fold((0, 0), |(lines, bytes), line| (lines + 1, bytes + line.len()));
-        if lines < least {
-            let message = format!("line {} is damaged or missing; the checkpoint is from after {least}", lines + 1);
-            return Err(ArchiveError::Content { path: path.into(), message });
-        }
-        if kept < text.len() {
-            archive::write_whole(path, &text.as_bytes()[..kept]).map_err(failed)?;
-        }
-        let file = OpenOptions::new().create(true).append(true).open(path).map_err(failed)?;
-        Ok(Self { path: path.into(), file: BufWriter::new(file) })
+    /// Reads the log, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_log(&self) -> Result<Vec<GenerationReport>, FolderError> {
+        read_lines(&self.log())
     }
 
-    /// Appends a line.
-    pub(crate) fn write(&mut self, line: &impl Serialize) -> Result<(), ArchiveError> {
-        let written = serde_json::to_writer(&mut self.file, line).map_err(io::Error::from);
-        written.and_then(|()| self.file.write_all(b"\n")).map_err(|source| self.failed(source))
-    }
-
-    /// Brings everything to the disk.
-    pub(crate) fn sync(&mut self) -> Result<(), ArchiveError> {
-        let synced = self.file.flush().and_then(|()| self.file.get_ref().sync_data());
-        synced.map_err(|source| self.failed(source))
-    }
-
-    fn failed(&self, source: io::Error) -> ArchiveError {
-        ArchiveError::Write { path: self.path.clone(), source }
+    /// Reads the gallery, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_gallery(&self) -> Result<Vec<GalleryEntry>, FolderError> {
+        read_lines(&self.gallery())
     }
 }

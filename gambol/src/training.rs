@@ -3,7 +3,7 @@
 use crate::{
     champion::Champion,
     config::{RunConfig, StrategySettings},
-    recorder::Recorder,
+    recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
     setup::{Setup, SetupError},
 };
@@ -124,8 +124,9 @@ where
 {
     let evaluator = Parallel::new(options.threads)?;
     let folder = RunFolder::create(folder, config)?;
+    let earlier = EarlierLines::check(&folder, config, 0)?;
     let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
-    drive(evolution, config, setup, folder, &evaluator, options)
+    drive(evolution, config, setup, folder, earlier, &evaluator, options)
 }
 
 /// Goes on with a run from its last checkpoint. `stop` replaces the conditions of the configuration where it has any;
@@ -167,11 +168,13 @@ where
     if let Some(reason) = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO) {
         return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
     }
+    let earlier = EarlierLines::check(&folder, &config, checkpoint.progress.generations)?;
+    // From here on the folder is known to be whole.
     if config.stop != planned {
         folder.write_config(&config)?;
     }
     let evolution = Evolution::resume(checkpoint, config.stop);
-    drive(evolution, &config, &setup, folder, &evaluator, options)
+    drive(evolution, &config, &setup, folder, earlier, &evaluator, options)
 }
 
 fn drive<S: Strategy>(
@@ -179,6 +182,7 @@ fn drive<S: Strategy>(
     config: &RunConfig,
     setup: &Setup,
     folder: RunFolder,
+    earlier: EarlierLines,
     evaluator: &Parallel,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError>
@@ -187,7 +191,7 @@ where
 {
     let mut evolution = evolution.with_signal(options.signal);
     let generations = evolution.progress().generations;
-    let mut recorder = Recorder::new(&folder, config, setup, generations, options.on_generation)?;
+    let mut recorder = Recorder::new(&folder, config, setup, earlier, options.on_generation)?;
     if generations == 0 {
         // So that a run killed in its first generations can be resumed too.
         recorder.save(&evolution)?;

@@ -8,7 +8,7 @@ use serde::{Serialize, de::DeserializeOwned};
 /// - serialising and deserialising gives a genome that expresses the same phenotype;
 /// - cloning is cheap (share what does not vary between individuals in an `Arc`).
 ///
-/// Check yours with [`conformance::check_genome`](https://docs.rs/ne-core).
+/// Check yours with `check_genome` of the [conformance kit](crate::conformance).
 pub trait Genome: Clone + Send + Sync + Serialize + DeserializeOwned + 'static {
     /// The controller this genome describes.
     type Phenotype: Phenotype;

@@ -7,6 +7,8 @@ use std::any::Any;
 /// - after `reset` it behaves as when it was new, whatever it was fed before;
 /// - finite inputs give finite outputs.
 ///
+/// Check yours with `check_phenotype` of the [conformance kit](crate::conformance).
+///
 /// The trait is object-safe so that tasks need not be generic, and `Any` so that a task which evaluates many phenotypes
 /// at once can recognise the ones it has a faster way for (`(phenotype as &dyn Any).downcast_ref::<DenseNet>()`).
 pub trait Phenotype: Any + Send {

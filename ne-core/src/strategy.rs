@@ -12,6 +12,8 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 ///   generator and `ask` after a save and a load gives the same genomes;
 /// - a failed evaluation ranks below every fitness;
 /// - no clock, no thread count, no iteration over a hash map: the same evaluations give the same bits.
+///
+/// Check yours with `check_strategy` of the [conformance kit](crate::conformance).
 pub trait Strategy: Serialize + DeserializeOwned + Send {
     /// What the strategy varies.
     type Genome: Genome;

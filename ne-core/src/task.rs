@@ -9,6 +9,8 @@ use crate::{Evaluation, Failure, Phenotype, Seed};
 /// - whatever goes wrong is an [`Evaluation`] with a [`Failure`], not a panic: a phenotype of another shape, outputs
 ///   that are NaN (clamping one into a number would hide it).
 ///
+/// Check yours with `check_task` of the [conformance kit](crate::conformance).
+///
 /// All members of a generation are evaluated with the same seed: they face the same trials, so that the comparison is
 /// fair and a batch can share its worlds.
 pub trait Task: Send + Sync {

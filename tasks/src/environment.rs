@@ -10,6 +10,8 @@ use ne_core::{Failure, Seed};
 /// - after `reset` everything is a function of the seed and the actions: nothing of an earlier episode is left;
 /// - `sense`, `act`, `step` and `snapshot` allocate nothing;
 /// - a body that explodes or turns NaN is a [`Failure`] from `step`, not a number.
+///
+/// Check yours with [`check_environment`](crate::conformance::check_environment).
 pub trait Environment: Clone + Send + Sync {
     /// How many numbers [`sense`](Self::sense) writes.
     fn inputs(&self) -> usize;

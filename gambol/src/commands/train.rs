@@ -129,12 +129,6 @@ impl Train {
         }
         config.stop = self.limits.over(config.stop);
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
-        if let Some(generation) = config.stop.generations {
-            // The last generation is worth a look, whichever it is.
-            config.record.populations_at.push(generation);
-            config.record.populations_at.sort_unstable();
-            config.record.populations_at.dedup();
-        }
         carry_out(&self.manner, &config.clone(), catalogue, |options| training::train(&config, &folder, options))
     }
 }

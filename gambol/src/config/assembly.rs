@@ -43,8 +43,8 @@ impl Assembly {
         Self { value: serde_json::to_value(base).unwrap_or_default() }
     }
 
-    /// Lays fields over what is there. Objects are merged; a choice (an object with one key that names what was chosen,
-    /// such as `{"tournament": {"size": 3}}`) replaces another choice.
+    /// Lays fields over what is there. Objects are merged; a choice (an object whose one key names what was chosen, with
+    /// its settings, such as `{"tournament": {"size": 3}}`) replaces another choice.
     pub fn lay_over(&mut self, layer: Value) {
         merge(&mut self.value, layer);
     }
@@ -153,6 +153,8 @@ fn merge(base: &mut Value, layer: Value) {
     }
 }
 
+/// A choice is an object whose one field names what was chosen and holds its settings, themselves an object.
 fn is_other_choice(base: &Map<String, Value>, layer: &Map<String, Value>) -> bool {
-    base.len() == 1 && layer.len() == 1 && base.keys().ne(layer.keys())
+    let is_choice = |fields: &Map<String, Value>| fields.len() == 1 && fields.values().all(Value::is_object);
+    is_choice(base) && is_choice(layer) && base.keys().ne(layer.keys())
 }

@@ -7,11 +7,11 @@ mod replays;
 
 use crate::{
     champion::Champion,
-    run_folder::{FolderError, GalleryEntry, GalleryKind, RunFolder, read_lines},
+    run_folder::{FolderError, GalleryKind, RunFolder},
     setup::SetupError,
 };
 use data::{ChampionData, Command, Fact, HistoryPoint, MovementData, Report, Summary};
-use ne_core::{GenerationReport, StopReason, archive};
+use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
 use tasks::MovementCatalogue;
@@ -51,8 +51,7 @@ pub fn write_report(
     ended: Option<StopReason>,
 ) -> Result<(), ReportError> {
     let config = folder.read_config()?;
-    let log: Vec<GenerationReport> = read_lines(&folder.log())?;
-    let gallery: Vec<GalleryEntry> = read_lines(&folder.gallery())?;
+    let (log, gallery) = (folder.read_log()?, folder.read_gallery()?);
     let champion = match folder.champion().is_file() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,

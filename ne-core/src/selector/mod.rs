@@ -27,6 +27,8 @@ use crate::{Fitness, RandomStream};
 /// - exactly `count` indices are appended to `chosen`, each below `scores.len()`; none if `scores` is empty;
 /// - `None` (a failed evaluation) is chosen only when there is nothing else;
 /// - the choice depends on the scores and the stream alone.
+///
+/// Check yours with `check_selector` of the [conformance kit](crate::conformance).
 pub trait Selector: Send + Sync {
     /// Appends the indices of `count` parents to `chosen`, with repetition.
     fn select(&self, scores: &[Option<Fitness>], count: usize, stream: &mut RandomStream, chosen: &mut Vec<usize>);

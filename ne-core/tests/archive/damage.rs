@@ -11,22 +11,26 @@ fn no_flipped_bit_goes_unnoticed() -> Outcome {
     for layout in [Layout::Compact, Layout::Pretty] {
         write(&path, layout)?;
         let bytes = fs::read(&path)?;
-        let mut noticed = 0;
-        for place in 0..8 * bytes.len() {
+        // Of the pretty layout only what it has more: white space.
+        let at_risk = |place: &usize| layout == Layout::Compact || bytes[place / 8].is_ascii_whitespace();
+        let mut unnoticed = 0;
+        for place in (0..8 * bytes.len()).filter(at_risk) {
             let mut damaged = bytes.clone();
             damaged[place / 8] ^= 1 << (place % 8);
             fs::write(&path, &damaged)?;
             match read(&path) {
                 // A space that became another, the e of an exponent: what it says is still the same.
-                Ok(found) => assert_eq!(found, content(), "bit {} of byte {}", place % 8, place / 8),
+                Ok(found) => {
+                    unnoticed += 1;
+                    assert_eq!(found, content(), "bit {} of byte {}", place % 8, place / 8);
+                }
                 Err(error) => {
-                    noticed += 1;
                     assert!(error.to_string().contains(&path.display().to_string()), "{error} does not name the file");
                     assert!(!matches!(error, ArchiveError::Read { .. } | ArchiveError::Write { .. }), "{error}");
                 }
             }
         }
-        assert!(noticed > 7 * bytes.len(), "{noticed} of {} bits", 8 * bytes.len());
+        assert!(unnoticed < bytes.len(), "{unnoticed} of {} bits", 8 * bytes.len());
     }
     Ok(())
 }

@@ -59,7 +59,7 @@ impl Phenotype for Flawed {
             Flaw::LeavesAnOutput if inputs[0] < 0.0 => {}
             Flaw::AddsToTheOutput => outputs[1] += inputs[0],
             Flaw::Overflows => outputs[1] = (inputs[0] * inputs[0]).exp(),
-            Flaw::ZeroByZero => outputs[1] = inputs[0] / inputs[0],
+            Flaw::ZeroByZero => outputs[1] = inputs[0] / inputs[0].abs(),
             Flaw::Panics => panic!("on purpose"),
             _ => outputs[1] = inputs[1].clamp(-1.0, 1.0),
         }

@@ -9,15 +9,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct GaussianMutation {
-    /// The probability that a gene changes, from 0 to 1; default 0.1.
+    /// The probability that a gene changes, from 0 to 1; default 0.05.
     pub rate: f64,
-    /// The standard deviation of a change, in units of the weights, from 0 to 1000; default 0.3.
+    /// The standard deviation of a change, in units of the weights, from 0 to 1000; default 0.5.
     pub deviation: f64,
 }
 
 impl Default for GaussianMutation {
     fn default() -> Self {
-        Self { rate: 0.1, deviation: 0.3 }
+        Self { rate: 0.05, deviation: 0.5 }
     }
 }
 

@@ -25,6 +25,8 @@ use crate::Snapshot;
 /// - `value` depends on the snapshots since `begin` alone, and may be asked at any time after it;
 /// - `observe` allocates nothing.
 ///
+/// Check yours with [`check_movement`](crate::conformance::check_movement).
+///
 /// The type must be `Clone` (each evaluation watches with a clone of its own); the rest of [`MovementClone`] follows.
 pub trait Movement: MovementClone + Send + Sync {
     /// The name users choose it by: lower case, hyphens.
