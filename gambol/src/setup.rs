@@ -1,6 +1,9 @@
 //! From a configuration to the things a run is made of.
 
-use crate::config::{ControllerSettings, RunConfig, StrategySettings};
+use crate::{
+    config::{ControllerSettings, RunConfig, StrategySettings},
+    suggest,
+};
 use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::SettingError;
@@ -26,7 +29,7 @@ pub enum SetupError {
     #[error("creature: {0}")]
     Creature(#[from] CreatureError),
     /// The movement is unknown or its terms are.
-    #[error("movement.{0}")]
+    #[error("movement.{0}{}", nearest_movement(.0))]
     Movement(#[from] MovementSpecError),
     /// A setting is out of range.
     #[error("{0}")]
@@ -34,6 +37,12 @@ pub enum SetupError {
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
+}
+
+fn nearest_movement(error: &MovementSpecError) -> String {
+    let MovementSpecError::Unknown { name, known, .. } = error else { return String::new() };
+    let nearest = suggest::nearest(name, known.iter().map(String::as_str));
+    nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"))
 }
 
 /// What an episode is made of: the part of a configuration that a champion keeps.

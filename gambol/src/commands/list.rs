@@ -6,6 +6,10 @@ use std::process::ExitCode;
 use tasks::MovementCatalogue;
 
 #[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol creatures
+  gambol creatures --json")]
 pub(crate) struct Creatures {
     /// Print as JSON
     #[arg(long)]
@@ -37,6 +41,10 @@ impl Creatures {
 }
 
 #[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol movements
+  gambol movements --json")]
 pub(crate) struct Movements {
     /// Print as JSON
     #[arg(long)]

@@ -1,6 +1,7 @@
 use super::{INTERRUPTED, Outcome, progress::Show};
 use clap::Args;
 use gambol::{
+    Setup,
     config::{Request, RunConfig},
     report,
     training::{self, TrainOptions},
@@ -81,6 +82,7 @@ pub(super) struct Limits {
 pub(super) struct Manner {
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
     threads: usize,
     /// Show nothing but errors
     #[arg(long, short)]
@@ -128,9 +130,20 @@ impl Train {
             config.strategy.set_population(population);
         }
         config.stop = self.limits.over(config.stop);
+        if let Err(error) = Setup::new(&config, &catalogue) {
+            return Err(located(&error.to_string(), request, &catalogue).into());
+        }
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
-        carry_out(&self.manner, &config.clone(), catalogue, |options| training::train(&config, &folder, options))
+        carry_out(&self.manner, &config, catalogue, |options| training::train(&config, &folder, options))
     }
+}
+
+/// The error, with the file it is in: the configuration file, if that alone gives the same error.
+fn located(error: &str, request: Request, catalogue: &MovementCatalogue) -> String {
+    let file = request.config.clone();
+    let alone = Request { set: Vec::new(), ..request }.resolve(catalogue);
+    let same = alone.is_ok_and(|config| Setup::new(&config, catalogue).is_err_and(|found| found.to_string() == error));
+    file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }
 
 /// `runs/biped-1-running`, or with a number behind it if that is taken.

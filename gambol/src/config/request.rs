@@ -1,8 +1,8 @@
 //! What a user asks for, and the configuration that follows from it.
 
-use super::{Assembly, ConfigError, PRESETS, RunConfig, preset};
+use super::{Assembly, ConfigError, PRESETS, Preset, RunConfig, preset};
 use crate::{source, source::SourceError, suggest};
-use creatures::{Blueprint, Creature};
+use creatures::{Blueprint, Creature, CreatureError};
 use serde_json::Value;
 use std::{
     fs, io,
@@ -74,15 +74,7 @@ impl Request {
         let layer = self.config.as_deref().map(Layer::read).transpose()?;
         let creature = self.creature(layer.as_ref())?;
         let movement = self.movement(layer.as_ref(), catalogue)?;
-        let preset_name = self.preset.as_deref().or(layer.as_ref().and_then(|layer| layer.text("/preset")));
-        let base = match preset_name {
-            Some(name) => preset(name).ok_or_else(|| {
-                let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-                RequestError::Unknown(suggest::unknown("preset", name, &known))
-            })?,
-            None => &PRESETS[0],
-        };
-        let base = base.config(creature, &movement);
+        let base = self.preset(layer.as_ref())?.config(creature, &movement);
         let mut assembly = Assembly::new(&base);
         if let Some(Layer { path, value }) = layer {
             assembly.lay_over(value);
@@ -107,31 +99,59 @@ impl Request {
         };
         if let Some(name) = value.as_str() {
             let beside = layer.path.parent().map(|folder| folder.join(name)).filter(|path| path.is_file());
-            return Ok(match beside {
-                Some(path) => source::creature_file(&path)?,
-                None => source::creature(name)?,
-            });
+            return match beside {
+                Some(path) => Ok(source::creature_file(&path)?),
+                None => source::creature(name).map_err(|error| layer.wrong("creature", error)),
+            };
         }
         let blueprint = Blueprint::from_json(&value.to_string())
-            .map_err(|source| SourceError::Invalid { path: layer.path.clone(), source: Box::new(source) })?;
+            .map_err(|error| layer.wrong("creature", without_place(&error)))?;
         Ok(blueprint.creature().clone())
     }
 
     fn movement(&self, layer: Option<&Layer>, catalogue: &MovementCatalogue) -> Result<String, RequestError> {
-        let name = self.movement.as_deref().or(layer.and_then(|layer| layer.text("/movement/name")));
-        let Some(name) = name else {
-            return Err(RequestError::Missing("say which movement (see: gambol movements)"));
+        let known = || {
+            let whole = catalogue.entries().iter().filter(|entry| entry.steps.is_some());
+            whole.map(|entry| entry.name.as_str()).collect::<Vec<_>>()
         };
-        if catalogue.find(name).is_none() {
-            let known: Vec<&str> = catalogue
-                .entries()
-                .iter()
-                .filter(|entry| entry.steps.is_some())
-                .map(|entry| entry.name.as_str())
-                .collect();
-            return Err(RequestError::Unknown(suggest::unknown("movement", name, &known)));
+        let check = |name: &str| match catalogue.find(name) {
+            Some(_) => Ok(name.to_owned()),
+            None => Err(suggest::unknown("movement", name, &known())),
+        };
+        if let Some(name) = &self.movement {
+            return check(name).map_err(RequestError::Unknown);
         }
-        Ok(name.into())
+        match layer.and_then(|layer| Some((layer, layer.text("/movement/name")?))) {
+            Some((layer, name)) => check(name).map_err(|message| layer.wrong("movement.name", message)),
+            None => Err(RequestError::Missing("say which movement (see: gambol movements)")),
+        }
+    }
+
+    fn preset(&self, layer: Option<&Layer>) -> Result<&'static Preset, RequestError> {
+        let check = |name: &str| {
+            let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
+            preset(name).ok_or_else(|| suggest::unknown("preset", name, &known))
+        };
+        if let Some(name) = &self.preset {
+            return check(name).map_err(RequestError::Unknown);
+        }
+        match layer.and_then(|layer| Some((layer, layer.value.get("preset")?))) {
+            Some((layer, Value::String(name))) => check(name).map_err(|message| layer.wrong("preset", message)),
+            Some((layer, other)) => Err(layer.wrong("preset", format!("must be a name, found {other}"))),
+            None => Ok(&PRESETS[0]),
+        }
+    }
+}
+
+/// The message without line and column: the creature is part of a larger file.
+fn without_place(error: &CreatureError) -> String {
+    let message = error.to_string();
+    match error {
+        CreatureError::Field { line, column, .. } => message.replace(&format!(" (line {line}, column {column})"), ""),
+        CreatureError::UnknownName(name) => {
+            message.replace(&format!(" (line {}, column {})", name.line, name.column), "")
+        }
+        _ => message,
     }
 }
 
@@ -151,5 +171,11 @@ impl Layer {
 
     fn text(&self, pointer: &str) -> Option<&str> {
         self.value.pointer(pointer).and_then(Value::as_str)
+    }
+
+    /// The error that a field of this file is wrong.
+    fn wrong(&self, field: &str, message: impl ToString) -> RequestError {
+        let source = ConfigError::Field { field: field.into(), message: message.to_string() };
+        RequestError::File { path: self.path.clone(), source }
     }
 }
