@@ -51,7 +51,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let preset = preset("default").ok_or("there is a default preset")?;
     let mut config = preset.config(creatures::find("biped-2")?, "moonwalk");
-    config.stop.generations = Some(20);
+    config.stop.generations = Some(12);
     let folder = std::env::temp_dir().join(format!("gambol-moonwalk-{}", std::process::id()));
     let options = TrainOptions {
         threads: 0,

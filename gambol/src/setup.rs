@@ -29,7 +29,7 @@ pub enum SetupError {
     #[error("creature: {0}")]
     Creature(#[from] CreatureError),
     /// The movement is unknown or its terms are.
-    #[error("movement.{0}{}", nearest_movement(.0))]
+    #[error("movement.{}", with_nearest(.0))]
     Movement(#[from] MovementSpecError),
     /// A setting is out of range.
     #[error("{0}")]
@@ -39,10 +39,12 @@ pub enum SetupError {
     Environment(#[from] EnvironmentError),
 }
 
-fn nearest_movement(error: &MovementSpecError) -> String {
-    let MovementSpecError::Unknown { name, known, .. } = error else { return String::new() };
-    let nearest = suggest::nearest(name, known.iter().map(String::as_str));
-    nearest.map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"))
+fn with_nearest(error: &MovementSpecError) -> String {
+    let MovementSpecError::Unknown { name, known, .. } = error else { return error.to_string() };
+    match suggest::nearest(name, known.iter().map(String::as_str)) {
+        Some(nearest) => format!("{error}; did you mean \"{nearest}\"?"),
+        None => error.to_string(),
+    }
 }
 
 /// What an episode is made of: the part of a configuration that a champion keeps.

@@ -143,16 +143,15 @@ impl Request {
     }
 }
 
-/// The message without line and column: the creature is part of a larger file.
+/// The message without line and column, since the creature is part of a larger file.
 fn without_place(error: &CreatureError) -> String {
-    let message = error.to_string();
-    match error {
-        CreatureError::Field { line, column, .. } => message.replace(&format!(" (line {line}, column {column})"), ""),
-        CreatureError::UnknownName(name) => {
-            message.replace(&format!(" (line {}, column {})", name.line, name.column), "")
-        }
-        _ => message,
-    }
+    let (line, column) = match error {
+        CreatureError::Field { line, column, .. } => (*line, *column),
+        CreatureError::UnknownName(name) => (name.line, name.column),
+        _ => return error.to_string(),
+    };
+    let message = error.to_string().replace(&format!(" (line {line}, column {column})"), "");
+    message.trim_start_matches("the file: ").to_owned()
 }
 
 /// A configuration file.

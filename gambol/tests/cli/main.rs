@@ -1,0 +1,23 @@
+//! What the program promises to those who use it: which files, which bytes, which exit codes, which messages.
+//!
+//! Every test starts the program itself, in a temporary folder, on runs so small that they take a blink.
+
+mod bad_creatures;
+mod bad_files;
+mod bad_settings;
+mod broken_runs;
+mod checking;
+mod damage;
+mod folder;
+mod full_disk;
+mod help;
+mod interrupted;
+mod killed;
+mod longer;
+mod overwriting;
+mod program;
+mod replaying;
+mod repeating;
+mod reporting;
+mod training;
+mod verifying;

@@ -1,0 +1,105 @@
+use crate::{
+    folder::LASTING,
+    program::{assert_says, gambol, run, small_run, succeed, text},
+};
+use serde_json::Value;
+use std::{collections::BTreeSet, fs};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+#[test]
+fn a_run_leaves_every_file_it_promises_and_no_other() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("deep/below/run");
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--set", "movement.steps=60", "--population", "8", "--generations", "4", "--out"]);
+    succeed(train.arg(&run));
+    let found = fs::read_dir(&run)?.map(|entry| Ok(entry?.file_name().into_string().expect("plain names")));
+    let promised = LASTING.iter().chain(&["timing.jsonl", "report.html"]).map(ToString::to_string);
+    assert_eq!(found.collect::<Result<BTreeSet<_>, std::io::Error>>()?, promised.collect());
+    for name in ["log.jsonl", "timing.jsonl"] {
+        assert_eq!(fs::read_to_string(run.join(name))?.lines().count(), 4, "{name} has a line a generation");
+    }
+    Ok(())
+}
+
+#[test]
+fn quiet_prints_nothing() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let ended = run(small_run(&folder.path().join("run"), 2).arg("--quiet"));
+    assert_eq!((ended.code, ended.stdout.as_str(), ended.stderr.as_str()), (Some(0), "", ""));
+    Ok(())
+}
+
+#[test]
+fn json_is_a_line_for_each_generation_and_one_for_the_result() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let ended = run(small_run(&path, 5).arg("--json"));
+    assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
+    let lines = ended.stdout.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>()?;
+    let (result, generations) = lines.split_last().expect("six lines");
+    let numbers = generations.iter().map(|line| line["generation"]["generation"].as_u64());
+    assert!(numbers.eq((1..=5).map(Some)), "{}", ended.stdout);
+    let result = &result["result"];
+    assert_eq!(result["folder"], text(&path));
+    assert_eq!(result["reason"], "generations");
+    assert_eq!(result["progress"]["evaluations"], 40);
+    assert_eq!(result["fitness"], generations[4]["generation"]["best_so_far"]);
+    Ok(())
+}
+
+/// What is for programs (where the result is) goes to standard output, what passes by to standard error.
+#[test]
+fn without_a_terminal_progress_is_plain_lines_on_standard_error() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let ended = run(&mut small_run(&path, 3));
+    assert_eq!(ended.code, Some(0));
+    assert_says(&ended.stderr, &["biped-1 learns running: population 8, seed 1\n", "generation 3/3: best "]);
+    assert_says(&ended.stdout, &["best ", "of 3; the generations were done", text(&path.join("champion.json"))]);
+    for stream in [&ended.stdout, &ended.stderr] {
+        assert!(!stream.contains(['\r', '\u{1b}']), "terminal codes in {stream:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_run_without_a_folder_gets_one_named_after_what_it_learns() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for expected in ["runs/biped-1-running", "runs/biped-1-running-2", "runs/biped-1-running-3"] {
+        let mut train = gambol("train");
+        train.args(["biped-1", "running", "--set", "movement.steps=20", "--population", "2", "--generations", "1"]);
+        succeed(train.args(["--no-report", "--quiet"]).current_dir(folder.path()));
+        assert!(folder.path().join(expected).join("champion.json").is_file(), "{expected}");
+    }
+    Ok(())
+}
+
+/// Flags, single settings, a file and a preset: what is said more directly wins.
+#[test]
+fn flags_win_over_settings_and_settings_over_the_file() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("mine.json");
+    fs::write(
+        &file,
+        r#"{"preset": "thesis", "seed": 5, "movement": {"steps": 40},
+            "strategy": {"conventional": {"population": 30, "selection": {"tournament": {"size": 2}}}},
+            "stop": {"generations": 9}}"#,
+    )?;
+    let path = folder.path().join("run");
+    let mut train = gambol("train");
+    train.args(["biped-1", "jumping", "--quiet", "--no-report", "--config", text(&file), "--out", text(&path)]);
+    train.args(["--set", "movement.steps=30", "--set", "strategy.conventional.population=20"]);
+    succeed(train.args(["--population", "4", "--generations", "1"]));
+    let config = &crate::damage::json(&path.join("config.json"))["content"];
+    assert_eq!(config["preset"], "thesis");
+    assert_eq!(config["seed"], 5);
+    assert_eq!(config["movement"], serde_json::json!({"name": "jumping", "steps": 30}));
+    assert_eq!(config["stop"]["generations"], 1);
+    let strategy = &config["strategy"]["conventional"];
+    assert_eq!(strategy["population"], 4);
+    assert_eq!(strategy["selection"], serde_json::json!({"tournament": {"size": 2}}), "a choice replaces the preset's");
+    assert_eq!(strategy["elites"], 0, "the rest is the preset's");
+    Ok(())
+}
