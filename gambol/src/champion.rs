@@ -101,6 +101,7 @@ impl Champion {
     pub fn new(
         config: &RunConfig,
         setup: &Setup,
+        strategy: &str,
         network: Network,
         seed: Seed,
         generation: u64,
@@ -121,7 +122,7 @@ impl Champion {
             engine: Engine::current(),
             seed,
             generation,
-            strategy: config.strategy.name().into(),
+            strategy: strategy.into(),
             fitness,
             trajectory,
         }

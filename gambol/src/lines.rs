@@ -11,7 +11,7 @@ use ne_core::{
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
     fs::{self, File, OpenOptions},
-    io::{self, BufWriter, Write},
+    io::{self, Write},
     path::{Path, PathBuf},
 };
 
@@ -65,7 +65,7 @@ impl Kept {
             archive::write_whole(&path, &bytes[..length]).map_err(failed)?;
         }
         let file = OpenOptions::new().create(true).append(true).open(&path).map_err(failed)?;
-        Ok(LineFile { file: BufWriter::new(file), path, digest })
+        Ok(LineFile { file, path, digest })
     }
 }
 
@@ -73,7 +73,7 @@ impl Kept {
 #[derive(Debug)]
 pub(crate) struct LineFile {
     path: PathBuf,
-    file: BufWriter<File>,
+    file: File,
     digest: Digest,
 }
 
@@ -83,13 +83,14 @@ impl LineFile {
         let text = serde_json::to_string(line).map_err(|source| self.failed(source.into()))?;
         let fields = text.strip_suffix('}').unwrap_or(&text);
         self.digest.add(fields.as_bytes());
-        writeln!(self.file, "{fields}{}", seal(self.digest)).map_err(|source| self.failed(source))
+        // In one piece: somebody may be reading.
+        let line = format!("{fields}{}\n", seal(self.digest));
+        self.file.write_all(line.as_bytes()).map_err(|source| self.failed(source))
     }
 
     /// Brings everything to the disk.
     pub(crate) fn sync(&mut self) -> Result<(), ArchiveError> {
-        let synced = self.file.flush().and_then(|()| self.file.get_ref().sync_data());
-        synced.map_err(|source| self.failed(source))
+        self.file.sync_data().map_err(|source| self.failed(source))
     }
 
     fn failed(&self, source: io::Error) -> ArchiveError {

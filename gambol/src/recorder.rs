@@ -72,7 +72,7 @@ impl<'a> Recorder<'a> {
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
         self.sync()?;
-        self.write_champion(evolution.champion())?;
+        self.write_champion(evolution.strategy().name(), evolution.champion())?;
         Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
     }
 
@@ -82,14 +82,18 @@ impl<'a> Recorder<'a> {
         Ok(self.timing.sync()?)
     }
 
-    fn write_champion<G: Genome>(&self, champion: Option<&ne_core::Champion<G>>) -> Result<(), FolderError>
+    fn write_champion<G: Genome>(
+        &self,
+        strategy: &str,
+        champion: Option<&ne_core::Champion<G>>,
+    ) -> Result<(), FolderError>
     where
         G::Phenotype: Into<Network>,
     {
         let Some(champion) = champion else { return Ok(()) };
         let network = champion.genome.express().into();
         let ne_core::Champion { seed, generation, fitness, .. } = *champion;
-        let champion = Champion::new(self.config, self.setup, network, seed, generation, fitness);
+        let champion = Champion::new(self.config, self.setup, strategy, network, seed, generation, fitness);
         Ok(champion.write(&self.folder.champion())?)
     }
 
@@ -125,7 +129,7 @@ impl<'a> Recorder<'a> {
         self.timing.write(&Timing { generation, seconds })?;
         if generation.is_multiple_of(self.config.record.checkpoint_every) {
             self.sync()?;
-            self.write_champion(event.champion)?;
+            self.write_champion(event.strategy.name(), event.champion)?;
             event.write_checkpoint(&self.folder.checkpoint())?;
         }
         Ok(())

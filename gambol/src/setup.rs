@@ -94,6 +94,7 @@ impl Setup {
             StrategySettings::Conventional(settings) => {
                 settings.validate().map_err(|error| error.within("strategy.conventional"))?;
             }
+            StrategySettings::Custom(_) => {}
         }
         let episode = config.episode_parts().build(catalogue)?;
         let (inputs, outputs) = (episode.environment().senses().len(), episode.environment().motors().len());

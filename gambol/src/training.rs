@@ -64,6 +64,12 @@ pub enum TrainError {
         /// What happened.
         source: EvolutionError,
     },
+    /// The strategy belongs to another program.
+    #[error("the strategy \"{strategy}\" is not one of Gambol's; the program that has it trains and resumes it")]
+    Foreign {
+        /// Its name.
+        strategy: String,
+    },
     /// The run is over and there is nothing left to do.
     #[error(
         "the run in {} has ended: {reason} (generation {generations}); to go on, raise its limit, such as --generations {}",
@@ -105,10 +111,12 @@ pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Re
                 .map_err(|error| error.within("strategy.conventional"))?;
             train_with(strategy, config, &setup, folder, options)
         }
+        StrategySettings::Custom(name) => Err(TrainError::Foreign { strategy: name.clone() }),
     }
 }
 
-/// Runs a configuration with a strategy of your own in place of the one it names.
+/// Runs a configuration with a strategy of your own in place of the one it names; the folder's configuration then has
+/// its name, as [`StrategySettings::Custom`].
 ///
 /// # Errors
 /// As [`train`].
@@ -123,6 +131,11 @@ where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
     let evaluator = Parallel::new(options.threads)?;
+    let mut config = config.clone();
+    if strategy.name() != config.strategy.name() {
+        config.strategy = StrategySettings::Custom(strategy.name().into());
+    }
+    let config = &config;
     let folder = RunFolder::create(folder, config)?;
     let earlier = EarlierLines::check(&folder, config, 0)?;
     let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
@@ -139,6 +152,7 @@ pub fn resume(folder: &Path, stop: StopConditions, options: TrainOptions<'_>) ->
     let config = folder.read_config()?;
     match &config.strategy {
         StrategySettings::Conventional(_) => resume_with::<ConventionalNe>(folder, config, stop, options),
+        StrategySettings::Custom(name) => Err(TrainError::Foreign { strategy: name.clone() }),
     }
 }
 

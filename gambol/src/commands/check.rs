@@ -59,6 +59,11 @@ fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
         senses.len(),
         motors.len()
     );
+    let lowest = blueprint.bounding_box()[1];
+    if lowest.abs() > 0.05 {
+        let place = if lowest > 0.0 { "above" } else { "below" };
+        println!("  note: in the start pose its lowest point is {:.2} m {place} the ground (y = 0)", lowest.abs());
+    }
     for channel in senses.channels() {
         println!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit);
     }

@@ -59,6 +59,9 @@ pub struct RunConfig {
 pub enum StrategySettings {
     /// Conventional neuroevolution: a genetic algorithm over the weights of a fixed topology.
     Conventional(ConventionalNeSettings),
+    /// A strategy of another program, by the name it has there. That program trains and resumes
+    /// ([`train_with`](crate::training::train_with)); ours reports, replays and verifies.
+    Custom(String),
 }
 
 /// The net between sensors and motors.
@@ -98,16 +101,18 @@ impl RecordSettings {
 
 impl StrategySettings {
     /// The strategy's name.
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::Conventional(_) => "conventional",
+            Self::Custom(name) => name,
         }
     }
 
-    /// The number of individuals of a generation.
-    pub fn population(&self) -> usize {
+    /// The number of individuals of a generation, if it is a setting of ours.
+    pub fn population(&self) -> Option<usize> {
         match self {
-            Self::Conventional(settings) => settings.population,
+            Self::Conventional(settings) => Some(settings.population),
+            Self::Custom(_) => None,
         }
     }
 
@@ -115,6 +120,7 @@ impl StrategySettings {
     pub fn set_population(&mut self, population: usize) {
         match self {
             Self::Conventional(settings) => settings.population = population,
+            Self::Custom(_) => {}
         }
     }
 }

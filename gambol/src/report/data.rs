@@ -116,6 +116,9 @@ pub(super) struct ChampionData {
     /// For each frame the parts that press on the ground, as the bits of a hexadecimal number.
     contacts: Vec<String>,
     network: Option<NetworkData>,
+    /// Mean forward speed of the torso over the whole replay; for running only.
+    #[serde(skip)]
+    pub(super) body_lengths_per_second: Option<f64>,
 }
 
 #[derive(Serialize)]
@@ -135,8 +138,14 @@ struct Neuron {
 }
 
 impl ChampionData {
-    pub(super) fn new(champion: &Champion, recording: &Recording, time_step: f32) -> Self {
+    pub(super) fn new(champion: &Champion, recording: &Recording, body_length: f32) -> Self {
+        let time_step = champion.physics.time_step;
+        let ends = recording.snapshots.first().zip(recording.snapshots.last());
+        let speed = ends.filter(|(_, last)| champion.movement.name == "running" && last.time > 0.0).map(|(first, last)| {
+            f64::from((last.torso().x - first.torso().x) / last.time / body_length)
+        });
         Self {
+            body_lengths_per_second: speed,
             generation: champion.generation,
             fitness: champion.fitness.get(),
             replay: Replay::new(&recording.snapshots, time_step, 1),
@@ -231,17 +240,18 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         config.movement.terms.iter().map(|term| format!("{} × {}", term.weight, term.term)).collect();
     let movement = [vec![config.movement.name.clone()], terms].concat().join(" + ");
     let hidden: Vec<String> = config.controller.hidden.iter().map(ToString::to_string).collect();
-    vec![
+    let mut facts = vec![
         Fact::new("Creature", &config.creature.name),
         Fact::new("Movement", movement),
         Fact::new("Preset", &config.preset),
         Fact::new("Strategy", config.strategy.name()),
-        Fact::new("Population", config.strategy.population()),
         Fact::new("Hidden layers", if hidden.is_empty() { "none".into() } else { hidden.join(", ") }),
         Fact::new("Trials", config.trials.count),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
-    ]
+    ];
+    facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
+    facts
 }
 
 pub(super) fn versions() -> Vec<Version> {

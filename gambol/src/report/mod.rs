@@ -62,11 +62,7 @@ pub fn write_report(
     let populations: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Population).collect();
     let movement = movement_data(catalogue, &config.movement.name, &setup.unit);
     let last = log.last();
-    let body_lengths = champion.as_ref().filter(|_| movement.name == "running").map(|champion| {
-        let seconds = f64::from(setup.episode.steps()) * f64::from(config.physics.time_step);
-        let length = f64::from(setup.episode.environment().blueprint().body_length());
-        champion.fitness.get() / seconds / length
-    });
+    let champion_data = champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?;
     let report = Report {
         title: format!("{} · {} · Gambol", config.creature.name, config.movement.name),
         creature: config.creature.clone(),
@@ -77,10 +73,10 @@ pub fn write_report(
             evaluations: last.evaluations,
             physics_steps: last.steps,
             stopped_because: ended.map(|reason| reason.to_string()),
-            body_lengths_per_second: body_lengths,
+            body_lengths_per_second: champion_data.as_ref().and_then(|champion| champion.body_lengths_per_second),
         }),
         history: log.iter().map(HistoryPoint::from).collect(),
-        champion: champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?,
+        champion: champion_data,
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
         settings: data::settings(&config),
@@ -134,7 +130,8 @@ fn movement_data(catalogue: &MovementCatalogue, name: &str, unit: &str) -> Movem
 fn champion_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<ChampionData, ReportError> {
     let episode = champion.episode(catalogue)?;
     let recording = play(&episode, champion.network.clone(), champion.seed, episode.steps());
-    Ok(ChampionData::new(champion, &recording, champion.physics.time_step))
+    let body_length = episode.environment().blueprint().body_length();
+    Ok(ChampionData::new(champion, &recording, body_length))
 }
 
 /// About `count` of the items, evenly spread, the first and the last among them.

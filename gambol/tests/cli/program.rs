@@ -2,8 +2,9 @@
 
 use std::{
     ffi::OsStr,
+    io::{BufRead, BufReader},
     path::Path,
-    process::{Command, Output, Stdio},
+    process::{Child, ChildStdout, Command, Output, Stdio},
 };
 
 /// A command of the program, to which arguments can be added.
@@ -24,6 +25,33 @@ pub(crate) fn small_run_of(creature: &str, movement: &str, folder: &Path, genera
     train.args([creature, movement, "--population", "8", "--set", "movement.steps=60", "--no-report"]);
     train.arg("--generations").arg(generations.to_string()).arg("--out").arg(folder);
     train
+}
+
+/// The generations of a [`long_run`].
+pub(crate) const LONG: usize = 200;
+
+/// A run of tiny generations, for tests that stop a run which is under way.
+///
+/// With `--json` and its output in a pipe that nobody reads, it cannot end: a pipe holds 64 KiB, about a hundred lines.
+/// So a test that has read up to forty lines knows that the run is still there, however slow the machine.
+pub(crate) fn long_run(folder: &Path) -> Command {
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--population", "4", "--set", "movement.steps=20", "--no-report"]);
+    train.arg("--generations").arg(LONG.to_string()).arg("--out").arg(folder);
+    train
+}
+
+/// Starts a command that prints a line a generation, and reads so many of them.
+pub(crate) fn start_and_read(command: &mut Command, lines: usize) -> (Child, BufReader<ChildStdout>) {
+    let mut child = command.arg("--json").stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let mut output = BufReader::new(child.stdout.take().expect("a pipe"));
+    let mut line = String::new();
+    for _ in 0..lines {
+        line.clear();
+        output.read_line(&mut line).expect("text");
+        assert!(line.starts_with("{\"generation\":"), "{line}");
+    }
+    (child, output)
 }
 
 /// What a command that has ended left behind.

@@ -166,7 +166,7 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
     type Genome = WeightVector;
 
     fn name(&self) -> &str {
-        "conventional-ne"
+        "conventional"
     }
 
     /// # Panics

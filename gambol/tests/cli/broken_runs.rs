@@ -1,0 +1,177 @@
+//! A run folder that is damaged: `resume` says which file and where, and leaves everything as it was.
+
+use crate::{
+    damage::{edit, flip, json, places, raise_version, truncate, write},
+    folder::{assert_same_run, assert_untouched, contents, read},
+    program::{assert_says, fail, gambol, small_run, succeed, text},
+};
+use serde_json::Value;
+use std::{fs, path::Path, process::Command};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// What a resumed run goes on from; each is needed, so that damage to each must be found.
+const NEEDED: [&str; 5] = ["config.json", "checkpoint", "log.jsonl", "gallery.jsonl", "timing.jsonl"];
+
+fn resume(path: &Path) -> Command {
+    let mut resume = gambol("resume");
+    resume.arg(path).args(["--no-report", "--generations", "6"]);
+    resume
+}
+
+/// The damaged run is refused with a message that says all this, and nothing in it changes.
+#[track_caller]
+fn assert_refused(run: &Path, says: &[&str]) {
+    let before = contents(run);
+    assert_says(&fail(&mut resume(run)), says);
+    assert_untouched(run, &before);
+}
+
+#[test]
+fn a_truncated_file_is_refused_wherever_it_ends() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 4));
+    for name in NEEDED {
+        let file = run.join(name);
+        let whole = read(&file);
+        for place in places(&file, 8) {
+            truncate(&file, place);
+            assert_refused(&run, &[text(&file), "line "]);
+            write(&file, &whole);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_flipped_bit_is_refused_wherever_it_is() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 4));
+    for name in NEEDED {
+        let file = run.join(name);
+        let whole = read(&file);
+        for (bit, place) in places(&file, 24).enumerate() {
+            flip(&file, place, bit);
+            // The e of an exponent may become an E; files of lines notice even that.
+            if name.ends_with("jsonl") || !same_value(&whole, &read(&file)) {
+                assert_refused(&run, &[text(&file)]);
+            }
+            write(&file, &whole);
+        }
+    }
+    // That all of this was refused for the damage, and for nothing else:
+    succeed(&mut resume(&run));
+    Ok(())
+}
+
+fn same_value(one: &[u8], other: &[u8]) -> bool {
+    let value = |bytes| serde_json::from_slice::<Value>(bytes).ok();
+    value(one) == value(other)
+}
+
+#[test]
+fn a_lost_line_is_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 4));
+    for name in ["log.jsonl", "gallery.jsonl", "timing.jsonl"] {
+        let file = run.join(name);
+        let whole = fs::read_to_string(&file)?;
+        let lines: Vec<&str> = whole.split_inclusive('\n').collect();
+        fs::write(&file, [&lines[..1], &lines[2..]].concat().concat())?;
+        assert_refused(&run, &[text(&file), "line 2: it was changed"]);
+        fs::write(&file, lines[..lines.len() - 1].concat())?;
+        assert_refused(&run, &[text(&file), &format!("line {}: it is missing", lines.len())]);
+        fs::remove_file(&file)?;
+        assert_refused(&run, &[text(&file), "line 1: it is missing"]);
+        fs::write(&file, whole)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_folder_of_another_version_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 2));
+    for name in ["config.json", "checkpoint"] {
+        let file = run.join(name);
+        let whole = read(&file);
+        raise_version(&file);
+        assert_refused(&run, &[text(&file), "has version 2, this Gambol reads version 1; use a newer Gambol"]);
+        let mut earlier = json(&file);
+        earlier["version"] = 0.into();
+        write(&file, earlier.to_string().as_bytes());
+        assert_refused(&run, &[text(&file), "has version 0", "use the Gambol that wrote it"]);
+        write(&file, &whole);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_configuration_edited_by_hand_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 2));
+    edit(&run.join("config.json"), |content| content["physics"]["gravity"] = 1.62.into());
+    assert_refused(&run, &[text(&run.join("config.json")), "was changed after it was written"]);
+    Ok(())
+}
+
+#[test]
+fn a_file_in_the_place_of_another_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 2));
+    fs::copy(run.join("champion.json"), run.join("checkpoint"))?;
+    assert_refused(&run, &[text(&run.join("checkpoint")), "\"gambol champion\"", "\"gambol checkpoint\""]);
+    Ok(())
+}
+
+#[test]
+fn what_is_no_run_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (empty, file) = (folder.path().join("empty"), folder.path().join("file"));
+    fs::create_dir(&empty)?;
+    fs::write(&file, "text")?;
+    for path in [&empty, &file, &folder.path().join("missing")] {
+        for command in ["resume", "report"] {
+            let message = fail(gambol(command).arg(path));
+            assert_says(&message, &[text(path), "is not the folder of a run: it has no config.json"]);
+        }
+    }
+    Ok(())
+}
+
+/// The champion is in the checkpoint as well, so that nothing is lost with its file.
+#[test]
+fn a_damaged_champion_file_is_made_anew() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (run, whole) = (folder.path().join("run"), folder.path().join("whole"));
+    succeed(&mut small_run(&whole, 6));
+    succeed(&mut small_run(&run, 4));
+    truncate(&run.join("champion.json"), 100);
+    succeed(&mut resume(&run));
+    assert_same_run(&whole, &run);
+    Ok(())
+}
+
+#[test]
+fn a_report_of_a_damaged_run_names_the_file_and_keeps_the_old_report() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 4));
+    succeed(gambol("report").arg(&run));
+    for name in ["config.json", "log.jsonl", "gallery.jsonl", "champion.json"] {
+        let file = run.join(name);
+        let whole = read(&file);
+        flip(&file, whole.len() / 2, 1);
+        let before = contents(&run);
+        assert_says(&fail(gambol("report").arg(&run)), &[text(&file)]);
+        assert_untouched(&run, &before);
+        write(&file, &whole);
+    }
+    Ok(())
+}

@@ -1,0 +1,86 @@
+//! Ctrl-C finishes the generation, saves, and says how to resume.
+#![cfg(unix)]
+
+use crate::{
+    damage::json,
+    folder::{assert_same_run, read},
+    program::{Ended, LONG, assert_says, gambol, long_run, start_and_read, succeed, text},
+};
+use serde_json::Value;
+use std::{
+    io::{BufRead, BufReader, Read},
+    process::{Child, Command, Stdio},
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// The exit code shells have for a program that ended on Ctrl-C.
+const INTERRUPTED: Option<i32> = Some(130);
+
+fn interrupt(child: &Child) {
+    let status = Command::new("sh").args(["-c", "kill -INT \"$1\"", "sh", &child.id().to_string()]).status();
+    assert!(status.expect("there is a shell").success());
+}
+
+#[test]
+fn an_interrupted_run_ends_with_130_and_resumed_gives_the_same_bytes() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+    succeed(long_run(&whole).args(["--threads", "2", "--quiet"]));
+    let (child, mut output) = start_and_read(long_run(&broken).args(["--threads", "1"]), 4);
+    interrupt(&child);
+    let mut rest = String::new();
+    output.read_to_string(&mut rest)?;
+    assert_eq!(Ended::from(child.wait_with_output()?).code, INTERRUPTED);
+    let result: Value = serde_json::from_str(rest.lines().last().expect("a result"))?;
+    assert_eq!(result["result"]["reason"], "interrupted");
+    succeed(gambol("resume").arg(&broken).arg("--no-report"));
+    assert_same_run(&whole, &broken);
+    Ok(())
+}
+
+#[test]
+fn an_interrupted_run_has_saved_its_last_generation_and_says_how_to_go_on() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--population", "4", "--set", "movement.steps=20", "--no-report"]);
+    // No machine gets that far before it is interrupted.
+    train.args(["--set", "record.checkpoint_every=1000000", "--generations", "1000000", "--out"]).arg(&path);
+    let mut child = train.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+    let mut errors = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    let title = errors.next().expect("a title")?;
+    assert_says(&title, &["biped-1 learns running"]);
+    let first = errors.next().expect("the first generation is always told")?;
+    assert_says(&first, &["generation 1/1000000: best "]);
+    interrupt(&child);
+    let ended = Ended::from(child.wait_with_output()?);
+    assert_eq!(ended.code, INTERRUPTED, "{}", ended.stdout);
+    let rest = errors.collect::<Result<Vec<_>, _>>()?.join("\n");
+    assert_says(&rest, &["finishing this generation, then saving"]);
+    assert_says(&ended.stdout, &["it was interrupted", &format!("gambol resume {}", text(&path))]);
+
+    let done = json(&path.join("checkpoint"))["content"]["progress"]["generations"].as_u64().expect("a number");
+    assert_eq!(read(&path.join("log.jsonl")).split(|&byte| byte == b'\n').count() as u64, done + 1, "lines, and the end");
+    assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical"]);
+    Ok(())
+}
+
+/// Somebody in a hurry loses the generations since the last checkpoint, for a while: resumed, they come again.
+#[test]
+fn a_second_interrupt_ends_at_once_and_what_was_saved_is_whole() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+    succeed(long_run(&whole).arg("--quiet"));
+    let (child, mut output) = start_and_read(&mut long_run(&broken), 15);
+    interrupt(&child);
+    interrupt(&child);
+    // The system may deliver two signals as one; then the run ends as after the first.
+    output.read_to_end(&mut Vec::new())?;
+    assert_eq!(Ended::from(child.wait_with_output()?).code, INTERRUPTED);
+    let saved = json(&broken.join("checkpoint"))["content"]["progress"]["generations"].as_u64().expect("a number");
+    assert!((10..LONG as u64).contains(&saved), "{saved}");
+    succeed(gambol("resume").arg(&broken).arg("--no-report"));
+    assert_same_run(&whole, &broken);
+    Ok(())
+}

@@ -1,0 +1,49 @@
+//! A run that is over can be given more; it is then the run that had so much from the start.
+
+use crate::{
+    folder::{assert_same_run, assert_untouched, contents},
+    program::{assert_says, fail, gambol, small_run, succeed, text},
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+#[test]
+fn more_generations_give_the_bytes_of_a_run_that_had_them_from_the_start() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (grown, whole) = (folder.path().join("grown"), folder.path().join("whole"));
+    succeed(small_run(&whole, 12).args(["--threads", "1"]));
+    succeed(&mut small_run(&grown, 4));
+    for generations in ["9", "12"] {
+        succeed(gambol("resume").arg(&grown).args(["--no-report", "--generations", generations]));
+    }
+    assert_same_run(&whole, &grown);
+    Ok(())
+}
+
+#[test]
+fn more_evaluations_give_the_bytes_of_a_run_that_had_them_from_the_start() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (grown, whole) = (folder.path().join("grown"), folder.path().join("whole"));
+    for (path, evaluations) in [(&grown, "24"), (&whole, "56")] {
+        let mut train = gambol("train");
+        train.args(["biped-1", "running", "--population", "8", "--set", "movement.steps=60", "--no-report"]);
+        succeed(train.args(["--evaluations", evaluations, "--out", text(path)]));
+    }
+    succeed(gambol("resume").arg(&grown).args(["--no-report", "--evaluations", "56"]));
+    assert_same_run(&whole, &grown);
+    Ok(())
+}
+
+#[test]
+fn a_run_that_is_over_says_how_to_go_on_and_stays_as_it_is() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(&mut small_run(&path, 4));
+    let before = contents(&path);
+    for more in [&[][..], &["--generations", "3"], &["--target", "-1000"]] {
+        let message = fail(gambol("resume").arg(&path).args(more));
+        assert_says(&message, &[text(&path), "has ended", "--generations 104"]);
+        assert_untouched(&path, &before);
+    }
+    Ok(())
+}

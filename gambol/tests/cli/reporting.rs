@@ -1,0 +1,60 @@
+//! The report: one file that needs nothing else.
+
+use crate::program::{gambol, small_run, succeed};
+use serde_json::Value;
+use std::fs;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// The page refers to nothing outside itself. The name of SVG looks like an address, but nobody ever goes there.
+#[track_caller]
+pub(crate) fn assert_stands_alone(page: &str) {
+    let page = page.replace("http://www.w3.org/2000/svg", "");
+    for reference in ["http:", "https:", "src=", "@import", "url(//", "fetch(", "<link"] {
+        assert!(!page.contains(reference), "the page has a reference: {reference}");
+    }
+}
+
+/// The data in the page.
+#[track_caller]
+pub(crate) fn data(page: &str) -> Value {
+    let (_, rest) = page.split_once(r#"<script type="application/json" id="run">"#).expect("a place for data");
+    let (data, _) = rest.split_once("</script>").expect("its end");
+    serde_json::from_str(data).expect("JSON")
+}
+
+#[test]
+fn a_report_stands_alone_and_holds_the_run() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(small_run(&path, 4).arg("--quiet"));
+    succeed(gambol("report").arg(&path));
+    let page = fs::read_to_string(path.join("report.html"))?;
+    assert_stands_alone(&page);
+    let data = data(&page);
+    assert_eq!(data["history"].as_array().map(Vec::len), Some(4));
+    assert_eq!(data["champion"]["replay"]["frames"], 61);
+    assert_eq!(data["config"]["seed"], 1);
+    assert!(data["strip"].as_array().is_some_and(|strip| !strip.is_empty()));
+    let populations = data["populations"].as_array().expect("a list");
+    assert_eq!(populations.len(), 2, "generations 1 and 3");
+    Ok(())
+}
+
+/// What a creature's author writes is shown, and never run.
+#[test]
+fn text_from_a_creature_file_cannot_break_the_page() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let creature = folder.path().join("sly.json");
+    let sly = "</script><script src=\\\"https://evil\\\">{{DATA}}";
+    let json = creatures::shipped()[0].json.replacen("\"title\": \"", &format!("\"title\": \"{sly}"), 1);
+    fs::write(&creature, json)?;
+    let path = folder.path().join("run");
+    let mut train = gambol("train");
+    train.arg(&creature).args(["running", "--population", "4", "--set", "movement.steps=20", "--generations", "1"]);
+    succeed(train.arg("--out").arg(&path));
+    let page = fs::read_to_string(path.join("report.html"))?;
+    assert!(!page.contains("<script src"), "the title became a script");
+    assert!(data(&page)["creature"]["title"].as_str().is_some_and(|title| title.starts_with("</script>")));
+    Ok(())
+}
