@@ -111,14 +111,9 @@ fn steps(criterion: &mut Criterion) {
     for name in ["biped-1", "tetrapod-2", "decapod-2", "apod"] {
         let blueprint = blueprint(name);
         let sensors = blueprint.creature().sensors.clone();
-        let environment = RapierEnvironment::new(
-            blueprint.clone(),
-            &sensors,
-            3.0,
-            PhysicsSettings::default(),
-            Variation::default(),
-        )
-        .expect("builds");
+        let environment =
+            RapierEnvironment::new(blueprint.clone(), &sensors, 3.0, PhysicsSettings::default(), Variation::default())
+                .expect("builds");
         let mut net = controller(environment.senses().len(), environment.motors().len());
         let episode = Episode::new(environment, Box::new(Running::default()), STEPS, Trials::default()).expect("valid");
         group.bench_function(BenchmarkId::new("whole", name), |bench| {

@@ -83,7 +83,8 @@ impl RapierEnvironment {
         let senses = Senses::new(&blueprint, sensors, input_range)?;
         let motors = Motors::new(&blueprint);
         let hinges = blueprint.hinges();
-        let actuated = blueprint.actuated().iter().map(|&hinge| (hinge, hinges[hinge].parent, hinges[hinge].child)).collect();
+        let actuated =
+            blueprint.actuated().iter().map(|&hinge| (hinge, hinges[hinge].parent, hinges[hinge].child)).collect();
         let settled = State::settled(&blueprint, &settings, Factors::NOMINAL)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = settled.clone();
@@ -177,7 +178,10 @@ impl State {
         let mut state = Self {
             world: World::new(blueprint, settings, factors),
             snapshot: Snapshot { parts: vec![PartState::default(); parts], ..Snapshot::default() },
-            rest: Arc::new(RestPose::new(blueprint, &Snapshot { parts: vec![PartState::default()], ..Snapshot::default() })),
+            rest: Arc::new(RestPose::new(
+                blueprint,
+                &Snapshot { parts: vec![PartState::default()], ..Snapshot::default() },
+            )),
             steps: 0,
             speeds: vec![0.0; motors],
             wanted: vec![0.0; motors],

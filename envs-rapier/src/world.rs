@@ -135,7 +135,8 @@ impl World {
     pub(crate) fn touching(&self, mut touch: impl FnMut(usize)) {
         for pair in self.physics.narrow_phase.contact_pairs_with(self.ground) {
             let other = if pair.collider1 == self.ground { pair.collider2 } else { pair.collider1 };
-            let presses = || pair.solver_manifolds().iter().any(|m| m.points.iter().any(|point| point.data.impulse > 0.0));
+            let presses =
+                || pair.solver_manifolds().iter().any(|m| m.points.iter().any(|point| point.data.impulse > 0.0));
             if let Some(&Some(part)) = self.part_of.get(index_of(other))
                 && presses()
             {

@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut won = 0;
     for scenario in &scenarios {
         let (name, movement) = scenario.split_once('/').ok_or("a scenario is CREATURE/MOVEMENT")?;
-        let mut fitness = |preset: &str| -> Result<Vec<f64>, Box<dyn Error>> {
+        let fitness = |preset: &str| -> Result<Vec<f64>, Box<dyn Error>> {
             (1..=seeds).map(|seed| best(preset, name, movement, seed, generations, folder)).collect()
         };
         let (thesis, ours) = (fitness("thesis")?, fitness("default")?);

@@ -174,7 +174,8 @@ impl Champion {
         let mut network = self.network.clone();
         let evaluation = episode.evaluate(&mut network, self.seed);
         let shape_fits = episode.check_shape(&network).is_ok();
-        let trajectory = if shape_fits { digest(&episode, &mut network, self.seed) } else { TrajectoryDigest::default() };
+        let trajectory =
+            if shape_fits { digest(&episode, &mut network, self.seed) } else { TrajectoryDigest::default() };
         let diverges_at = self.trajectory.first_difference(&trajectory);
         Ok(Verification { evaluation, recorded: self.fitness, diverges_at })
     }

@@ -104,12 +104,7 @@ fn seal(digest: Digest) -> String {
 }
 
 /// A line without its digest, which has to fit.
-fn parsed<T: DeserializeOwned>(
-    path: &Path,
-    index: usize,
-    line: &[u8],
-    digest: &mut Digest,
-) -> Result<T, FolderError> {
+fn parsed<T: DeserializeOwned>(path: &Path, index: usize, line: &[u8], digest: &mut Digest) -> Result<T, FolderError> {
     let failed = |message| FolderError::Line { path: path.into(), line: index + 1, message };
     let line = line.strip_suffix(b"\n").ok_or_else(|| failed("it is cut off".into()))?;
     let fields = &line[..line.len().saturating_sub(seal(*digest).len())];

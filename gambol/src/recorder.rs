@@ -97,12 +97,7 @@ impl<'a> Recorder<'a> {
         Ok(champion.write(&self.folder.champion())?)
     }
 
-    fn keep(
-        &mut self,
-        generation: u64,
-        kind: GalleryKind,
-        members: Vec<GalleryMember>,
-    ) -> Result<(), FolderError> {
+    fn keep(&mut self, generation: u64, kind: GalleryKind, members: Vec<GalleryMember>) -> Result<(), FolderError> {
         Ok(self.gallery.write(&GalleryEntry { generation, kind, members })?)
     }
 

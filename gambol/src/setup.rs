@@ -76,8 +76,7 @@ impl EpisodeParts<'_> {
         let steps = catalogue.steps(self.movement)?;
         let blueprint = Blueprint::new(self.creature.clone())?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let environment =
-            RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?;
+        let environment = RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
 }

@@ -55,7 +55,10 @@ pub enum TrainError {
     #[error(transparent)]
     Threads(#[from] ThreadsError),
     /// The run broke off.
-    #[error("{source}\nthe run stopped in generation {generation}; what was saved before is whole{}", resume_hint(folder))]
+    #[error(
+        "{source}\nthe run stopped in generation {generation}; what was saved before is whole{}",
+        resume_hint(folder)
+    )]
     BrokeOff {
         /// The generation under way.
         generation: u64,

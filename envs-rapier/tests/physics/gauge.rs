@@ -72,9 +72,8 @@ pub(crate) fn limit_overshoot(blueprint: &Blueprint, snapshot: &Snapshot) -> f32
 
 /// How deep the deepest part is in the ground, m; negative above it.
 pub(crate) fn penetration(blueprint: &Blueprint, snapshot: &Snapshot) -> f32 {
-    let depth = |(part, state): (&creatures::BodyPart, &PartState)| {
-        -(state.y + part.shape.lowest_point(state.cos, state.sin))
-    };
+    let depth =
+        |(part, state): (&creatures::BodyPart, &PartState)| -(state.y + part.shape.lowest_point(state.cos, state.sin));
     blueprint.parts().iter().zip(&snapshot.parts).map(depth).fold(f32::NEG_INFINITY, f32::max)
 }
 

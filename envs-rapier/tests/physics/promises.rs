@@ -9,7 +9,8 @@ use tasks::{Environment, Snapshot, conformance};
 fn every_shipped_creature_passes_the_conformance_kit() {
     for shipped in creatures::shipped() {
         let environment = gauge::shipped(shipped.name, PhysicsSettings::default());
-        conformance::check_environment(&environment, Seed::of_run(3)).unwrap_or_else(|broken| panic!("{}: {broken}", shipped.name));
+        conformance::check_environment(&environment, Seed::of_run(3))
+            .unwrap_or_else(|broken| panic!("{}: {broken}", shipped.name));
     }
 }
 

@@ -8,7 +8,7 @@ use gambol::{
     source,
 };
 use ne_core::CHECKPOINT_FORMAT;
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::{
     error::Error,
     fs,
@@ -32,8 +32,9 @@ impl Check {
     pub(crate) fn run(self) -> Outcome {
         let path = &self.file;
         let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-        // What is not even JSON is left to the reader of creatures, which says where.
-        let value: Value = serde_json::from_str(&text).unwrap_or_default();
+        // What is not even JSON is left to the readers of creatures and configurations, which say where.
+        let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };
+        let value: Value = serde_json::from_str(&text).unwrap_or_else(unreadable);
         match value.get("format").and_then(Value::as_str) {
             Some(CHAMPION_FORMAT) => check_champion(path)?,
             Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),

@@ -22,13 +22,12 @@ impl Creatures {
         for shipped in creatures::shipped() {
             let blueprint = Blueprint::from_json(shipped.json)?;
             let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
-            let counts = [blueprint.parts().len(), blueprint.hinges().len(), senses.len(), Motors::new(&blueprint).len()];
+            let counts =
+                [blueprint.parts().len(), blueprint.hinges().len(), senses.len(), Motors::new(&blueprint).len()];
             rows.push((shipped.name, blueprint.creature().title.clone(), counts));
         }
         if self.json {
-            let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| {
-                json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs })
-            };
+            let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs });
             println!("{}", rows.iter().map(row).collect::<serde_json::Value>());
         } else {
             println!("{:<12} {:<20} {:>5} {:>6} {:>6} {:>7}", "name", "", "parts", "joints", "inputs", "outputs");
@@ -55,9 +54,7 @@ impl Movements {
     pub(crate) fn run(self) -> Outcome {
         let catalogue = MovementCatalogue::default();
         if self.json {
-            let row = |entry: &tasks::MovementEntry| {
-                json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description })
-            };
+            let row = |entry: &tasks::MovementEntry| json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description });
             println!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>());
             return Ok(ExitCode::SUCCESS);
         }

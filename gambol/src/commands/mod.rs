@@ -22,7 +22,10 @@ const INTERRUPTED: u8 = 130;
 
 /// Gambol evolves controllers for 2D creatures: pick a creature and a movement, watch it learn, keep the gait.
 #[derive(Parser)]
-#[command(version, propagate_version = true, after_help = "\
+#[command(
+    version,
+    propagate_version = true,
+    after_help = "\
 Examples:
   gambol train biped-1 running             train a shipped creature; the run goes to runs/biped-1-running
   gambol train my-creature.json jumping    train a creature of your own
@@ -36,7 +39,8 @@ Exit codes:
   3    verify: the replay is not what the champion file says
   130  a run was interrupted; it is saved and can be resumed
 
-Set GAMBOL_LOG=debug to see what the libraries do.")]
+Set GAMBOL_LOG=debug to see what the libraries do."
+)]
 pub(crate) struct Program {
     #[command(subcommand)]
     pub(crate) command: Command,

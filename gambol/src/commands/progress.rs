@@ -41,8 +41,10 @@ impl Show {
             Manner::Lines
         };
         if matches!(manner, Manner::Bar(_) | Manner::Lines) {
-            let population =
-                config.strategy.population().map_or_else(String::new, |population| format!("population {population}, "));
+            let population = config
+                .strategy
+                .population()
+                .map_or_else(String::new, |population| format!("population {population}, "));
             let (creature, movement) = (&config.creature.name, &config.movement.name);
             eprintln!("{creature} learns {movement}: {population}seed {}", config.seed);
         }

@@ -37,6 +37,9 @@ impl Replay {
                 return Err(format!("{} exists; say --force to overwrite it", path.display()).into());
             }
         }
+        if let Some(path) = self.html.as_ref().filter(|_| self.html == self.trajectory) {
+            return Err(format!("{} cannot be both the page and the trajectory", path.display()).into());
+        }
         let catalogue = MovementCatalogue::default();
         let mut champion = Champion::read(&self.champion)?;
         if let Some(seconds) = self.seconds {

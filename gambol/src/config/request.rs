@@ -104,8 +104,8 @@ impl Request {
                 None => source::creature(name).map_err(|error| layer.wrong("creature", error)),
             };
         }
-        let blueprint = Blueprint::from_json(&value.to_string())
-            .map_err(|error| layer.wrong("creature", without_place(&error)))?;
+        let blueprint =
+            Blueprint::from_json(&value.to_string()).map_err(|error| layer.wrong("creature", without_place(&error)))?;
         Ok(blueprint.creature().clone())
     }
 
@@ -163,8 +163,7 @@ struct Layer {
 impl Layer {
     fn read(path: &Path) -> Result<Self, RequestError> {
         let text = fs::read_to_string(path).map_err(|source| RequestError::Read { path: path.into(), source })?;
-        let value = super::assembly::parse(&text)
-            .map_err(|source| RequestError::File { path: path.into(), source })?;
+        let value = super::assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
         Ok(Self { path: path.into(), value })
     }
 

@@ -141,9 +141,9 @@ impl ChampionData {
     pub(super) fn new(champion: &Champion, recording: &Recording, body_length: f32) -> Self {
         let time_step = champion.physics.time_step;
         let ends = recording.snapshots.first().zip(recording.snapshots.last());
-        let speed = ends.filter(|(_, last)| champion.movement.name == "running" && last.time > 0.0).map(|(first, last)| {
-            f64::from((last.torso().x - first.torso().x) / last.time / body_length)
-        });
+        let speed = ends
+            .filter(|(_, last)| champion.movement.name == "running" && last.time > 0.0)
+            .map(|(first, last)| f64::from((last.torso().x - first.torso().x) / last.time / body_length));
         Self {
             body_lengths_per_second: speed,
             generation: champion.generation,

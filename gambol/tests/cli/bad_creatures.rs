@@ -7,7 +7,7 @@ use std::{fs, path::Path};
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// A body on two legs, the second with a foot; valid as it is.
-fn creature() -> Value {
+pub(crate) fn creature() -> Value {
     let part = |name: &str, tag: &str, size: [f32; 2], position: [f32; 2]| {
         json!({
             "name": name, "tag": tag, "shape": {"box": {"width": size[0], "height": size[1]}},
@@ -85,7 +85,7 @@ const CHANGES: &[(Change, &[&str])] = &[
     (|c| c["version"] = 2.into(),                       &["version"]),
 ];
 
-/// Texts put in the place of the first `30`, a density, that no JSON value can hold.
+/// Texts put in the place of the first density, that no JSON value can hold.
 #[rustfmt::skip]
 const TEXTS: &[(&str, &[&str])] = &[
     ("NaN",       &["line ", "column ", "not valid JSON"]),
@@ -111,7 +111,7 @@ fn the_creature_is_valid_before_it_is_changed() -> Outcome {
     fs::write(&file, creature().to_string())?;
     assert_says(&succeed(gambol("check").arg(&file)), &["a valid creature", "4 parts, 3 joints, 4 inputs, 3 outputs"]);
     let mut train = gambol("train");
-    train.arg(&file).args(["jumping", "--population", "2", "--generations", "1", "--set", "movement.steps=10"]);
+    train.arg(&file).args(["jumping", "--population", "4", "--generations", "1", "--set", "movement.steps=10"]);
     succeed(train.current_dir(folder.path()));
     assert!(folder.path().join("runs/stroller-jumping/champion.json").is_file());
     Ok(())
@@ -136,7 +136,7 @@ fn numbers_that_are_none_are_named_with_their_place() -> Outcome {
     let file = folder.path().join("stroller.json");
     let valid = serde_json::to_string_pretty(&creature())?;
     for (number, says) in TEXTS {
-        fs::write(&file, valid.replacen("30", number, 1))?;
+        fs::write(&file, valid.replacen("\"density\": 30", &format!("\"density\": {number}"), 1))?;
         assert_refused(&file, says);
     }
     Ok(())

@@ -4,11 +4,12 @@
 #![cfg(unix)]
 
 use crate::{
+    bad_creatures,
     damage::json,
     folder::{assert_same_run, contents, read},
-    program::{Ended, assert_says, gambol, run, small_run, succeed, text},
+    program::{Ended, assert_says, gambol, run, small_run, small_run_of, succeed, text},
 };
-use std::{path::Path, process::Command};
+use std::{collections::BTreeSet, fs, path::Path, process::Command};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -22,10 +23,12 @@ fn run_limited(command: &Command, blocks: usize) -> Ended {
     run(Command::new("sh").args(["-c", &script, "sh"]).arg(command.get_program()).args(command.get_args()))
 }
 
-fn train(folder: &Path) -> Command {
-    let mut train = small_run(folder, 60);
-    // Small checkpoints, so that it is each time another file that is too large first.
-    train.args(["--quiet", "--set", "record.checkpoint_every=4", "--set", "controller.hidden=[]"]);
+/// A run of a creature without looks: its configuration is small, and every other file grows beyond it.
+fn train(folder: &Path, generations: u32) -> Command {
+    let creature = folder.with_file_name("stroller.json");
+    fs::write(&creature, bad_creatures::creature().to_string()).expect("a writable folder");
+    let mut train = small_run_of(text(&creature), "running", folder, generations);
+    train.args(["--quiet", "--set", "record.checkpoint_every=4", "--set", "record.populations_at=[9,30]"]);
     train
 }
 
@@ -33,27 +36,22 @@ fn train(folder: &Path) -> Command {
 fn a_run_broken_off_by_a_full_disk_resumes_to_the_same_bytes() -> Outcome {
     let folder = tempfile::tempdir()?;
     let whole = folder.path().join("whole");
-    succeed(&mut train(&whole));
-    let size = |name: &str| read(&whole.join(name)).len();
-    let largest = contents(&whole).values().map(Vec::len).max().expect("files") / BLOCK;
-    // The configuration fits: without it there is no run yet.
-    let smallest = size("config.json").div_ceil(BLOCK);
-    assert!(smallest < largest);
-    let mut resumed = 0;
-    for step in 0..6 {
-        let blocks = smallest + (largest - smallest) * step / 6;
-        let path = folder.path().join(format!("limit-{blocks}"));
-        let ended = run_limited(&train(&path), blocks);
-        assert_eq!(ended.code, Some(1), "{blocks} blocks: {}", ended.stderr);
+    succeed(&mut train(&whole, 60));
+    let blocks = |name: &str| read(&whole.join(name)).len().div_ceil(BLOCK);
+    let mut broken_off_at = BTreeSet::new();
+    // The configuration fits each time: without it there is no run yet.
+    for limit in [blocks("config.json"), 12, 16, 24, 40, blocks("log.jsonl") - 1, blocks("gallery.jsonl") - 1] {
+        let path = folder.path().join(format!("limit-{limit}"));
+        let ended = run_limited(&train(&path, 60), limit);
+        assert_eq!(ended.code, Some(1), "{limit} blocks: {}", ended.stderr);
         assert_says(&ended.stderr, &["cannot write ", text(&path), "File too large"]);
-        // Reads only if it is whole.
-        let done = json(&path.join("checkpoint"))["content"]["progress"]["generations"].as_u64().expect("a number");
-        resumed += u32::from(done > 0);
+        // It can be read, so it is whole.
+        broken_off_at.insert(json(&path.join("checkpoint"))["content"]["progress"]["generations"].as_u64());
         assert!(contents(&path).keys().all(|path| path.extension().is_none_or(|end| end != "tmp")), "a remnant");
         succeed(gambol("resume").arg(&path).args(["--quiet", "--no-report"]));
         assert_same_run(&whole, &path);
     }
-    assert!(resumed > 0, "no run came to its first checkpoint");
+    assert!(broken_off_at.len() > 2, "it was always the same moment: {broken_off_at:?}");
     Ok(())
 }
 
@@ -61,17 +59,15 @@ fn a_run_broken_off_by_a_full_disk_resumes_to_the_same_bytes() -> Outcome {
 fn a_resumed_run_that_meets_a_full_disk_can_be_resumed_again() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (whole, path) = (folder.path().join("whole"), folder.path().join("run"));
-    succeed(&mut small_run(&whole, 40));
-    succeed(&mut small_run(&path, 20));
-    let blocks = read(&path.join("config.json")).len().max(read(&path.join("champion.json")).len()).div_ceil(BLOCK);
-    let limited = read(&whole.join("gallery.jsonl")).len().max(read(&whole.join("log.jsonl")).len()) > blocks * BLOCK;
+    succeed(&mut train(&whole, 60));
+    succeed(&mut train(&path, 20));
+    let largest = contents(&path).values().map(Vec::len).max().expect("files");
     let mut resume = gambol("resume");
-    resume.arg(&path).args(["--no-report", "--generations", "40"]);
-    let ended = run_limited(&resume, blocks);
-    assert_eq!(ended.code == Some(1), limited, "{}", ended.stderr);
-    if limited {
-        succeed(&mut resume);
-    }
+    resume.arg(&path).args(["--no-report", "--generations", "60"]);
+    let ended = run_limited(&resume, largest.div_ceil(BLOCK));
+    assert_eq!(ended.code, Some(1));
+    assert_says(&ended.stderr, &["cannot write ", text(&path)]);
+    succeed(&mut resume);
     assert_same_run(&whole, &path);
     Ok(())
 }
@@ -80,12 +76,12 @@ fn a_resumed_run_that_meets_a_full_disk_can_be_resumed_again() -> Outcome {
 fn a_folder_without_room_for_the_configuration_names_it() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    let ended = run_limited(&train(&path), 2);
+    let ended = run_limited(&train(&path, 2), 2);
     assert_eq!(ended.code, Some(1));
     assert_says(&ended.stderr, &["cannot write ", text(&path.join("config.json"))]);
     assert!(contents(&path).is_empty());
     // So that the same command can be given again.
-    succeed(&mut train(&path));
+    succeed(&mut train(&path, 2));
     Ok(())
 }
 

@@ -61,7 +61,11 @@ fn an_interrupted_run_has_saved_its_last_generation_and_says_how_to_go_on() -> O
     assert_says(&ended.stdout, &["it was interrupted", &format!("gambol resume {}", text(&path))]);
 
     let done = json(&path.join("checkpoint"))["content"]["progress"]["generations"].as_u64().expect("a number");
-    assert_eq!(read(&path.join("log.jsonl")).split(|&byte| byte == b'\n').count() as u64, done + 1, "lines, and the end");
+    assert_eq!(
+        read(&path.join("log.jsonl")).split(|&byte| byte == b'\n').count() as u64,
+        done + 1,
+        "lines, and the end"
+    );
     assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical"]);
     Ok(())
 }

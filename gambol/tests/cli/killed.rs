@@ -88,7 +88,9 @@ fn half_written_lines_of_a_killed_run_are_dropped() -> Outcome {
     let path = runs.path("killed");
     kill_after(&mut runs.train("killed", 5), &path, 12);
     // Whatever was on its way to the disk: half a line, a block of zeros, nothing that is a line at all.
-    for (name, rest) in [("log.jsonl", &b"{\"generation\":13,\"eval"[..]), ("gallery.jsonl", &[0; 512]), ("timing.jsonl", b"\xff\n\n")] {
+    for (name, rest) in
+        [("log.jsonl", &b"{\"generation\":13,\"eval"[..]), ("gallery.jsonl", &[0; 512]), ("timing.jsonl", b"\xff\n\n")]
+    {
         OpenOptions::new().append(true).open(path.join(name))?.write_all(rest)?;
     }
     succeed(&mut resume(&path));

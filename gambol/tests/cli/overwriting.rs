@@ -83,7 +83,8 @@ fn replay_to_one_file_twice_is_refused() -> Outcome {
     let path = folder.path().join("run");
     succeed(&mut small_run(&path, 1));
     let file = folder.path().join("both");
-    let ended = run(gambol("replay").arg(path.join("champion.json")).arg("--html").arg(&file).arg("--trajectory").arg(&file));
+    let ended =
+        run(gambol("replay").arg(path.join("champion.json")).arg("--html").arg(&file).arg("--trajectory").arg(&file));
     assert_eq!(ended.code, Some(1), "{}", ended.stdout);
     assert_says(&ended.stderr, &[text(&file)]);
     assert!(!file.exists());

@@ -54,7 +54,11 @@ fn the_configuration_of_a_run_repeats_it() -> Outcome {
     train.args(["--seed", "3", "--preset", "thesis", "--set", "trials.count=2", "--set", "variation.friction=0.3"]);
     succeed(train.args(["--set", r#"movement.terms=[{"term":"energy","weight":-0.001}]"#]));
     let config = first.join("config.json");
-    succeed(gambol("train").arg("--config").arg(config).arg("--out").arg(&again).args(["--threads", "1", "--no-report"]));
+    succeed(gambol("train").arg("--config").arg(config).arg("--out").arg(&again).args([
+        "--threads",
+        "1",
+        "--no-report",
+    ]));
     assert_same_run(&first, &again);
     Ok(())
 }

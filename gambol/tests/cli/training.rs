@@ -12,7 +12,17 @@ fn a_run_leaves_every_file_it_promises_and_no_other() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("deep/below/run");
     let mut train = gambol("train");
-    train.args(["biped-1", "running", "--set", "movement.steps=60", "--population", "8", "--generations", "4", "--out"]);
+    train.args([
+        "biped-1",
+        "running",
+        "--set",
+        "movement.steps=60",
+        "--population",
+        "8",
+        "--generations",
+        "4",
+        "--out",
+    ]);
     succeed(train.arg(&run));
     let found = fs::read_dir(&run)?.map(|entry| Ok(entry?.file_name().into_string().expect("plain names")));
     let promised = LASTING.iter().chain(&["timing.jsonl", "report.html"]).map(ToString::to_string);
@@ -69,7 +79,7 @@ fn a_run_without_a_folder_gets_one_named_after_what_it_learns() -> Outcome {
     let folder = tempfile::tempdir()?;
     for expected in ["runs/biped-1-running", "runs/biped-1-running-2", "runs/biped-1-running-3"] {
         let mut train = gambol("train");
-        train.args(["biped-1", "running", "--set", "movement.steps=20", "--population", "2", "--generations", "1"]);
+        train.args(["biped-1", "running", "--set", "movement.steps=20", "--population", "4", "--generations", "1"]);
         succeed(train.args(["--no-report", "--quiet"]).current_dir(folder.path()));
         assert!(folder.path().join(expected).join("champion.json").is_file(), "{expected}");
     }

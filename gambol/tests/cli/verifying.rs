@@ -6,7 +6,10 @@ use crate::{
     program::{assert_says, fail, gambol, run, small_run, small_run_of, succeed, text},
 };
 use serde_json::Value;
-use std::{fs, path::{Path, PathBuf}};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -28,7 +31,7 @@ fn trained(folder: &tempfile::TempDir) -> PathBuf {
 }
 
 fn change_weight(content: &mut Value) {
-    let weight = &mut content["network"]["dense"]["weights"][3];
+    let weight = &mut content["network"]["weights"][3];
     *weight = (weight.as_f64().expect("a weight") + 0.5).into();
 }
 
@@ -198,7 +201,7 @@ fn a_champion_whose_parts_do_not_fit_is_an_error_that_names_the_field() -> Outco
     let changes: [(Change, &str); 6] = [
         (|content| content["movement"]["name"] = "runing".into(), "movement.name"),
         (|content| content["physics"]["time_step"] = 0.into(), "physics.time_step"),
-        (|content| content["network"]["dense"]["weights"] = Value::Array(vec![]), "network.dense"),
+        (|content| content["network"]["weights"] = Value::Array(vec![]), "field network: weights"),
         (|content| content["creature"]["parts"][1]["density"] = (-1).into(), "parts[1].density"),
         (|content| content["fitness"] = "high".into(), "fitness"),
         (|content| content["trials"]["count"] = 0.into(), "trials.count"),
