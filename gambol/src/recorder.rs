@@ -23,6 +23,8 @@ pub(crate) struct Recorder<'a> {
     gallery: LineFile,
     timing: LineFile,
     last: Instant,
+    /// The generation of the champion in the file, once we have written it.
+    written: Option<u64>,
     called: &'a mut dyn FnMut(&GenerationReport),
 }
 
@@ -63,7 +65,7 @@ impl<'a> Recorder<'a> {
     ) -> Result<Self, FolderError> {
         let EarlierLines { log, gallery, timing } = earlier;
         let (log, gallery, timing) = (log.open()?, gallery.open()?, timing.open()?);
-        Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), called })
+        Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), written: None, called })
     }
 
     /// Brings everything to the disk: lines first, then champion, then checkpoint.
@@ -83,18 +85,22 @@ impl<'a> Recorder<'a> {
     }
 
     fn write_champion<G: Genome>(
-        &self,
+        &mut self,
         strategy: &str,
         champion: Option<&ne_core::Champion<G>>,
     ) -> Result<(), FolderError>
     where
         G::Phenotype: Into<Network>,
     {
-        let Some(champion) = champion else { return Ok(()) };
+        let Some(champion) = champion.filter(|champion| self.written != Some(champion.generation)) else {
+            return Ok(());
+        };
         let network = champion.genome.express().into();
         let ne_core::Champion { seed, generation, fitness, .. } = *champion;
         let champion = Champion::new(self.config, self.setup, strategy, network, seed, generation, fitness);
-        Ok(champion.write(&self.folder.champion())?)
+        champion.write(&self.folder.champion())?;
+        self.written = Some(generation);
+        Ok(())
     }
 
     fn keep(&mut self, generation: u64, kind: GalleryKind, members: Vec<GalleryMember>) -> Result<(), FolderError> {

@@ -99,9 +99,12 @@ impl Show {
                 "best {:.3} {}, found in generation {} of {generations}; {reason} after {seconds:.1} s",
                 champion.fitness, self.unit, champion.generation
             ),
+            None if generations == 0 => println!("no generation was done: {reason}"),
             None => println!("every evaluation failed; {reason} after {generations} generations"),
         }
-        println!("champion  {}", folder.champion().display());
+        if champion.is_some() {
+            println!("champion  {}", folder.champion().display());
+        }
         if report {
             println!("report    {}", folder.report().display());
         }

@@ -1,0 +1,76 @@
+//! Every path the documents name exists.
+//!
+//! A path is what stands in backticks and begins with the name of something in the workspace's folder, such as
+//! `ne-core/src/lib.rs`, and where a link goes that is not an address.
+
+use crate::root;
+use std::{collections::BTreeSet, fs};
+
+const DOCUMENTS: [&str; 3] = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"];
+
+/// Names of files and folders beside the workspace's manifest, those of crates included that are gone by now.
+fn beginnings() -> BTreeSet<String> {
+    let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("there is a manifest");
+    let (_, members) = manifest.split_once("members = [").expect("there are members");
+    let (members, _) = members.split_once(']').expect("the list ends");
+    let members = members.split('"').skip(1).step_by(2).map(str::to_owned);
+    let entries = fs::read_dir(root())
+        .expect("a folder")
+        .map(|entry| entry.expect("a readable folder").file_name().into_string().expect("plain names"));
+    members.chain(entries).collect()
+}
+
+/// What stands in backticks in a text, blocks of code left out.
+fn quoted(text: &str) -> Vec<&str> {
+    let mut in_block = false;
+    let mut found = Vec::new();
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            in_block = !in_block;
+        } else if !in_block {
+            found.extend(line.split('`').skip(1).step_by(2));
+        }
+    }
+    found
+}
+
+/// Where the links of a text go, without the section.
+fn linked(text: &str) -> impl Iterator<Item = &str> {
+    let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', '#', ' ']).next());
+    targets.filter(|target| !target.is_empty() && !target.contains(':'))
+}
+
+/// The paths among quoted words. `src/*.rs` stands for its folder.
+fn paths<'a>(text: &'a str, beginnings: &BTreeSet<String>) -> Vec<&'a str> {
+    let is_path = |word: &&str| {
+        let first = word.split('/').next().unwrap_or_default();
+        let looks_like_one =
+            word.contains('/') || [".rs", ".md", ".json", ".toml"].iter().any(|end| word.ends_with(end));
+        looks_like_one && !word.contains(char::is_whitespace) && beginnings.contains(first)
+    };
+    let folder = |word: &'a str| word.split_once('*').map_or(word, |(before, _)| before);
+    quoted(text).into_iter().filter(is_path).map(folder).collect()
+}
+
+#[test]
+fn every_path_in_the_documents_exists() {
+    let beginnings = beginnings();
+    let mut missing = Vec::new();
+    for document in DOCUMENTS {
+        let text = fs::read_to_string(root().join(document)).unwrap_or_else(|error| panic!("{document}: {error}"));
+        let named = paths(&text, &beginnings).into_iter().chain(linked(&text));
+        missing.extend(named.filter(|path| !root().join(path).exists()).map(|path| format!("{document}: {path}")));
+    }
+    assert!(missing.is_empty(), "named, but not there:\n{}", missing.join("\n"));
+}
+
+/// The architecture is drawn with the paths of the code; were none found, the test above would promise nothing.
+#[test]
+fn paths_are_found_where_they_stand() {
+    let text = "see `ne-core/src/lib.rs`, `tasks/src/*.rs`, `cargo test -p tasks`, `config.json`, `f32/f64` and\n\
+                ```\n`ne-core/in/a/block`\n```\n[here](docs/x.md#part), [there](https://example.org), [below](#below)";
+    assert_eq!(paths(text, &beginnings()), ["ne-core/src/lib.rs", "tasks/src/"]);
+    assert_eq!(linked(text).collect::<Vec<_>>(), ["docs/x.md"]);
+    let architecture = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("it is there");
+    assert!(paths(&architecture, &beginnings()).len() >= 10, "ARCHITECTURE.md names hardly any path");
+}
