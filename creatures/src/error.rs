@@ -58,7 +58,7 @@ pub enum CreatureError {
 /// A name in a creature file that means nothing there.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "{path} (line {line}, column {column}): unknown {what} `{found}`{}; valid: {}",
+    "{path} (line {line}, column {column}): unknown {what} `{found}`{} (valid: {})",
     did_you_mean(.nearest), .valid.join(", ")
 )]
 pub struct UnknownName {

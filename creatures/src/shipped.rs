@@ -44,7 +44,7 @@ pub fn find(name: &str) -> Result<Creature, UnknownCreature> {
 
 /// No shipped creature has this name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("there is no creature `{name}`{}; valid: {}", did_you_mean(.nearest), .valid.join(", "))]
+#[error("there is no creature `{name}`{} (valid: {})", did_you_mean(.nearest), .valid.join(", "))]
 pub struct UnknownCreature {
     /// The name asked for, shortened.
     pub name: String,

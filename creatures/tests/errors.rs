@@ -124,7 +124,7 @@ fn unknown_fields_name_the_nearest() {
     let error = error_of(|file| file["parts"][0]["shape"]["box"]["heigth"] = json!(1));
     assert!(error.to_string().contains("did you mean `height`?"), "{error}");
     let error = error_of(|file| file["joints"][0]["motor"]["zzz"] = json!(1));
-    assert!(error.to_string().contains("unknown field `zzz`; valid: top_speed, top_torque"), "{error}");
+    assert!(error.to_string().contains("unknown field `zzz` (valid: top_speed, top_torque)"), "{error}");
 }
 
 #[test]
@@ -159,8 +159,8 @@ fn unknown_creatures_name_the_nearest() {
     let error = creatures::find("bipd-1").expect_err("mistyped");
     assert_eq!(
         error.to_string(),
-        "there is no creature `bipd-1`; did you mean `biped-1`?; valid: apod, biped-1, biped-2, tetrapod-1, tetrapod-2, \
-         decapod-1, decapod-2"
+        "there is no creature `bipd-1`; did you mean `biped-1`? (valid: apod, biped-1, biped-2, tetrapod-1, tetrapod-2, \
+         decapod-1, decapod-2)"
     );
     assert!(creatures::find("zzzzzz").expect_err("no such").nearest.is_none());
 }

@@ -194,7 +194,10 @@ pub fn content<C: DeserializeOwned>(path: &Path, content: Value) -> Result<C, Ar
     let text = content.to_string();
     let mut reader = serde_json::Deserializer::from_str(&text);
     serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-        let field = error.path().to_string();
+        let field = match error.path().to_string() {
+            top if top == "." => "content".to_owned(),
+            field => field,
+        };
         // Line and column are those of our text, not of the file: the field says where.
         ArchiveError::Content { path: path.into(), message: format!("field {field}: {}", without_place(error.inner())) }
     })

@@ -56,7 +56,7 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("physics.time_step=1e39",                      &["physics.time_step = inf: must be from 0.001 to 0.05"]),
     ("physics.solver_iterations=0",                 &["physics.solver_iterations = 0: must be from 1 to 32"]),
     ("record.checkpoint_every=0",                   &["record.checkpoint_every = 0: must be at least 1"]),
-    ("strategy.conventional.elites=50",             &["strategy.conventional.elites = 50: must be below 50"]),
+    ("strategy.conventional.elites=1000000",        &["strategy.conventional.elites = 1000000: must be below"]),
     ("strategy.conventional.crossover_rate=1.5",    &["strategy.conventional.crossover_rate = 1.5: must be from 0 to 1"]),
     ("strategy.conventional.selection={\"tournament\":{\"size\":0}}",
                                                     &["strategy.conventional.selection.tournament.size = 0"]),

@@ -4,8 +4,9 @@
 use crate::{
     damage::json,
     folder::{assert_same_run, read},
-    program::{Ended, LONG, assert_says, gambol, long_run, start_and_read, succeed, text},
+    program::{Ended, LONG, assert_says, gambol, long_run, small_run, start_and_read, succeed, text},
 };
+use gambol::{run_folder::RunFolder, training, training::TrainOptions};
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader, Read},
@@ -75,8 +76,9 @@ fn an_interrupted_run_has_saved_its_last_generation_and_says_how_to_go_on() -> O
 fn a_second_interrupt_ends_at_once_and_what_was_saved_is_whole() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
-    succeed(long_run(&whole).arg("--quiet"));
-    let (child, mut output) = start_and_read(&mut long_run(&broken), 15);
+    let every_ten = ["--set", "record.checkpoint_every=10"];
+    succeed(long_run(&whole).args(every_ten).arg("--quiet"));
+    let (child, mut output) = start_and_read(long_run(&broken).args(every_ten), 15);
     interrupt(&child);
     interrupt(&child);
     // The system may deliver two signals as one; then the run ends as after the first.
@@ -85,6 +87,26 @@ fn a_second_interrupt_ends_at_once_and_what_was_saved_is_whole() -> Outcome {
     let saved = json(&broken.join("checkpoint"))["content"]["progress"]["generations"].as_u64().expect("a number");
     assert!((10..LONG as u64).contains(&saved), "{saved}");
     succeed(gambol("resume").arg(&broken).arg("--no-report"));
+    assert_same_run(&whole, &broken);
+    Ok(())
+}
+
+/// No signal is so early for sure; the library's own switch is.
+#[test]
+fn a_run_interrupted_before_its_first_generation_is_a_run_all_the_same() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+    succeed(&mut small_run(&whole, 3));
+    let catalogue = tasks::MovementCatalogue::default();
+    let config = RunFolder::open(&whole)?.read_config()?;
+    let signal = ne_core::StopSignal::default();
+    signal.stop();
+    let options = TrainOptions { threads: 1, catalogue, signal, on_generation: &mut |_| unreachable!("it is stopped") };
+    let outcome = training::train(&config, &broken, options)?;
+    assert_eq!((outcome.reason, outcome.progress.generations), (ne_core::StopReason::Interrupted, 0));
+    assert!(outcome.champion.is_none());
+    succeed(gambol("report").arg(&broken));
+    succeed(gambol("resume").arg(&broken));
     assert_same_run(&whole, &broken);
     Ok(())
 }

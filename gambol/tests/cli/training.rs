@@ -113,17 +113,3 @@ fn flags_win_over_settings_and_settings_over_the_file() -> Outcome {
     assert_eq!(strategy["elites"], 0, "the rest is the preset's");
     Ok(())
 }
-
-#[test]
-fn a_run_without_time_for_a_generation_is_a_run_all_the_same() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let path = folder.path().join("run");
-    let mut train = gambol("train");
-    train.args(["biped-1", "running", "--population", "8", "--set", "movement.steps=60", "--minutes", "1e-9", "--out"]);
-    let printed = succeed(train.arg(&path));
-    assert_says(&printed, &["no generation was done: the time was up", text(&path.join("report.html"))]);
-    assert!(!path.join("champion.json").exists() && !printed.contains("champion"), "{printed}");
-    succeed(gambol("resume").arg(&path).args(["--minutes", "9", "--generations", "2"]));
-    assert!(path.join("champion.json").is_file());
-    Ok(())
-}
