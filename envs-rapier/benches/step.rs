@@ -18,7 +18,7 @@ use ne_net::{DenseNet, DenseShape};
 use rand::RngExt;
 use rapier2d::prelude::*;
 use std::{hint::black_box, time::Duration};
-use tasks::{Episode, Running, Trials};
+use tasks::{Episode, Moment, Running, Trials};
 
 const STEPS: u32 = 1000;
 
@@ -37,7 +37,7 @@ fn controller(inputs: usize, outputs: usize) -> DenseNet {
 struct Bare {
     world: PhysicsWorld,
     bodies: Vec<RigidBodyHandle>,
-    joints: Vec<(usize, usize, ImpulseJointHandle, f32)>,
+    joints: Vec<(usize, usize, ImpulseJointHandle, f32, f32)>,
     net: DenseNet,
     inputs: Vec<f32>,
     outputs: Vec<f32>,
@@ -80,13 +80,12 @@ impl Bare {
                 .motor_max_force(motor.top_torque)
                 .softness(SpringCoefficients::new(60.0, 1.0));
             let handle = world.insert_impulse_joint(bodies[hinge.parent], bodies[hinge.child], joint);
-            joints.push((hinge.parent, hinge.child, handle, motor.top_speed));
+            let scale = 2.0 * 3.0 / (2.0 * hinge.limits[1]);
+            joints.push((hinge.parent, hinge.child, handle, scale, motor.top_speed));
         }
         let outputs = joints.len();
         let net = controller(outputs + 1, outputs);
-        for _ in 0..50 {
-            world.step();
-        }
+        settle(&mut world, &bodies);
         Self { world, bodies, joints, net, inputs: vec![0.0; outputs + 1], outputs: vec![0.0; outputs] }
     }
 
@@ -94,14 +93,30 @@ impl Bare {
         let Self { world, bodies, joints, net, inputs, outputs } = self;
         let bodies = |index: usize| world.bodies[bodies[index]].rotation();
         inputs[0] = bodies(0).angle() * (3.0 / std::f32::consts::PI);
-        for (input, &(parent, child, ..)) in inputs[1..].iter_mut().zip(&*joints) {
-            *input = ((bodies(parent).inverse() * *bodies(child)).angle() * 3.0).clamp(-3.0, 3.0);
+        for (input, &(parent, child, _, scale, _)) in inputs[1..].iter_mut().zip(&*joints) {
+            *input = ((bodies(parent).inverse() * *bodies(child)).angle() * scale).clamp(-3.0, 3.0);
         }
         net.activate(inputs, outputs);
-        for (output, &(_, _, handle, top_speed)) in outputs.iter().zip(&*joints) {
+        for (output, &(_, _, handle, _, top_speed)) in outputs.iter().zip(&*joints) {
             let joint = world.impulse_joints.get_mut(handle, false).expect("it is there");
             joint.data.set_motor_velocity(JointAxis::AngX, output * top_speed, 20.0);
         }
+    }
+}
+
+/// As the environment does it, so that both do the same work afterwards.
+fn settle(world: &mut PhysicsWorld, bodies: &[RigidBodyHandle]) {
+    let mut still = 0;
+    for _ in 0..50 {
+        if still == 10 {
+            break;
+        }
+        world.step();
+        let rests = |&body: &RigidBodyHandle| {
+            let (linear, angular) = (world.bodies[body].linvel(), world.bodies[body].angvel());
+            linear.x.abs().max(linear.y.abs()).max(angular.abs()) < 0.005
+        };
+        still = if bodies.iter().all(rests) { still + 1 } else { 0 };
     }
 }
 
@@ -116,6 +131,15 @@ fn steps(criterion: &mut Criterion) {
                 .expect("builds");
         let mut net = controller(environment.senses().len(), environment.motors().len());
         let episode = Episode::new(environment, Box::new(Running::default()), STEPS, Trials::default()).expect("valid");
+        let mut ours = 0.0;
+        episode.play(&mut net, Seed::of_run(1), &mut |moment: &Moment<'_>| ours = moment.snapshot.torso().x);
+        let mut bare = Bare::new(&blueprint);
+        for _ in 0..STEPS {
+            bare.control();
+            bare.world.step();
+        }
+        let theirs = bare.world.bodies[bare.bodies[0]].translation().x;
+        println!("{name}: after {STEPS} steps the torso is at {ours} m, in the bare world at {theirs} m");
         group.bench_function(BenchmarkId::new("whole", name), |bench| {
             bench.iter(|| black_box(episode.play(&mut net, Seed::of_run(1), &mut ()).steps));
         });
