@@ -97,7 +97,7 @@ pub struct Joint {
     /// Where the hinge is in the start pose, in the world, m; at most 1 m outside the shape of either part.
     pub anchor: [f32; 2],
     /// Smallest and largest angle of the child against the parent, degrees, relative to the start pose: from at most 0
-    /// to at least 0, no more than 360 apart.
+    /// to at least 0, between -180 and 180, no more than 340 apart.
     pub limits: [f32; 2],
     /// What drives it; the hinge turns freely between its limits if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -150,8 +150,11 @@ pub enum Problem {
         /// The limits, degrees.
         limits: [f32; 2],
     },
-    /// More than a full turn.
-    #[error("{path}: limits may be at most 360 degrees apart, found [{}, {}]", .limits[0], .limits[1])]
+    /// So wide that an angle no longer tells on which side of the start pose a part is.
+    #[error(
+        "{path}: limits must lie between -180 and 180 and be at most 340 degrees apart, found [{}, {}]",
+        .limits[0], .limits[1]
+    )]
     LimitsTooWide {
         path: String,
         /// The limits, degrees.

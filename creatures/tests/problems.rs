@@ -213,7 +213,7 @@ fn limits() {
     problem!(
         |f| f["joints"][0]["limits"] = json!([-200, 200]),
         Problem::LimitsTooWide { .. },
-        "joints[0].limits: limits may be at most 360 degrees apart, found [-200, 200]"
+        "joints[0].limits: limits must lie between -180 and 180 and be at most 340 degrees apart, found [-200, 200]"
     );
     problem!(
         |f| f["joints"][0]["limits"] = json!([0, 0]),

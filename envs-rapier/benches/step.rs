@@ -10,6 +10,8 @@
 //!
 //! Reported per episode of 1,000 steps, so milliseconds read as microseconds per step.
 
+#![allow(clippy::print_stdout)]
+
 use creatures::Blueprint;
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use envs_rapier::{PhysicsSettings, RapierEnvironment, Variation};

@@ -50,7 +50,15 @@ pub enum EnvironmentError {
     /// A setting is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The creature explodes in its start pose.
+    /// The creature starts inside the ground, which would throw it up.
+    #[error("the creature \"{creature}\" starts {depth} m below the ground: its lowest point must be near y = 0")]
+    BelowGround {
+        /// Its name.
+        creature: String,
+        /// How deep its lowest point is, m.
+        depth: f32,
+    },
+    /// The creature explodes in its start pose, or has not reached the ground when it should have settled.
     #[error("the creature \"{creature}\" does not survive settling in its start pose: {failure}")]
     Settling {
         /// Its name.
@@ -59,6 +67,9 @@ pub enum EnvironmentError {
         failure: Failure,
     },
 }
+
+/// The deepest a creature may start in the ground, m.
+const DEEPEST_START: f32 = 0.1;
 
 /// At rest: slower than this (m/s, and rad/s)...
 const REST_SPEED: f32 = 0.005;
@@ -70,7 +81,8 @@ impl RapierEnvironment {
     /// still. `input_range`: sensors are scaled to ± this.
     ///
     /// # Errors
-    /// If a setting or sensor is out of range, or the creature explodes while it settles.
+    /// If a setting or sensor is out of range, or the creature starts more than 0.1 m below the ground, explodes while
+    /// it settles or is still in the air afterwards. With a settle time of 0 it may start in the air.
     pub fn new(
         blueprint: Blueprint,
         sensors: &[Sensor],
@@ -85,6 +97,10 @@ impl RapierEnvironment {
         let hinges = blueprint.hinges();
         let actuated =
             blueprint.actuated().iter().map(|&hinge| (hinge, hinges[hinge].parent, hinges[hinge].child)).collect();
+        let depth = -blueprint.bounding_box()[1];
+        if depth > DEEPEST_START {
+            return Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth });
+        }
         let settled = State::settled(&blueprint, &settings, Factors::NOMINAL)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = settled.clone();
@@ -190,10 +206,13 @@ impl State {
         let (mut steps, mut still) = (0.0, 0);
         while steps * settings.time_step < settings.settle_time && still < REST_STEPS {
             state.advance_world(settings)?;
-            state.look();
             let rests = |part: &PartState| part.vx.abs().max(part.vy.abs()).max(part.spin.abs()) < REST_SPEED;
             still = if state.snapshot.parts.iter().all(rests) { still + 1 } else { 0 };
             steps += 1.0;
+        }
+        if settings.settle_time > 0.0 && state.snapshot.aloft() {
+            let what = format!("it is still in the air after settling for {} s", settings.settle_time);
+            return Err(Failure::Unstable { what });
         }
         state.rest = Arc::new(RestPose::new(blueprint, &state.snapshot));
         Ok(state)
@@ -204,7 +223,6 @@ impl State {
         self.advance_world(&plan.settings)?;
         self.steps += 1;
         self.snapshot.time = self.steps as f32 * plan.settings.time_step;
-        self.look();
         let parts = &self.snapshot.parts;
         let power: f32 = plan
             .actuated
@@ -214,20 +232,22 @@ impl State {
             })
             .sum();
         self.snapshot.motor_work += f64::from(power) * f64::from(plan.settings.time_step);
-        let fastest = parts.iter().map(|part| part.vx.abs().max(part.vy.abs())).fold(0.0, f32::max);
-        if fastest > plan.settings.unstable_speed {
-            return Err(Failure::Unstable { what: format!("a part moves at {fastest} m/s") });
-        }
         Ok(())
     }
 
+    /// One step of the world, and a look at where every part is.
     fn advance_world(&mut self, settings: &PhysicsSettings) -> Result<(), Failure> {
-        if self.world.step() {
-            Ok(())
-        } else {
+        if !self.world.step() {
             let seconds = self.steps as f32 * settings.time_step;
-            Err(Failure::NonFinite { what: format!("position or speed of a part after {seconds} s") })
+            return Err(Failure::NonFinite { what: format!("position or speed of a part after {seconds} s") });
         }
+        self.look();
+        let speed = |part: &PartState| part.vx.abs().max(part.vy.abs());
+        let fastest = self.snapshot.parts.iter().map(speed).fold(0.0, f32::max);
+        if fastest > settings.unstable_speed {
+            return Err(Failure::Unstable { what: format!("a part moves at {fastest} m/s") });
+        }
+        Ok(())
     }
 
     /// Reads where every part is and which ones touch the ground.

@@ -82,7 +82,7 @@ fn best(
         Ok(folder) if ended(&folder) => folder,
         Ok(folder) => {
             let stop = StopConditions { generations: Some(generations), ..Default::default() };
-            resume(folder.path(), stop, options)?.folder
+            resume(folder.path(), Some(stop), options)?.folder
         }
         Err(_) => train(&config, &path, options)?.folder,
     };

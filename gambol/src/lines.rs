@@ -1,7 +1,8 @@
 //! Files of lines: a JSON object a line, appended while a run goes on.
 //!
-//! The last field of every line, `digest`, is that of the file up to there. So a flipped bit, a lost line and a line out
-//! of place are found, and the first line that is wrong is named.
+//! The last field of every line, `digest`, is that of the file up to there. So a flipped bit, a line lost in the middle and
+//! a line out of place are found, and the first line that is wrong is named. That lines are missing at the end only a
+//! checkpoint can tell; resuming asks it.
 
 use crate::run_folder::FolderError;
 use ne_core::{

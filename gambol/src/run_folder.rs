@@ -11,7 +11,8 @@ use ne_core::{
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
 use std::{
-    fs, io,
+    fs::{self, File, TryLockError},
+    io,
     path::{Path, PathBuf},
 };
 
@@ -26,8 +27,9 @@ use std::{
 /// | `checkpoint` | to resume from |
 /// | `champion.json` | the best so far |
 /// | `report.html` | to look at |
+/// | `.lock` | empty; locked while a process works in the folder |
 ///
-/// Each line of a `.jsonl` file ends with a field `digest`, over the file up to there: no damage goes unnoticed.
+/// Each line of a `.jsonl` file ends with a field `digest`, over the file up to there.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RunFolder {
     path: PathBuf,
@@ -46,6 +48,20 @@ pub enum FolderError {
     Exists {
         /// The folder.
         path: PathBuf,
+    },
+    /// Another process trains in it; nothing was touched.
+    #[error("another gambol is at work in {}; wait until it has ended, or stop it", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Its checkpoint is of another run; nothing was touched.
+    #[error("{} is not the checkpoint of this run: it differs from config.json in {what}", path.display())]
+    Foreign {
+        /// The checkpoint.
+        path: PathBuf,
+        /// What differs.
+        what: &'static str,
     },
     /// The folder cannot be made.
     #[error("cannot create the folder {}: {source}", path.display())]
@@ -120,23 +136,52 @@ pub struct Timing {
     pub seconds: f64,
 }
 
+/// The file that is locked while a process works in a folder; it stays, empty.
+const LOCK: &str = ".lock";
+
+/// The right to work in a [`RunFolder`], held by one process at a time.
+#[derive(Debug)]
+pub struct FolderLock(#[allow(dead_code, reason = "held for its lock, which ends when the file is closed")] File);
+
 impl RunFolder {
-    /// Makes a new folder and writes the configuration into it.
+    /// Makes a new folder, locks it and writes the configuration into it.
     ///
     /// # Errors
     /// If there is a folder that is not empty (nothing is touched then), or it cannot be made or written.
-    pub fn create(path: &Path, config: &RunConfig) -> Result<Self, FolderError> {
-        let occupied = match fs::read_dir(path) {
-            Ok(mut entries) => entries.next().is_some(),
+    pub fn create(path: &Path, config: &RunConfig) -> Result<(Self, FolderLock), FolderError> {
+        let occupied = || match fs::read_dir(path) {
+            Ok(entries) => entries.flatten().any(|entry| entry.file_name() != LOCK),
             Err(_) => path.exists(),
         };
-        if occupied {
-            return Err(FolderError::Exists { path: path.into() });
+        let exists = || FolderError::Exists { path: path.into() };
+        if occupied() {
+            return Err(exists());
         }
         fs::create_dir_all(path).map_err(|source| FolderError::Create { path: path.into(), source })?;
         let folder = Self { path: path.into() };
+        let lock = folder.lock()?;
+        // Somebody may have been faster.
+        if occupied() {
+            return Err(exists());
+        }
         folder.write_config(config)?;
-        Ok(folder)
+        Ok((folder, lock))
+    }
+
+    /// Keeps other processes from working in the folder until the lock is dropped, or this process ends in whatever
+    /// way.
+    ///
+    /// # Errors
+    /// If another process has it.
+    pub fn lock(&self) -> Result<FolderLock, FolderError> {
+        let path = self.path.join(LOCK);
+        let failed = |source| ArchiveError::Write { path: path.clone(), source };
+        let file = File::options().create(true).append(true).open(&path).map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => Ok(FolderLock(file)),
+            Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: self.path.clone() }),
+            Err(TryLockError::Error(source)) => Err(failed(source).into()),
+        }
     }
 
     /// The folder of an earlier run.

@@ -95,6 +95,9 @@ impl Setup {
             }
             StrategySettings::Custom(_) => {}
         }
+        let input_range = f64::from(config.controller.input_range);
+        SettingError::check_range("input_range", input_range, 0.001, 1000.0)
+            .map_err(|error| error.within("controller"))?;
         let episode = config.episode_parts().build(catalogue)?;
         let (inputs, outputs) = (episode.environment().senses().len(), episode.environment().motors().len());
         let shape = config.controller.shape(inputs, outputs).map_err(|error| error.within("controller"))?;

@@ -9,7 +9,7 @@ use crate::{
 };
 use ne_core::{
     Checkpoint, Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
-    StopConditions, StopReason, StopSignal, Strategy, ThreadsError,
+    StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
 use ne_fixed::ConventionalNe;
 use ne_net::Network;
@@ -139,23 +139,27 @@ where
         config.strategy = StrategySettings::Custom(strategy.name().into());
     }
     let config = &config;
-    let folder = RunFolder::create(folder, config)?;
+    let (folder, _lock) = RunFolder::create(folder, config)?;
     let earlier = EarlierLines::check(&folder, config, 0)?;
     let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
     drive(evolution, config, setup, folder, earlier, &evaluator, options)
 }
 
-/// Goes on with a run from its last checkpoint. `stop` replaces the conditions of the configuration where it has any;
-/// they are written into the folder, so that the run is again what its configuration says.
+/// Goes on with a run from its last checkpoint. Other stop conditions, if given, take the place of the planned ones; they
+/// are written into the folder, so that the run is again what its configuration says.
 ///
 /// # Errors
-/// If the folder is no run, a file is damaged or of another version (nothing is changed then), or the run is over.
-pub fn resume(folder: &Path, stop: StopConditions, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
+/// If the folder is no run, another process works in it, a file is damaged, of another version or of another run
+/// (nothing is changed then), or the run is over.
+pub fn resume(folder: &Path, stop: Option<StopConditions>, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
     let folder = RunFolder::open(folder)?;
     let config = folder.read_config()?;
-    match &config.strategy {
-        StrategySettings::Conventional(_) => resume_with::<ConventionalNe>(folder, config, stop, options),
-        StrategySettings::Custom(name) => Err(TrainError::Foreign { strategy: name.clone() }),
+    match config.strategy.clone() {
+        StrategySettings::Conventional(settings) => {
+            let same = |strategy: &ConventionalNe| *strategy.settings() == settings;
+            resume_checked(folder, config, stop, options, same)
+        }
+        StrategySettings::Custom(strategy) => Err(TrainError::Foreign { strategy }),
     }
 }
 
@@ -165,22 +169,47 @@ pub fn resume(folder: &Path, stop: StopConditions, options: TrainOptions<'_>) ->
 /// As [`resume`].
 pub fn resume_with<S: Strategy>(
     folder: RunFolder,
-    mut config: RunConfig,
-    stop: StopConditions,
+    config: RunConfig,
+    stop: Option<StopConditions>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError>
 where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
+    resume_checked::<S>(folder, config, stop, options, |_| true)
+}
+
+fn resume_checked<S: Strategy>(
+    folder: RunFolder,
+    mut config: RunConfig,
+    stop: Option<StopConditions>,
+    options: TrainOptions<'_>,
+    same_settings: impl FnOnce(&S) -> bool,
+) -> Result<Outcome, TrainError>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
     let planned = config.stop;
-    config.stop = planned.overlaid(stop);
+    config.stop = stop.unwrap_or(planned);
     let setup = Setup::new(&config, &options.catalogue)?;
     let evaluator = Parallel::new(options.threads)?;
-    let missing = || FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() };
     if !folder.checkpoint().is_file() {
-        return Err(missing().into());
+        return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
     }
+    let _lock = folder.lock()?;
     let checkpoint = Checkpoint::<S>::read(&folder.checkpoint()).map_err(FolderError::from)?;
+    let foreign = |what| FolderError::Foreign { path: folder.checkpoint(), what };
+    if checkpoint.seed != Seed::of_run(config.seed) {
+        return Err(foreign("the seed").into());
+    }
+    if !same_settings(&checkpoint.strategy) {
+        return Err(foreign("the strategy's settings").into());
+    }
+    if let Some(champion) = &checkpoint.champion
+        && setup.episode.check_shape(&champion.genome.express()).is_err()
+    {
+        return Err(foreign("the inputs and outputs of its champion").into());
+    }
     let best = checkpoint.champion.as_ref().map(|champion| champion.fitness);
     if let Some(reason) = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO) {
         return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });

@@ -23,7 +23,7 @@ const MARK: usize = 8;
 impl TrajectoryDigest {
     /// The first step (0: the start) at which `other` is not the same, or `None` if the two are the same.
     pub fn first_difference(&self, other: &Self) -> Option<u32> {
-        if self == other {
+        if self.steps == other.steps && self.marks == other.marks {
             return None;
         }
         let marks = |digest: &Self| digest.marks.as_bytes().chunks(MARK).map(<[u8]>::to_vec).collect::<Vec<_>>();

@@ -146,6 +146,10 @@ impl MovementCatalogue {
             if !term.weight.is_finite() {
                 return Err(SettingError::new(field("weight"), term.weight, "a finite number").into());
             }
+            let earlier = spec.terms[..index].iter().map(|term| &term.term).chain([&spec.name]);
+            if earlier.into_iter().any(|name| *name == term.term) {
+                return Err(SettingError::new(field("term"), &term.term, "named once; add the weights up").into());
+            }
             sum = sum.plus_boxed(term.weight, self.make(field("term"), &term.term)?);
         }
         Ok(Box::new(sum))

@@ -12,6 +12,9 @@ use crate::{Creature, Joint, Part, Problem};
 /// The least a joint with a motor must be able to turn, degrees.
 const LEAST_ROOM: f32 = 1.0;
 
+/// The most limits may be apart, degrees: a motor that overshoots a wider range comes round on the other side.
+const WIDEST_RANGE: f32 = 340.0;
+
 pub(super) fn check(creature: &Creature, ends: &[Ends], problems: &mut Vec<Problem>) {
     let mut has_output = false;
     for (index, (joint, ends)) in creature.joints.iter().zip(ends).enumerate() {
@@ -72,7 +75,7 @@ fn check_limits(path: &str, joint: &Joint, problems: &mut Vec<Problem>) {
         problems.push(Problem::LimitsReversed { path, limits });
     } else if min > 0.0 || max < 0.0 {
         problems.push(Problem::LimitsWithoutStart { path, limits });
-    } else if max - min > 360.0 {
+    } else if max - min > WIDEST_RANGE || min < -180.0 || max > 180.0 {
         problems.push(Problem::LimitsTooWide { path, limits });
     } else if joint.motor.is_some() && max - min < LEAST_ROOM {
         problems.push(Problem::LimitsLocked { path, limits });

@@ -117,3 +117,34 @@ fn the_version_is_the_one_in_the_lock_file() {
     let lock = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.lock")).expect("there is one");
     assert!(lock.contains(&format!("name = \"rapier2d\"\nversion = \"{RAPIER_VERSION}\"")));
 }
+
+/// The biped moved up or down, in its file.
+fn raised(height: f32, settings: PhysicsSettings) -> Result<RapierEnvironment, EnvironmentError> {
+    let mut creature = creatures::find("biped-1").expect("shipped");
+    for part in &mut creature.parts {
+        part.position[1] += height;
+    }
+    for joint in &mut creature.joints {
+        joint.anchor[1] += height;
+    }
+    let sensors = creature.sensors.clone();
+    let blueprint = creatures::Blueprint::new(creature).expect("valid");
+    RapierEnvironment::new(blueprint, &sensors, 3.0, settings, Variation::default())
+}
+
+#[test]
+fn a_creature_that_cannot_settle_is_refused() {
+    let ours = PhysicsSettings::default();
+    let refusal = |height| raised(height, ours).err().expect("must be refused").to_string();
+    assert_eq!(
+        refusal(-3.0),
+        "the creature \"biped-1\" starts 3 m below the ground: its lowest point must be near y = 0"
+    );
+    assert_eq!(
+        refusal(40.0),
+        "the creature \"biped-1\" does not survive settling in its start pose: the simulation is unstable: it is still \
+         in the air after settling for 1 s"
+    );
+    assert!(raised(40.0, PhysicsSettings { settle_time: 0.0, ..ours }).is_ok());
+    assert!(raised(0.3, ours).is_ok());
+}

@@ -51,7 +51,7 @@ fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
     let blueprint = Blueprint::new(creature)?;
     let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
     let motors = Motors::new(&blueprint);
-    println!(
+    say!(
         "{}: a valid creature, \"{}\": {} parts, {} joints, {} inputs, {} outputs",
         path.display(),
         blueprint.name(),
@@ -59,17 +59,17 @@ fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
         blueprint.hinges().len(),
         senses.len(),
         motors.len()
-    );
+    )?;
     let lowest = blueprint.bounding_box()[1];
     if lowest.abs() > 0.05 {
         let place = if lowest > 0.0 { "above" } else { "below" };
-        println!("  note: in the start pose its lowest point is {:.2} m {place} the ground (y = 0)", lowest.abs());
+        say!("  note: in the start pose its lowest point is {:.2} m {place} the ground (y = 0)", lowest.abs())?;
     }
     for channel in senses.channels() {
-        println!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit);
+        say!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;
     }
     for channel in motors.channels() {
-        println!("  out  {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit);
+        say!("  out  {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;
     }
     Ok(())
 }
@@ -78,8 +78,8 @@ fn check_champion(path: &Path) -> Result<(), Box<dyn Error>> {
     let champion = Champion::read(path)?;
     champion.episode(&MovementCatalogue::default()).map_err(|error| format!("{}: {error}", path.display()))?;
     let (creature, movement) = (&champion.creature.name, &champion.movement.name);
-    println!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness);
-    println!("  to prove that it still does the same: gambol verify {}", path.display());
+    say!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness)?;
+    say!("  to prove that it still does the same: gambol verify {}", path.display())?;
     Ok(())
 }
 
@@ -96,6 +96,6 @@ fn check_config(path: &Path, value: &Value) -> Result<(), Box<dyn Error>> {
     };
     let config = request.resolve(&catalogue)?;
     Setup::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    println!("{}: a valid configuration", path.display());
+    say!("{}: a valid configuration", path.display())?;
     Ok(())
 }

@@ -28,11 +28,11 @@ impl Creatures {
         }
         if self.json {
             let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs });
-            println!("{}", rows.iter().map(row).collect::<serde_json::Value>());
+            say!("{}", rows.iter().map(row).collect::<serde_json::Value>())?;
         } else {
-            println!("{:<12} {:<20} {:>5} {:>6} {:>6} {:>7}", "name", "", "parts", "joints", "inputs", "outputs");
+            say!("{:<12} {:<20} {:>5} {:>6} {:>6} {:>7}", "name", "", "parts", "joints", "inputs", "outputs")?;
             for (name, title, [parts, joints, inputs, outputs]) in rows {
-                println!("{name:<12} {title:<20} {parts:>5} {joints:>6} {inputs:>6} {outputs:>7}");
+                say!("{name:<12} {title:<20} {parts:>5} {joints:>6} {inputs:>6} {outputs:>7}")?;
             }
         }
         Ok(ExitCode::SUCCESS)
@@ -55,21 +55,21 @@ impl Movements {
         let catalogue = MovementCatalogue::default();
         if self.json {
             let row = |entry: &tasks::MovementEntry| json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description });
-            println!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>());
+            say!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>())?;
             return Ok(ExitCode::SUCCESS);
         }
         let line = |entry: &tasks::MovementEntry, steps: String| {
-            println!("  {:<12} {:<3} {steps:<11} {}", entry.name, entry.unit, entry.description);
+            say!("  {:<12} {:<3} {steps:<11} {}", entry.name, entry.unit, entry.description)
         };
-        println!("movements");
+        say!("movements")?;
         for entry in catalogue.entries() {
             if let Some(steps) = entry.steps {
-                line(entry, format!("{steps} steps"));
+                line(entry, format!("{steps} steps"))?;
             }
         }
-        println!("terms, to be added with --set 'movement.terms=[{{\"term\":NAME,\"weight\":W}}]'");
+        say!("terms, to be added with --set 'movement.terms=[{{\"term\":NAME,\"weight\":W}}]'")?;
         for entry in catalogue.entries().iter().filter(|entry| entry.steps.is_none()) {
-            line(entry, String::new());
+            line(entry, String::new())?;
         }
         Ok(ExitCode::SUCCESS)
     }

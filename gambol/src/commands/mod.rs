@@ -1,5 +1,13 @@
 //! The commands of the program.
 
+/// Prints a line; a reader that went away (`| head`) is an error for `main`, not a panic.
+macro_rules! say {
+    ($($text:tt)*) => {{
+        use std::io::Write;
+        writeln!(std::io::stdout().lock(), $($text)*)
+    }};
+}
+
 mod check;
 mod list;
 mod progress;

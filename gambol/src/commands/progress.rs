@@ -93,24 +93,33 @@ impl Show {
         if matches!(self.manner, Manner::Quiet | Manner::Json) {
             return;
         }
+        // A reader that went away (`| head`) does not make a run that went well a failure.
+        let _ = self.summary(outcome, seconds, report);
+    }
+
+    fn summary(&self, outcome: &Outcome, seconds: f64, report: bool) -> io::Result<()> {
+        let Outcome { folder, reason, progress, champion } = outcome;
         let generations = progress.generations;
         match champion {
-            Some(champion) => println!(
+            Some(champion) => say!(
                 "best {:.3} {}, found in generation {} of {generations}; {reason} after {seconds:.1} s",
-                champion.fitness, self.unit, champion.generation
-            ),
-            None if generations == 0 => println!("no generation was done: {reason}"),
-            None => println!("every evaluation failed; {reason} after {generations} generations"),
+                champion.fitness,
+                self.unit,
+                champion.generation
+            )?,
+            None if generations == 0 => say!("no generation was done: {reason}")?,
+            None => say!("every evaluation failed; {reason} after {generations} generations")?,
         }
         if champion.is_some() {
-            println!("champion  {}", folder.champion().display());
+            say!("champion  {}", folder.champion().display())?;
         }
         if report {
-            println!("report    {}", folder.report().display());
+            say!("report    {}", folder.report().display())?;
         }
         if *reason == StopReason::Interrupted {
-            println!("go on     gambol resume {}", folder.path().display());
+            say!("go on     gambol resume {}", folder.path().display())?;
         }
+        Ok(())
     }
 }
 

@@ -37,6 +37,14 @@ impl Replay {
                 return Err(format!("{} exists; say --force to overwrite it", path.display()).into());
             }
         }
+        let file = |path: &PathBuf| path.canonicalize().ok();
+        if [&self.html, &self.trajectory]
+            .into_iter()
+            .flatten()
+            .any(|path| file(path).is_some_and(|path| Some(path) == file(&self.champion)))
+        {
+            return Err(format!("{} is the champion itself", self.champion.display()).into());
+        }
         if let Some(path) = self.html.as_ref().filter(|_| self.html == self.trajectory) {
             return Err(format!("{} cannot be both the page and the trajectory", path.display()).into());
         }
@@ -54,22 +62,22 @@ impl Replay {
         let mut recording = Recording::default();
         let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut recording);
         if let Some(failure) = &played.failure {
-            println!("the replay failed after {} steps: {failure}", played.steps);
+            say!("the replay failed after {} steps: {failure}", played.steps)?;
         }
         if let Some(path) = &self.trajectory {
             let names: Vec<String> = champion.creature.parts.iter().map(|part| part.name.clone()).collect();
             let mut csv = Vec::new();
             recording.write_csv(&names, &mut csv)?;
             archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-            println!("trajectory  {}", path.display());
+            say!("trajectory  {}", path.display())?;
         }
         if let Some(path) = &self.html {
             report::write_replay(&champion, &catalogue, path)?;
-            println!("page        {}", path.display());
+            say!("page        {}", path.display())?;
         }
         let (value, unit) = (played.movement.value(), played.movement.unit());
         let seconds = f64::from(played.steps) * f64::from(champion.physics.time_step);
-        println!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name);
+        say!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name)?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -15,7 +15,7 @@ impl Report {
     pub(crate) fn run(self) -> Outcome {
         let folder = RunFolder::open(&self.folder)?;
         report::write_report(&folder, &MovementCatalogue::default(), None)?;
-        println!("{}", folder.report().display());
+        say!("{}", folder.report().display())?;
         Ok(ExitCode::SUCCESS)
     }
 }

@@ -25,11 +25,10 @@ pub(crate) struct Resume {
 
 impl Resume {
     pub(crate) fn run(self) -> Outcome {
-        let stop = self.limits.conditions();
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
-        config.stop.generations = stop.generations.or(config.stop.generations);
+        config.stop = self.limits.over(config.stop);
         carry_out(&self.manner, &config, MovementCatalogue::default(), |options| {
-            training::resume(&self.folder, stop, options)
+            training::resume(&self.folder, Some(config.stop), options)
         })
     }
 }

@@ -98,14 +98,14 @@ pub(super) struct Manner {
 impl Limits {
     /// These limits in place of the planned ones. Another budget takes the place of the planned generations; a target
     /// or stagnation alone comes on top of them, or a run might never end.
-    fn over(self, planned: StopConditions) -> StopConditions {
+    pub(super) fn over(self, planned: StopConditions) -> StopConditions {
         let limits = self.conditions();
         let budget = limits.evaluations.or(limits.steps).is_some() || limits.minutes.is_some();
         let planned = StopConditions { generations: planned.generations.filter(|_| !budget), ..planned };
         planned.overlaid(limits)
     }
 
-    pub(super) fn conditions(self) -> StopConditions {
+    fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, minutes, target, stagnation } = self;
         StopConditions { generations, evaluations, steps, minutes, target, stagnation }
     }

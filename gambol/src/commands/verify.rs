@@ -3,7 +3,7 @@ use clap::Args;
 use gambol::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
 use ne_core::archive;
 use serde_json::json;
-use std::{path::PathBuf, process::ExitCode};
+use std::{io, path::PathBuf, process::ExitCode};
 use tasks::MovementCatalogue;
 
 #[derive(Args)]
@@ -32,29 +32,29 @@ impl Verify {
         let identical = verification.is_identical();
         if self.json {
             let Verification { evaluation, recorded, diverges_at } = &verification;
-            println!(
+            say!(
                 "{}",
                 json!({
                     "identical": identical, "unchanged": unchanged, "diverges_at_step": diverges_at,
                     "recorded_fitness": recorded, "fitness": evaluation.fitness(),
                 })
-            );
+            )?;
         } else {
-            say(&champion, &verification, unchanged);
+            explain(&champion, &verification, unchanged)?;
         }
         Ok(if identical && unchanged { ExitCode::SUCCESS } else { ExitCode::from(DIVERGED) })
     }
 }
 
-fn say(champion: &Champion, verification: &Verification, unchanged: bool) {
+fn explain(champion: &Champion, verification: &Verification, unchanged: bool) -> io::Result<()> {
     let Verification { evaluation, recorded, diverges_at } = verification;
     if !unchanged {
-        println!("changed: the file was edited or damaged after it was saved (its digest does not fit)");
+        say!("changed: the file was edited or damaged after it was saved (its digest does not fit)")?;
     }
     let engine = Engine::current();
     if champion.engine != engine {
         let (was, is) = (&champion.engine, &engine);
-        println!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version);
+        say!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version)?;
     }
     let again = match &evaluation.outcome {
         Ok(fitness) => format!("fitness {fitness}"),
@@ -63,11 +63,12 @@ fn say(champion: &Champion, verification: &Verification, unchanged: bool) {
     match diverges_at {
         Some(step) => {
             let seconds = f64::from(*step) * f64::from(champion.physics.time_step);
-            println!("differs: the trajectory diverges at step {step} ({seconds:.2} s); {again}, recorded {recorded}");
+            say!("differs: the trajectory diverges at step {step} ({seconds:.2} s); {again}, recorded {recorded}")?;
         }
         None if evaluation.fitness() == Some(*recorded) => {
-            println!("identical: {again}, {} steps, to the bit", champion.trajectory.steps);
+            say!("identical: {again}, {} steps, to the bit", champion.trajectory.steps)?;
         }
-        None => println!("differs: the same trajectory, but {again}, recorded {recorded}"),
+        None => say!("differs: the same trajectory, but {again}, recorded {recorded}")?,
     }
+    Ok(())
 }

@@ -153,8 +153,9 @@ fn merge(base: &mut Value, layer: Value) {
     }
 }
 
-/// A choice is an object whose one field names what was chosen and holds its settings, themselves an object.
+/// A choice is an object whose one field names what was chosen and, in our own configurations, holds its settings,
+/// themselves an object.
 fn is_other_choice(base: &Map<String, Value>, layer: &Map<String, Value>) -> bool {
-    let is_choice = |fields: &Map<String, Value>| fields.len() == 1 && fields.values().all(Value::is_object);
-    is_choice(base) && is_choice(layer) && base.keys().ne(layer.keys())
+    let is_choice = base.len() == 1 && base.values().all(Value::is_object);
+    is_choice && layer.len() == 1 && base.keys().ne(layer.keys())
 }

@@ -59,7 +59,10 @@ impl Preset {
             },
             stop: StopConditions { generations: Some(300), ..StopConditions::default() },
             physics: PhysicsSettings::default(),
-            record: RecordSettings { checkpoint_every: 10, populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000] },
+            record: RecordSettings {
+                checkpoint_every: 10,
+                populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],
+            },
             sensors: None,
             creature,
         }

@@ -87,7 +87,11 @@ impl Request {
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))
+        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
+        if config.preset != base.preset {
+            return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
+        }
+        Ok(config)
     }
 
     fn creature(&self, layer: Option<&Layer>) -> Result<Creature, RequestError> {

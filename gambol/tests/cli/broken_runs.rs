@@ -175,3 +175,32 @@ fn a_report_of_a_damaged_run_names_the_file_and_keeps_the_old_report() -> Outcom
     }
     Ok(())
 }
+
+#[test]
+fn the_checkpoint_of_another_run_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (run, other) = (folder.path().join("run"), folder.path().join("other"));
+    succeed(&mut small_run(&run, 4));
+    let foreign: [(&[&str], &str); 2] =
+        [(&["--seed", "9"], "the seed"), (&["--set", "strategy.conventional.elites=1"], "the strategy's settings")];
+    for (flags, says) in foreign {
+        succeed(small_run(&other, 4).args(flags));
+        fs::copy(other.join("checkpoint"), run.join("checkpoint"))?;
+        assert_refused(&run, &["checkpoint of this run", says]);
+        fs::remove_dir_all(&other)?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_folder_in_which_another_process_works_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 4));
+    let other_process = fs::File::open(run.join(".lock"))?;
+    other_process.lock()?;
+    assert_refused(&run, &["another gambol is at work", text(&run)]);
+    drop(other_process);
+    succeed(&mut resume(&run));
+    Ok(())
+}

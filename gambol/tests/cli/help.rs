@@ -37,3 +37,13 @@ fn a_command_line_that_is_not_understood_ends_with_exit_code_2() {
         assert_says(&ended.stderr, &[says]);
     }
 }
+
+#[test]
+fn a_reader_that_goes_away_is_no_panic() -> Result<(), std::io::Error> {
+    let (reader, writer) = std::io::pipe()?;
+    drop(reader);
+    let ended = gambol("creatures").stdout(writer).output()?;
+    assert!(ended.status.success(), "{}", String::from_utf8_lossy(&ended.stderr));
+    assert!(ended.stderr.is_empty());
+    Ok(())
+}

@@ -107,3 +107,16 @@ fn a_place_that_cannot_be_written_is_named() -> Outcome {
     }
     Ok(())
 }
+
+#[test]
+fn a_replay_never_takes_the_place_of_its_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let champion = trained(folder.path(), "biped-1");
+    let before = fs::read(&champion)?;
+    for flag in ["--trajectory", "--html"] {
+        let message = fail(gambol("replay").arg(&champion).arg(flag).arg(&champion).arg("--force"));
+        assert_says(&message, &[text(&champion), "is the champion itself"]);
+    }
+    assert_eq!(fs::read(&champion)?, before);
+    Ok(())
+}

@@ -25,7 +25,7 @@ fn a_run_leaves_every_file_it_promises_and_no_other() -> Outcome {
     ]);
     succeed(train.arg(&run));
     let found = fs::read_dir(&run)?.map(|entry| Ok(entry?.file_name().into_string().expect("plain names")));
-    let promised = LASTING.iter().chain(&["timing.jsonl", "report.html"]).map(ToString::to_string);
+    let promised = LASTING.iter().chain(&["timing.jsonl", "report.html", ".lock"]).map(ToString::to_string);
     assert_eq!(found.collect::<Result<BTreeSet<_>, std::io::Error>>()?, promised.collect());
     for name in ["log.jsonl", "timing.jsonl"] {
         assert_eq!(fs::read_to_string(run.join(name))?.lines().count(), 4, "{name} has a line a generation");
