@@ -1,4 +1,4 @@
-use crate::World;
+use crate::world::World;
 use creatures::{Blueprint, BodyView, Hinge};
 use rapier2d::prelude::Vector;
 use tasks::{PartState, Snapshot};

@@ -1,7 +1,8 @@
 use crate::{
-    PhysicsSettings, Variation, World,
+    PhysicsSettings, Variation,
     body::{Body, RestPose},
     variation::Factors,
+    world::World,
 };
 use creatures::{Blueprint, CreatureError, Motors, Senses, Sensor};
 use ne_core::{Failure, Seed, SettingError};

@@ -35,7 +35,6 @@ mod world;
 pub use environment::{EnvironmentError, RapierEnvironment};
 pub use settings::PhysicsSettings;
 pub use variation::Variation;
-pub use world::World;
 
 /// The exact version of rapier2d this crate is built with; another version gives other trajectories.
 pub const RAPIER_VERSION: &str = "0.36.1";

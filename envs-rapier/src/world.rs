@@ -6,7 +6,7 @@ use rapier2d::prelude::*;
 type ColliderIndex = usize;
 
 /// A rapier world with flat ground and one creature in it.
-pub struct World {
+pub(crate) struct World {
     /// rapier's sets and settings.
     pub(crate) physics: PhysicsWorld,
     /// The body of each part.

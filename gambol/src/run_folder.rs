@@ -141,7 +141,10 @@ const LOCK: &str = ".lock";
 
 /// The right to work in a [`RunFolder`], held by one process at a time.
 #[derive(Debug)]
-pub struct FolderLock(#[allow(dead_code, reason = "held for its lock, which ends when the file is closed")] File);
+pub struct FolderLock {
+    /// Locked until it is closed.
+    _file: File,
+}
 
 impl RunFolder {
     /// Makes a new folder, locks it and writes the configuration into it.
@@ -178,7 +181,7 @@ impl RunFolder {
         let failed = |source| ArchiveError::Write { path: path.clone(), source };
         let file = File::options().create(true).append(true).open(&path).map_err(failed)?;
         match file.try_lock() {
-            Ok(()) => Ok(FolderLock(file)),
+            Ok(()) => Ok(FolderLock { _file: file }),
             Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: self.path.clone() }),
             Err(TryLockError::Error(source)) => Err(failed(source).into()),
         }
