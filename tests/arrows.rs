@@ -11,9 +11,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ne-core",         &[]),
     ("ne-net",          &["ne-core"]),
     ("ne-fixed",        &["ne-core", "ne-net"]),
+    ("ne-statistics",   &["ne-core"]),
     ("tasks",           &["ne-core"]),
     ("envs-rapier",     &["ne-core", "tasks", "creatures"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "tasks", "creatures", "envs-rapier"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-statistics", "tasks", "creatures", "envs-rapier"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
     ("gambol-tests",    &[]),

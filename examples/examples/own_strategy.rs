@@ -32,7 +32,7 @@ impl Strategy for OnePlusThirty {
         let mutant = |index| {
             let mut stream = seed.individual(index).stream(Purpose::new("one-plus-thirty mutation"));
             let weights = self.parent.weights().iter().map(|weight| weight + stream.random_range(-0.5..0.5_f32));
-            WeightVector::new(Arc::clone(self.parent.shape()), weights.collect(), 0.0).expect("as many weights")
+            WeightVector::new(self.parent.topology().clone(), weights.collect(), 0.0).expect("as many weights")
         };
         self.mutants = (0..30).map(mutant).collect();
         &self.mutants
@@ -53,8 +53,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     config.movement.steps = Some(300);
     config.stop.generations = Some(20);
     let setup = Setup::new(&config, &catalogue)?;
-    let weights = vec![0.0; setup.shape.weight_count()];
-    let parent = WeightVector::new(setup.shape.clone(), weights, 0.0)?;
+    let weights = vec![0.0; setup.topology.weight_count()];
+    let parent = WeightVector::new(setup.topology.clone(), weights, 0.0)?;
     let strategy = OnePlusThirty { parent, fitness: None, mutants: Vec::new() };
     check_strategy(|| strategy.clone(), &Default::default())?;
 

@@ -9,11 +9,15 @@
 //! |---|---|
 //! | [`config`] | the configuration of a run; presets; putting one together |
 //! | [`setup`] | from a configuration to a task |
+//! | [`search`] | the strategies a configuration can name |
 //! | [`training`] | train, resume |
 //! | [`run_folder`] | which file is what |
+//! | [`compare`] | strategies against each other, with paired seeds |
 //! | [`champion`] | the saved champion; verifying it |
 //! | [`trajectory`] | recording what a champion does; CSV |
+//! | [`dot`] | a champion's net as a drawing |
 //! | [`report`] | the HTML page |
+//! | [`yardsticks`] | the strategies on classic tasks, beside published numbers |
 //! | [`source`] | finding a creature by name or path |
 //!
 //! # Train, verify
@@ -39,15 +43,19 @@
 //! ```
 
 pub mod champion;
+pub mod compare;
 pub mod config;
+pub mod dot;
 mod lines;
 mod recorder;
 pub mod report;
 pub mod run_folder;
+pub mod search;
 pub mod setup;
 pub mod source;
 pub mod suggest;
 pub mod training;
 pub mod trajectory;
+pub mod yardsticks;
 
 pub use setup::Setup;

@@ -264,6 +264,14 @@ impl RunFolder {
         read_lines(&self.log())
     }
 
+    /// Reads the timing, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_timing(&self) -> Result<Vec<Timing>, FolderError> {
+        read_lines(&self.timing())
+    }
+
     /// Reads the gallery, of a run under way as well.
     ///
     /// # Errors

@@ -1,22 +1,22 @@
 //! From a configuration to the things a run is made of.
 
 use crate::{
-    config::{ControllerSettings, RunConfig, StrategySettings},
+    config::{ControllerSettings, FrozenTopology, RunConfig},
     suggest,
 };
 use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::SettingError;
-use ne_net::DenseShape;
+use ne_net::{DenseShape, Topology};
 use tasks::{Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
 
-/// The task and the shape of the controller a configuration describes: checked, built, ready.
+/// The task and the topology of the controller a configuration describes: checked, built, ready.
 #[derive(Clone)]
 pub struct Setup {
     /// The task.
     pub episode: Episode<RapierEnvironment>,
-    /// The controller's shape.
-    pub shape: DenseShape,
+    /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
+    pub topology: Topology,
     /// The unit of the fitness.
     pub unit: String,
 }
@@ -34,6 +34,9 @@ pub enum SetupError {
     /// A setting is out of range.
     #[error("{0}")]
     Setting(#[from] SettingError),
+    /// The topology was made for another creature, or for other sensors.
+    #[error("the topology does not fit the creature: {0}")]
+    Topology(String),
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
@@ -89,20 +92,19 @@ impl Setup {
     pub fn new(config: &RunConfig, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
         config.stop.validate().map_err(|error| error.within("stop"))?;
         config.record.validate().map_err(|error| error.within("record"))?;
-        match &config.strategy {
-            StrategySettings::Conventional(settings) => {
-                settings.validate().map_err(|error| error.within("strategy.conventional"))?;
-            }
-            StrategySettings::Custom(_) => {}
-        }
         let input_range = f64::from(config.controller.input_range);
         SettingError::check_range("input_range", input_range, 0.001, 1000.0)
             .map_err(|error| error.within("controller"))?;
         let episode = config.episode_parts().build(catalogue)?;
-        let (inputs, outputs) = (episode.environment().senses().len(), episode.environment().motors().len());
-        let shape = config.controller.shape(inputs, outputs).map_err(|error| error.within("controller"))?;
+        let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
+        let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
+        let topology = match &config.topology {
+            None => shape.into(),
+            Some(frozen) => frozen.fitting(senses, motors)?,
+        };
+        config.strategy.validate(&topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
-        Ok(Self { episode, shape, unit })
+        Ok(Self { episode, topology, unit })
     }
 
     /// What each input of the controller is.
@@ -128,6 +130,47 @@ impl RunConfig {
             variation: self.variation,
             physics: self.physics,
         }
+    }
+}
+
+impl FrozenTopology {
+    /// The topology, if it was made for these inputs and outputs.
+    fn fitting(&self, senses: &[Channel], motors: &[Channel]) -> Result<Topology, SetupError> {
+        self.net.validate().map_err(|error| error.within("topology.net"))?;
+        for (what, mine, count, channels) in [
+            ("inputs", &self.inputs, self.net.inputs(), senses),
+            ("outputs", &self.outputs, self.net.outputs(), motors),
+        ] {
+            if mine.len() != count {
+                let allowed = format!("{count} names, one for each of the net's");
+                return Err(SettingError::new(what, format!("{} names", mine.len()), allowed)
+                    .within("topology")
+                    .into());
+            }
+            if let Some(difference) = difference(what, mine, channels) {
+                return Err(SetupError::Topology(difference));
+            }
+        }
+        Ok(self.net.clone())
+    }
+}
+
+/// Says how the names of a topology's inputs or outputs differ from those of the creature.
+fn difference(what: &str, mine: &[String], channels: &[Channel]) -> Option<String> {
+    let theirs: Vec<&String> = channels.iter().map(|channel| &channel.name).collect();
+    let only = |names: Vec<&String>| names.into_iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
+    let missing = only(mine.iter().filter(|name| !theirs.contains(name)).collect());
+    let new = only(theirs.iter().copied().filter(|name| !mine.contains(name)).collect());
+    let counts = format!("it has {} {what}, the creature has {}", mine.len(), theirs.len());
+    match (missing.is_empty(), new.is_empty()) {
+        (true, true) => {
+            let place = mine.iter().zip(&theirs).position(|(mine, theirs)| mine != *theirs)?;
+            let (mine, theirs) = (&mine[place], theirs[place]);
+            Some(format!("its {what} are in another order: \"{mine}\" where the creature has \"{theirs}\""))
+        }
+        (false, true) => Some(format!("{counts}; {missing} is not among the creature's")),
+        (true, false) => Some(format!("{counts}; {new} is not among the topology's")),
+        (false, false) => Some(format!("{counts}; only the topology has {missing}, only the creature has {new}")),
     }
 }
 

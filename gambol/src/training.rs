@@ -5,13 +5,13 @@ use crate::{
     config::{RunConfig, StrategySettings},
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
+    search::{Search, SearchVisitor},
     setup::{Setup, SetupError},
 };
 use ne_core::{
     Checkpoint, Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
     StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
-use ne_fixed::ConventionalNe;
 use ne_net::Network;
 use std::path::Path;
 use tasks::MovementCatalogue;
@@ -108,13 +108,27 @@ impl From<SettingError> for TrainError {
 /// If the configuration is not valid, the folder is not empty or cannot be written.
 pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
     let setup = Setup::new(config, &options.catalogue)?;
-    match &config.strategy {
-        StrategySettings::Conventional(settings) => {
-            let strategy = ConventionalNe::new(settings.clone(), setup.shape.clone())
-                .map_err(|error| error.within("strategy.conventional"))?;
-            train_with(strategy, config, &setup, folder, options)
-        }
-        StrategySettings::Custom(name) => Err(TrainError::Foreign { strategy: name.clone() }),
+    config.strategy.visit(Train { config, setup, folder, options })
+}
+
+/// Starts a run with whichever strategy the configuration names.
+struct Train<'a, 'b> {
+    config: &'a RunConfig,
+    setup: Setup,
+    folder: &'a Path,
+    options: TrainOptions<'b>,
+}
+
+impl SearchVisitor for Train<'_, '_> {
+    type Output = Result<Outcome, TrainError>;
+
+    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
+        let strategy = S::build(settings, &self.setup.topology)?;
+        train_with(strategy, self.config, &self.setup, self.folder, self.options)
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(TrainError::Foreign { strategy: name.into() })
     }
 }
 
@@ -154,12 +168,28 @@ where
 pub fn resume(folder: &Path, stop: Option<StopConditions>, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
     let folder = RunFolder::open(folder)?;
     let config = folder.read_config()?;
-    match config.strategy.clone() {
-        StrategySettings::Conventional(settings) => {
-            let same = |strategy: &ConventionalNe| *strategy.settings() == settings;
-            resume_checked(folder, config, stop, options, same)
-        }
-        StrategySettings::Custom(strategy) => Err(TrainError::Foreign { strategy }),
+    let strategy = config.strategy.clone();
+    strategy.visit(Resume { folder, config, stop, options })
+}
+
+/// Goes on with a run of whichever strategy its configuration names.
+struct Resume<'a> {
+    folder: RunFolder,
+    config: RunConfig,
+    stop: Option<StopConditions>,
+    options: TrainOptions<'a>,
+}
+
+impl SearchVisitor for Resume<'_> {
+    type Output = Result<Outcome, TrainError>;
+
+    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
+        let same = |strategy: &S| strategy.settings() == settings;
+        resume_checked(self.folder, self.config, self.stop, self.options, same)
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(TrainError::Foreign { strategy: name.into() })
     }
 }
 

@@ -66,7 +66,8 @@ impl Watcher for TrajectoryDigester {
 pub struct Recording {
     /// Where every part was.
     pub snapshots: Vec<Snapshot>,
-    /// The activation of every neuron, layer by layer; empty if the controller does not show them.
+    /// The activation of every node of the net, inputs first, in the order they are computed; empty if the controller
+    /// does not show them.
     pub activations: Vec<Vec<f32>>,
 }
 
@@ -74,8 +75,10 @@ impl Watcher for Recording {
     fn watch(&mut self, moment: &Moment<'_>) {
         self.snapshots.push(moment.snapshot.clone());
         let phenotype: &dyn std::any::Any = moment.phenotype;
-        if let Some(Network::Dense(net)) = phenotype.downcast_ref() {
-            self.activations.push(net.activations().flatten().copied().collect());
+        match phenotype.downcast_ref() {
+            Some(Network::Dense(net)) => self.activations.push(net.activations().flatten().copied().collect()),
+            Some(Network::Graph(net)) => self.activations.push(net.activations().to_vec()),
+            _ => {}
         }
     }
 }

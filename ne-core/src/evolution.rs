@@ -153,6 +153,7 @@ impl<S: Strategy> Evolution<S> {
             failures: evaluations.iter().filter(|evaluation| evaluation.outcome.is_err()).count() as u64,
             population: genomes.len() as u64,
             strategy: self.strategy.statistics(),
+            species: self.strategy.species(),
         };
         tracing::debug!(generation, best = ?report.best_so_far, failures = report.failures, "generation done");
         let event = Generation {

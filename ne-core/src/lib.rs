@@ -122,7 +122,7 @@ pub use selector::Selector;
 #[cfg(feature = "selection")]
 pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
 pub use setting::SettingError;
-pub use strategy::{Statistic, Strategy};
+pub use strategy::{SpeciesReport, Statistic, Strategy};
 pub use task::Task;
 
 #[cfg(feature = "evolution")]

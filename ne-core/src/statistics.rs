@@ -1,4 +1,4 @@
-use crate::{Evaluation, Fitness, Statistic};
+use crate::{Evaluation, Fitness, SpeciesReport, Statistic};
 use serde::{Deserialize, Serialize};
 
 /// What happened in one generation: plain data, a line of a log.
@@ -21,6 +21,9 @@ pub struct GenerationReport {
     pub population: u64,
     /// What the strategy says of itself.
     pub strategy: Vec<Statistic>,
+    /// The species, if the strategy has species.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub species: Vec<SpeciesReport>,
 }
 
 /// The distribution of a generation's fitnesses, failures left out.

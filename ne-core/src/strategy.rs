@@ -1,4 +1,4 @@
-use crate::{Evaluation, Genome, Seed};
+use crate::{Evaluation, Fitness, Genome, Seed};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 
 /// A search: asks for the evaluation of genomes, is told the results, and asks again.
@@ -32,6 +32,23 @@ pub trait Strategy: Serialize + DeserializeOwned + Send {
     fn statistics(&self) -> Vec<Statistic> {
         Vec::new()
     }
+
+    /// The species of the generation last told, in order of their ids, for strategies that have species.
+    fn species(&self) -> Vec<SpeciesReport> {
+        Vec::new()
+    }
+}
+
+/// One species of a generation.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SpeciesReport {
+    /// Its id, the same over all generations; ids are not used again.
+    pub id: u64,
+    /// How many individuals it has.
+    pub size: u64,
+    /// Its best fitness in this generation; `None` if all its evaluations failed.
+    pub best: Option<Fitness>,
 }
 
 /// A named number a [`Strategy`] reports.

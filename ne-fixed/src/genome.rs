@@ -1,65 +1,65 @@
 use ne_core::{Genome, SettingError};
-use ne_net::{DenseNet, DenseNetError, DenseShape};
+use ne_net::{Network, NetworkError, Topology};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 
-/// The weights of a dense net of fixed shape, as a string of genes.
+/// The weights of a net of fixed topology, as a string of genes.
 ///
-/// The genes stand in the order [`DenseShape`] documents, so that neighbours in the string lead to the same neuron. The
-/// shape is shared between individuals.
+/// The genes stand in the order the shape documents ([`DenseShape`](ne_net::DenseShape),
+/// [`GraphShape`](ne_net::GraphShape)), so that neighbours in the string lead to the same neuron. The topology is shared
+/// between individuals.
 ///
-/// In JSON: `{"shape": …, "weights": […], "mutation_deviation": 0.1}`. Reading checks the shape, the number of weights
-/// and that they are finite.
+/// In JSON: `{"topology": …, "weights": […], "mutation_deviation": 0.1}`. Reading checks the topology, the number of
+/// weights and that they are finite.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "UncheckedWeightVector")]
 pub struct WeightVector {
-    shape: Arc<DenseShape>,
+    topology: Topology,
     weights: Vec<f32>,
     mutation_deviation: f32,
 }
 
-/// Why a shape, weights and a deviation are not a genome.
+/// Why a topology, weights and a deviation are not a genome.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum WeightVectorError {
-    /// Shape and weights are not a net.
+    /// Topology and weights are not a net.
     #[error(transparent)]
-    Net(#[from] DenseNetError),
-    /// The deviation is out of range.
+    Net(#[from] NetworkError),
+    /// The topology or the deviation is out of range.
     #[error(transparent)]
-    Deviation(#[from] SettingError),
+    Setting(#[from] SettingError),
 }
 
 impl WeightVector {
     /// A genome. `mutation_deviation` is finite, at least 0, and in units of the weights.
     ///
     /// # Errors
-    /// If the shape is out of range, the number of weights is not the shape's, or a number is not finite; the error
+    /// If the topology is out of range, the number of weights is not the topology's, or a number is not finite; the error
     /// names the field.
     pub fn new(
-        shape: impl Into<Arc<DenseShape>>,
+        topology: impl Into<Topology>,
         weights: Vec<f32>,
         mutation_deviation: f32,
     ) -> Result<Self, WeightVectorError> {
-        let shape = shape.into();
-        shape.validate().map_err(DenseNetError::from)?;
-        DenseNet::check_weights(&shape, &weights)?;
+        let topology = topology.into();
+        topology.validate().map_err(|error| error.within("topology"))?;
+        topology.check_weights(&weights)?;
         SettingError::check_range("mutation_deviation", mutation_deviation.into(), 0.0, f64::INFINITY)?;
-        Ok(Self { shape, weights, mutation_deviation })
+        Ok(Self { topology, weights, mutation_deviation })
     }
 
-    /// The genome of zeros, for a valid shape.
-    pub(crate) fn zero(shape: Arc<DenseShape>) -> Self {
-        let weights = vec![0.0; shape.weight_count()];
-        Self { shape, weights, mutation_deviation: 0.0 }
+    /// The genome of zeros, for a valid topology.
+    pub(crate) fn zero(topology: Topology) -> Self {
+        let weights = vec![0.0; topology.weight_count()];
+        Self { topology, weights, mutation_deviation: 0.0 }
     }
 
-    /// The shape of the net.
-    pub fn shape(&self) -> &Arc<DenseShape> {
-        &self.shape
+    /// The net without its weights.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
     }
 
-    /// The genes: the weights in the order [`DenseShape`] documents.
+    /// The genes: the weights in the order the shape documents.
     pub fn weights(&self) -> &[f32] {
         &self.weights
     }
@@ -75,7 +75,7 @@ impl WeightVector {
         (&mut self.weights, &mut self.mutation_deviation)
     }
 
-    /// Becomes a copy of an individual of the same shape, without allocating.
+    /// Becomes a copy of an individual of the same topology, without allocating.
     pub(crate) fn copy_from(&mut self, other: &Self) {
         self.weights.copy_from_slice(&other.weights);
         self.mutation_deviation = other.mutation_deviation;
@@ -83,17 +83,17 @@ impl WeightVector {
 }
 
 impl Genome for WeightVector {
-    type Phenotype = DenseNet;
+    type Phenotype = Network;
 
-    fn express(&self) -> DenseNet {
-        DenseNet::from_checked(Arc::clone(&self.shape), &self.weights)
+    fn express(&self) -> Network {
+        self.topology.network(&self.weights)
     }
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename = "WeightVector")]
 struct UncheckedWeightVector {
-    shape: Arc<DenseShape>,
+    topology: Topology,
     weights: Vec<f32>,
     mutation_deviation: f32,
 }
@@ -102,7 +102,7 @@ impl TryFrom<UncheckedWeightVector> for WeightVector {
     type Error = WeightVectorError;
 
     fn try_from(unchecked: UncheckedWeightVector) -> Result<Self, WeightVectorError> {
-        Self::new(unchecked.shape, unchecked.weights, unchecked.mutation_deviation)
+        Self::new(unchecked.topology, unchecked.weights, unchecked.mutation_deviation)
     }
 }
 
@@ -110,6 +110,7 @@ impl TryFrom<UncheckedWeightVector> for WeightVector {
 mod tests {
     use super::*;
     use ne_core::Phenotype;
+    use ne_net::DenseShape;
     use proptest::prelude::*;
 
     proptest! {
@@ -122,7 +123,7 @@ mod tests {
             let loaded: WeightVector = serde_json::from_str(&text).expect("deserialises");
             prop_assert_eq!(&loaded, &genome);
             let (mut net, mut outputs) = (loaded.express(), [0.0]);
-            prop_assert_eq!(&net, &DenseNet::new(Arc::clone(genome.shape()), genome.weights()).expect("valid"));
+            prop_assert_eq!(&net, &genome.topology().network(genome.weights()));
             net.activate(&[1.0, 2.0], &mut outputs);
             prop_assert!(outputs[0].abs() <= 1.0);
         }
@@ -133,7 +134,7 @@ mod tests {
         let error = |inputs, weights: Vec<f32>, deviation| {
             WeightVector::new(DenseShape::new(inputs, vec![], 1), weights, deviation).expect_err("invalid").to_string()
         };
-        assert_eq!(error(0, vec![0.0], 0.0), "shape.inputs = 0: must be from 1 to 4096");
+        assert_eq!(error(0, vec![0.0], 0.0), "topology.inputs = 0: must be from 1 to 4096");
         assert_eq!(error(1, vec![0.0], 0.0), "weights: found 1, a net of shape 1-1 has 2");
         assert_eq!(error(1, vec![0.0, f32::NAN], 0.0), "weights[1] = NaN: must be finite");
         assert_eq!(error(1, vec![0.0, 0.0], -1.0), "mutation_deviation = -1: must be at least 0");

@@ -37,7 +37,7 @@ impl Initialization {
 
     /// Draws the weights of an individual.
     pub(crate) fn draw(&self, individual: &mut WeightVector, stream: &mut RandomStream) {
-        let shape = individual.shape().clone();
+        let topology = individual.topology().clone();
         let (mut weights, _) = individual.genes_mut();
         match *self {
             Self::Uniform { limit } => {
@@ -46,10 +46,10 @@ impl Initialization {
             }
             Self::ScaledGaussian { scale } => {
                 let normal = Normal::new();
-                for (sources, targets) in shape.connections() {
-                    let deviation = (scale / ((sources + 1) as f64).sqrt()) as f32;
-                    let (layer, rest) = weights.split_at_mut((sources + 1) * targets);
-                    layer.iter_mut().for_each(|weight| *weight = normal.next(stream) * deviation);
+                for count in topology.weights_of_neurons() {
+                    let deviation = (scale / (count as f64).sqrt()) as f32;
+                    let (neuron, rest) = weights.split_at_mut(count);
+                    neuron.iter_mut().for_each(|weight| *weight = normal.next(stream) * deviation);
                     weights = rest;
                 }
             }
@@ -62,10 +62,9 @@ mod tests {
     use super::*;
     use ne_core::{Purpose, Seed};
     use ne_net::DenseShape;
-    use std::sync::Arc;
 
     fn drawn(initialization: Initialization) -> Vec<f32> {
-        let mut individual = WeightVector::zero(Arc::new(DenseShape::new(99, vec![100], 99)));
+        let mut individual = WeightVector::zero(DenseShape::new(99, vec![100], 99).into());
         initialization.draw(&mut individual, &mut Seed::of_run(1).stream(Purpose::new("test")));
         individual.weights().to_vec()
     }

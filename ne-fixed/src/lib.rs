@@ -47,17 +47,27 @@
 //! ```
 
 mod chance;
+mod cma_es;
 mod conventional;
+mod cosyne;
 mod crossover;
+mod diversity;
 mod genome;
 mod initialization;
 mod mutation;
 mod normal;
+mod open_es;
+mod ranking;
 mod setting;
+mod state_error;
 
-pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost, StateError};
+pub use cma_es::{CmaEs, CmaEsSettings, CovarianceModel, Restart};
+pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost};
+pub use cosyne::{Cosyne, CosyneSettings, Permutation};
 pub use crossover::{Arithmetic, Crossover, CrossoverChoice, OnePoint, TwoPoint, UniformCrossover};
 pub use genome::{WeightVector, WeightVectorError};
 pub use initialization::Initialization;
 pub use mutation::{GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation};
+pub use open_es::{Adam, OpenEs, OpenEsSettings};
 pub use setting::Setting;
+pub use state_error::StateError;

@@ -137,7 +137,7 @@ fn damaged_states_are_errors_that_name_the_field() {
             |s| s["parents"][0]["genes"]["mutation_deviation"] = (-1.0).into(),
             "parents[0].mutation_deviation = -1: must be at least 0",
         ),
-        (|s| s["shape"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
+        (|s| s["topology"]["dense"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
         (
             |s| s["asked"] = serde_json::json!([s["parents"][0]["genes"]]),
             "asked: found 1 individuals, the settings say 50",
@@ -158,7 +158,7 @@ fn settings_and_shape_are_checked_once() {
     assert_eq!(error, "population = 1: must be from 2 to 1000000");
     let flat = DenseShape::new(3, vec![0], 2);
     let error = ConventionalNe::new(ConventionalNeSettings::default(), flat).expect_err("no neuron").to_string();
-    assert_eq!(error, "shape.hidden[0] = 0: must be from 1 to 4096");
+    assert_eq!(error, "topology.hidden[0] = 0: must be from 1 to 4096");
 }
 
 #[test]

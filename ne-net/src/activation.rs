@@ -24,12 +24,26 @@ pub enum Activation {
     Sine,
     /// exp(-a²), from 0 to 1; error below 1e-6.
     Gaussian,
+    /// 1 / (1 + e⁻⁴·⁹ᵃ), from 0 to 1; error below 1e-6: the activation of Stanley & Miikkulainen, 2002, section 4.1.
+    SteepLogistic,
+    /// tanh 2.45a, from -1 to 1; error below 1e-6: the [`SteepLogistic`](Self::SteepLogistic) stretched to ±1, for
+    /// outputs that drive motors both ways.
+    SteepTanh,
 }
 
 impl Activation {
     /// All activations.
-    pub const ALL: [Self; 7] =
-        [Self::Logistic, Self::Tanh, Self::RationalTanh, Self::Relu, Self::Linear, Self::Sine, Self::Gaussian];
+    pub const ALL: [Self; 9] = [
+        Self::Logistic,
+        Self::Tanh,
+        Self::RationalTanh,
+        Self::Relu,
+        Self::Linear,
+        Self::Sine,
+        Self::Gaussian,
+        Self::SteepLogistic,
+        Self::SteepTanh,
+    ];
 
     /// The output of a neuron with the weighted sum `a`.
     #[inline]
@@ -42,6 +56,8 @@ impl Activation {
             Self::Linear => a,
             Self::Sine => sin(a),
             Self::Gaussian => gaussian(a),
+            Self::SteepLogistic => steep_logistic(a),
+            Self::SteepTanh => steep_tanh(a),
         }
     }
 
@@ -56,14 +72,16 @@ impl Activation {
             Self::Linear => {}
             Self::Sine => replace(sums, sin),
             Self::Gaussian => replace(sums, gaussian),
+            Self::SteepLogistic => replace(sums, steep_logistic),
+            Self::SteepTanh => replace(sums, steep_tanh),
         }
     }
 
     /// The least and the greatest output for finite sums, both included; infinite where there is no bound.
     pub fn range(self) -> (f32, f32) {
         match self {
-            Self::Logistic | Self::Gaussian => (0.0, 1.0),
-            Self::Tanh | Self::RationalTanh | Self::Sine => (-1.0, 1.0),
+            Self::Logistic | Self::Gaussian | Self::SteepLogistic => (0.0, 1.0),
+            Self::Tanh | Self::RationalTanh | Self::Sine | Self::SteepTanh => (-1.0, 1.0),
             Self::Relu => (0.0, f32::INFINITY),
             Self::Linear => (f32::NEG_INFINITY, f32::INFINITY),
         }
@@ -79,6 +97,8 @@ impl Activation {
             Self::Linear => "linear",
             Self::Sine => "sine",
             Self::Gaussian => "gaussian",
+            Self::SteepLogistic => "steep-logistic",
+            Self::SteepTanh => "steep-tanh",
         }
     }
 }
@@ -106,6 +126,16 @@ fn replace(sums: &mut [f32], function: impl Fn(f32) -> f32) {
 #[inline(always)]
 fn logistic(a: f32) -> f32 {
     1.0 / (1.0 + exp(-a))
+}
+
+#[inline(always)]
+fn steep_logistic(a: f32) -> f32 {
+    logistic(4.9 * a)
+}
+
+#[inline(always)]
+fn steep_tanh(a: f32) -> f32 {
+    tanh(2.45 * a)
 }
 
 #[inline(always)]
@@ -138,7 +168,7 @@ mod tests {
     #[test]
     fn bits_are_the_same_for_ever() {
         #[rustfmt::skip]
-        let golden: [(Activation, [u32; 8]); 7] = [
+        let golden: [(Activation, [u32; 8]); 9] = [
             (Activation::Logistic, [0x3f00_0000, 0x3f06_6509, 0x3ea9_e34b, 0x3f3b_26a8, 0x3d9b_5b88, 0x3f73_dbe6, 0x3f7f_ffb0, 0x00b3_3688]),
             (Activation::Tanh, [0, 0x3dcc_1ebc, 0xbf1a_b7d9, 0x3f42_f7d5, 0xbf7c_92c1, 0x3f7e_bbe9, 0x3f80_0000, 0xbf80_0000]),
             (Activation::RationalTanh, [0, 0x3dcc_31f9, 0xbf1c_d5ee, 0x3f47_1c72, 0xbf7f_9d99, 0x3f80_0000, 0x3f80_0000, 0xbf80_0000]),
@@ -146,19 +176,24 @@ mod tests {
             (Activation::Linear, [0, 0x3dcc_cccd, 0xbf33_3333, 0x3f80_0000, 0xc020_0000, 0x4040_0000, 0x4144_0000, 0xc2c8_0000]),
             (Activation::Sine, [0, 0x3dcc_7577, 0xbf24_eb73, 0x3f57_6aa4, 0xbf19_3578, 0x3e10_81c3, 0xbe9f_4b09, 0x3f01_a12e]),
             (Activation::Gaussian, [0x3f80_0000, 0x3f7d_73e8, 0x3f1c_d516, 0x3ebc_5ab2, 0x3afd_074b, 0x3901_6791, 0x00b3_3687, 0x00b3_3687]),
+            (Activation::SteepLogistic, [0x3f00_0000, 0x3f1e_bf4c, 0x3d00_7ece, 0x3f7e_1b97, 0x36a0_8fa6, 0x3f7f_fffa, 0x3f80_0000, 0x00b3_3688]),
+            (Activation::SteepTanh, [0, 0x3e75_fa5d, 0xbf6f_f027, 0x3f7c_372e, 0xbf7f_ff60, 0x3f7f_fff3, 0x3f80_0000, 0xbf80_0000]),
         ];
+        assert_eq!(golden.map(|(activation, _)| activation), Activation::ALL);
         for (activation, bits) in golden {
             assert_eq!(SUMS.map(|a| activation.apply(a).to_bits()), bits, "{activation}");
         }
     }
 
     #[test]
-    fn logistic_and_gaussian_are_close() {
+    fn sigmoids_and_gaussian_are_close() {
         for step in -200_000..=200_000 {
             let a = step as f32 * 0.0005;
             let exact = f64::from(a);
             assert!((f64::from(logistic(a)) - 1.0 / (1.0 + libm::exp(-exact))).abs() < 1e-6, "{a}");
             assert!((f64::from(gaussian(a)) - libm::exp(-exact * exact)).abs() < 1e-6, "{a}");
+            assert!((f64::from(steep_logistic(a)) - 1.0 / (1.0 + libm::exp(-4.9 * exact))).abs() < 1e-6, "{a}");
+            assert!((f64::from(steep_tanh(a)) - libm::tanh(2.45 * exact)).abs() < 1e-6, "{a}");
             assert!((f64::from(rational_tanh(a)) - libm::tanh(exact)).abs() < 0.024, "{a}");
         }
     }

@@ -10,7 +10,10 @@
 //! | [`Activation`] | the function of a neuron |
 //! | [`DenseShape`] | the layers of a dense net, without weights |
 //! | [`DenseNet`] | a dense feed-forward net, ready to activate |
+//! | [`GraphShape`] | neurons and their connections, without weights |
+//! | [`GraphNet`] | a net of any graph, feed-forward or recurrent, ready to activate |
 //! | [`Network`] | a net of any kind: what a file stores |
+//! | [`Topology`] | a net of any kind without its weights: what a search for weights keeps fixed |
 //!
 //! ```
 //! use ne_core::Phenotype;
@@ -24,13 +27,33 @@
 //! # Ok::<(), ne_net::DenseNetError>(())
 //! ```
 //!
-//! Nets of any graph, which NEAT evolves, will be a module `graph` beside `dense` and a variant of [`Network`].
+//! A graph net lists its neurons in the order they are computed. Nodes are numbered, inputs first. This one swings: its
+//! only neuron, node 1, hears the input and what it put out itself in the step before.
+//!
+//! ```
+//! use ne_core::Phenotype;
+//! use ne_net::{Activation, GraphNet, GraphNeuron, GraphShape, Network};
+//!
+//! let neuron = GraphNeuron { activation: Activation::Tanh, bias: false, sources: vec![0, 1] };
+//! let shape = GraphShape { inputs: 1, recurrent: true, neurons: vec![neuron], outputs: vec![1] };
+//! let mut net = Network::from(GraphNet::new(shape, &[1.0, -2.0])?);
+//! let mut outputs = [0.0];
+//! net.activate(&[1.0], &mut outputs);
+//! assert!(outputs[0] > 0.7);
+//! net.activate(&[0.0], &mut outputs);
+//! assert!(outputs[0] < -0.7);
+//! # Ok::<(), ne_net::GraphNetError>(())
+//! ```
 
 mod activation;
 mod dense;
+mod graph;
 mod mathematics;
 mod network;
+mod topology;
 
 pub use activation::Activation;
 pub use dense::{DenseNet, DenseNetError, DenseShape};
+pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
 pub use network::Network;
+pub use topology::{NetworkError, Topology};

@@ -1,17 +1,36 @@
-use crate::DenseNet;
+use crate::{DenseNet, GraphNet, Topology};
 use ne_core::Phenotype;
 use serde::{Deserialize, Serialize};
 
 /// A net of any kind: what a champion's file stores and a game loads.
 ///
-/// In JSON the kind stands beside the fields of the net: `{"kind": "dense", "shape": …, "weights": […]}`. Graph nets
-/// come as another variant.
+/// In JSON the kind stands beside the fields of the net: `{"kind": "dense", "shape": …, "weights": […]}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Network {
     /// Layers, each fully connected with the next.
     Dense(DenseNet),
+    /// Any graph.
+    Graph(GraphNet),
+}
+
+impl Network {
+    /// The net without its weights.
+    pub fn topology(&self) -> Topology {
+        match self {
+            Self::Dense(net) => Topology::Dense(net.shape().clone()),
+            Self::Graph(net) => Topology::Graph(net.shape().clone()),
+        }
+    }
+
+    /// The weights, in the order the shape documents.
+    pub fn weights(&self) -> &[f32] {
+        match self {
+            Self::Dense(net) => net.weights(),
+            Self::Graph(net) => net.weights(),
+        }
+    }
 }
 
 impl From<DenseNet> for Network {
@@ -20,28 +39,38 @@ impl From<DenseNet> for Network {
     }
 }
 
+impl From<GraphNet> for Network {
+    fn from(net: GraphNet) -> Self {
+        Self::Graph(net)
+    }
+}
+
 impl Phenotype for Network {
     fn inputs(&self) -> usize {
         match self {
             Self::Dense(net) => net.inputs(),
+            Self::Graph(net) => net.inputs(),
         }
     }
 
     fn outputs(&self) -> usize {
         match self {
             Self::Dense(net) => net.outputs(),
+            Self::Graph(net) => net.outputs(),
         }
     }
 
     fn reset(&mut self) {
         match self {
             Self::Dense(net) => net.reset(),
+            Self::Graph(net) => net.reset(),
         }
     }
 
     fn activate(&mut self, inputs: &[f32], outputs: &mut [f32]) {
         match self {
             Self::Dense(net) => net.activate(inputs, outputs),
+            Self::Graph(net) => net.activate(inputs, outputs),
         }
     }
 }
@@ -49,25 +78,47 @@ impl Phenotype for Network {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::DenseShape;
+    use crate::{Activation, DenseShape, GraphNeuron, GraphShape};
 
     #[test]
     fn survives_serialisation_and_says_its_kind() {
-        let net = DenseNet::new(DenseShape::new(1, vec![], 1), &[0.25, -0.5]).expect("two weights");
-        let network = Network::from(net);
-        let text = serde_json::to_string(&network).expect("serialises");
-        assert!(text.starts_with(r#"{"kind":"dense","shape":{"inputs":1,"#), "{text}");
-        assert_eq!(serde_json::from_str::<Network>(&text).expect("deserialises"), network);
+        let dense = DenseNet::new(DenseShape::new(1, vec![], 1), &[0.25, -0.5]).expect("two weights");
+        let neuron = GraphNeuron { activation: Activation::SteepTanh, bias: false, sources: vec![0] };
+        let shape = GraphShape { inputs: 1, recurrent: false, neurons: vec![neuron], outputs: vec![1] };
+        let graph = GraphNet::new(shape, &[0.25]).expect("one weight");
+        for (network, start) in [
+            (Network::from(dense), r#"{"kind":"dense","shape":{"inputs":1,"#),
+            (Network::from(graph), r#"{"kind":"graph","shape":{"inputs":1,"recurrent":false,"#),
+        ] {
+            let text = serde_json::to_string(&network).expect("serialises");
+            assert!(text.starts_with(start), "{text}");
+            assert_eq!(serde_json::from_str::<Network>(&text).expect("deserialises"), network);
+        }
     }
 
     #[test]
     fn another_kind_or_field_is_an_error() {
         for (text, part) in [
-            (r#"{"kind": "cloud"}"#, "unknown variant `cloud`, expected `dense`"),
+            (r#"{"kind": "cloud"}"#, "unknown variant `cloud`, expected `dense` or `graph`"),
             (r#"{"weights": []}"#, "missing field `kind`"),
             (
                 r#"{"kind": "dense", "shape": {"inputs": 1, "hidden": [], "outputs": 1}, "weights": [0, 1], "bias": 1}"#,
                 "unknown field `bias`",
+            ),
+            (
+                r#"{"kind": "graph", "weights": [1], "shape": {"inputs": 1, "recurrent": false, "outputs": [1],
+                    "neurons": [{"activation": "tanh", "bias": false, "sources": [1]}]}}"#,
+                "neurons[0].sources[0] = 1: must be below 1, the node of this neuron",
+            ),
+            (
+                r#"{"kind": "graph", "weights": [1], "shape": {"inputs": 1, "recurrent": false, "outputs": [1],
+                    "neurons": [{"activation": "swish", "bias": false, "sources": [0]}]}}"#,
+                "unknown variant `swish`, expected one of `logistic`, `tanh`, ",
+            ),
+            (
+                r#"{"kind": "graph", "weights": [], "shape": {"inputs": 1, "recurrent": false, "outputs": [1],
+                    "neurons": [{"activation": "tanh", "bias": false, "sources": [0]}]}}"#,
+                "weights: found 0, a net of 1 inputs, 0 hidden, 1 outputs, 1 connections has 1",
             ),
         ] {
             let error = serde_json::from_str::<Network>(text).expect_err("not a network").to_string();

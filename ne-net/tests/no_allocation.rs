@@ -1,7 +1,7 @@
 //! `activate` allocates nothing. In a binary of its own, since it counts the allocations of the whole program.
 
 use ne_core::Phenotype;
-use ne_net::{Activation, DenseNet, DenseShape, Network};
+use ne_net::{Activation, DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network};
 use std::{
     alloc::{GlobalAlloc, Layout, System},
     sync::atomic::{AtomicUsize, Ordering},
@@ -30,16 +30,28 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
+fn dense(activation: Activation) -> Network {
+    let shape = DenseShape { hidden_activation: activation, ..DenseShape::new(9, vec![10, 17], 8) };
+    let weights = vec![0.1; shape.weight_count()];
+    DenseNet::new(shape, &weights).expect("valid").into()
+}
+
+/// Recurrent; every second neuron has another activation.
+fn graph(activation: Activation) -> Network {
+    let neuron = |index| {
+        let activation = if index % 2 == 0 { activation } else { Activation::Tanh };
+        GraphNeuron { activation, bias: true, sources: (index..index + 9).collect() }
+    };
+    let neurons = (0..13).map(neuron).collect();
+    let shape = GraphShape { inputs: 9, recurrent: true, neurons, outputs: (14..22).collect() };
+    let weights = vec![0.1; shape.weight_count()];
+    GraphNet::new(shape, &weights).expect("valid").into()
+}
+
 #[test]
 fn activate_and_reset_allocate_nothing() {
-    let mut nets: Vec<Network> = Activation::ALL
-        .into_iter()
-        .map(|activation| {
-            let shape = DenseShape { hidden_activation: activation, ..DenseShape::new(9, vec![10, 17], 8) };
-            let weights = vec![0.1; shape.weight_count()];
-            DenseNet::new(shape, &weights).expect("valid").into()
-        })
-        .collect();
+    let mut nets: Vec<_> =
+        Activation::ALL.into_iter().flat_map(|activation| [dense(activation), graph(activation)]).collect();
     let mut outputs = [0.0; 8];
     // The test harness' other thread may allocate while we count; it does not do so a hundred times in a row.
     let quiet = (0..100).any(|_| {

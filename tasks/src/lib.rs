@@ -11,6 +11,8 @@
 //! file and no controller, so a movement written once works for every creature in every engine, and fits on a page
 //! ([`Running`] is one). Movements add up: [`Sum`] weighs several, so a penalty is a movement too.
 //!
+//! Beside them stand the [`classic`] tasks, XOR and pole balancing, on which strategies are compared.
+//!
 //! ```
 //! use ne_core::{Phenotype, Seed, Task};
 //! use tasks::{Environment, Episode, Movement, Running, Snapshot, Trials, Verdict};
@@ -29,6 +31,7 @@
 //! ```
 
 mod catalogue;
+pub mod classic;
 pub mod conformance;
 mod environment;
 mod episode;
@@ -36,6 +39,10 @@ mod movement;
 mod snapshot;
 
 pub use catalogue::{MovementCatalogue, MovementEntry, MovementSpec, MovementSpecError, TermSpec};
+pub use classic::{
+    Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings, Generalization, OutputRange, PoleFitness,
+    Xor, XorSettings,
+};
 pub use environment::Environment;
 pub use episode::{Combine, Episode, Moment, Played, Trials, Watcher};
 pub use movement::{Energy, FallEnds, Jumping, Movement, MovementClone, Rollovers, Running, Sum, TimeAloft, Verdict};

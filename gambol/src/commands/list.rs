@@ -1,6 +1,7 @@
 use super::Outcome;
 use clap::Args;
 use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use gambol::config::{STRATEGIES, StrategyEntry};
 use serde_json::json;
 use std::process::ExitCode;
 use tasks::MovementCatalogue;
@@ -70,6 +71,32 @@ impl Movements {
         say!("terms, to be added with --set 'movement.terms=[{{\"term\":NAME,\"weight\":W}}]'")?;
         for entry in catalogue.entries().iter().filter(|entry| entry.steps.is_none()) {
             line(entry, String::new())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol strategies
+  gambol train biped-1 running --strategy neat")]
+pub(crate) struct Strategies {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Strategies {
+    pub(crate) fn run(self) -> Outcome {
+        if self.json {
+            let row = |entry: &StrategyEntry| json!({ "name": entry.name, "alias": entry.alias, "description": entry.description, "settings": (entry.settings)() });
+            say!("{}", STRATEGIES.iter().map(row).collect::<serde_json::Value>())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        for entry in STRATEGIES {
+            let alias = entry.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
+            say!("{:<20} {}", format!("{}{alias}", entry.name), entry.description)?;
         }
         Ok(ExitCode::SUCCESS)
     }

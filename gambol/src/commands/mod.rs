@@ -8,7 +8,9 @@ macro_rules! say {
     }};
 }
 
+mod bench;
 mod check;
+mod compare;
 mod list;
 mod progress;
 mod replay;
@@ -18,6 +20,7 @@ mod train;
 mod verify;
 
 use clap::{Parser, Subcommand};
+use ne_core::StopSignal;
 use std::{error::Error, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
@@ -27,6 +30,18 @@ type Outcome = Result<ExitCode, Box<dyn Error>>;
 const DIVERGED: u8 = 3;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
+
+/// Makes Ctrl-C end the work after the generations under way; twice, at once.
+fn stop_on_interrupt(signal: &StopSignal) -> Result<(), ctrlc::Error> {
+    let on_interrupt = signal.clone();
+    ctrlc::set_handler(move || {
+        if on_interrupt.is_set() {
+            std::process::exit(i32::from(INTERRUPTED));
+        }
+        eprintln!("\nfinishing this generation, then saving; Ctrl-C once more to stop at once");
+        on_interrupt.stop();
+    })
+}
 
 /// Gambol evolves controllers for 2D creatures: pick a creature and a movement, watch it learn, keep the gait.
 #[derive(Parser)]
@@ -68,10 +83,18 @@ pub(crate) enum Command {
     Replay(replay::Replay),
     /// Checks a creature, configuration or champion file and says what is wrong where
     Check(check::Check),
+    /// Compares strategies on creatures and movements: same seeds, same budget, statistics
+    Compare(compare::Compare),
+    /// Puts the parts of a comparison together
+    Merge(compare::Merge),
+    /// Measures the strategies
+    Bench(bench::Bench),
     /// Lists the shipped creatures
     Creatures(list::Creatures),
     /// Lists the movements and the terms that can be added to them
     Movements(list::Movements),
+    /// Lists the strategies: ways to search
+    Strategies(list::Strategies),
 }
 
 impl Command {
@@ -83,8 +106,12 @@ impl Command {
             Self::Verify(verify) => verify.run(),
             Self::Replay(replay) => replay.run(),
             Self::Check(check) => check.run(),
+            Self::Compare(compare) => compare.run(),
+            Self::Merge(merge) => merge.run(),
+            Self::Bench(bench) => bench.run(),
             Self::Creatures(creatures) => creatures.run(),
             Self::Movements(movements) => movements.run(),
+            Self::Strategies(strategies) => strategies.run(),
         }
     }
 }

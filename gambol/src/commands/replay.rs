@@ -1,6 +1,6 @@
 use super::Outcome;
 use clap::Args;
-use gambol::{champion::Champion, report, trajectory::Recording};
+use gambol::{champion::Champion, dot::dot, report, trajectory::Recording};
 use ne_core::archive;
 use std::{path::PathBuf, process::ExitCode};
 use tasks::MovementCatalogue;
@@ -10,6 +10,7 @@ use tasks::MovementCatalogue;
 Examples:
   gambol replay runs/biped-1-running/champion.json --html gait.html
   gambol replay champion.json --trajectory gait.csv --seconds 10
+  gambol replay champion.json --dot net.dot              then, with Graphviz: dot -Tsvg net.dot > net.svg
 
 The trajectory has a row for each step and part, the start included:
   step,time_s,part,x_m,y_m,angle_rad,ground_contact")]
@@ -22,6 +23,9 @@ pub(crate) struct Replay {
     /// Write where every part is after every step, as CSV
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
+    /// Write the net as a graph in the DOT language
+    #[arg(long, value_name = "FILE")]
+    dot: Option<PathBuf>,
     /// How long to play [default: as long as an evaluation]
     #[arg(long)]
     seconds: Option<f64>,
@@ -32,22 +36,7 @@ pub(crate) struct Replay {
 
 impl Replay {
     pub(crate) fn run(self) -> Outcome {
-        for path in [&self.html, &self.trajectory].into_iter().flatten() {
-            if path.exists() && !self.force {
-                return Err(format!("{} exists; say --force to overwrite it", path.display()).into());
-            }
-        }
-        let file = |path: &PathBuf| path.canonicalize().ok();
-        if [&self.html, &self.trajectory]
-            .into_iter()
-            .flatten()
-            .any(|path| file(path).is_some_and(|path| Some(path) == file(&self.champion)))
-        {
-            return Err(format!("{} is the champion itself", self.champion.display()).into());
-        }
-        if let Some(path) = self.html.as_ref().filter(|_| self.html == self.trajectory) {
-            return Err(format!("{} cannot be both the page and the trajectory", path.display()).into());
-        }
+        self.check_outputs()?;
         let catalogue = MovementCatalogue::default();
         let mut champion = Champion::read(&self.champion)?;
         if let Some(seconds) = self.seconds {
@@ -71,6 +60,11 @@ impl Replay {
             archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
             say!("trajectory  {}", path.display())?;
         }
+        if let Some(path) = &self.dot {
+            archive::write_whole(path, dot(&champion).as_bytes())
+                .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+            say!("net         {}", path.display())?;
+        }
         if let Some(path) = &self.html {
             report::write_replay(&champion, &catalogue, path)?;
             say!("page        {}", path.display())?;
@@ -79,5 +73,24 @@ impl Replay {
         let seconds = f64::from(played.steps) * f64::from(champion.physics.time_step);
         say!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Nothing may be overwritten unasked, and the files must be different ones.
+    fn check_outputs(&self) -> Result<(), String> {
+        let outputs = [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot)];
+        let outputs: Vec<_> = outputs.iter().filter_map(|(what, path)| Some((what, path.as_ref()?))).collect();
+        let file = |path: &PathBuf| path.canonicalize().ok();
+        for (index, &(what, path)) in outputs.iter().enumerate() {
+            if path.exists() && !self.force {
+                return Err(format!("{} exists; say --force to overwrite it", path.display()));
+            }
+            if file(path).is_some_and(|path| Some(path) == file(&self.champion)) {
+                return Err(format!("{} is the champion itself", self.champion.display()));
+            }
+            if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| *other == path) {
+                return Err(format!("{} cannot be both the {other} and the {what}", path.display()));
+            }
+        }
+        Ok(())
     }
 }

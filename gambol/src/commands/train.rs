@@ -20,6 +20,8 @@ Examples:
   gambol train biped-1 running
   gambol train tetrapod-2 jumping --generations 100 --seed 7 --out runs/leap
   gambol train biped-1 running --preset thesis
+  gambol train biped-1 running --strategy neat
+  gambol train biped-1 running --strategy cma-es --topology-from runs/biped-1-running/champion.json
   gambol train apod running --set strategy.conventional.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
   gambol train --config runs/leap/config.json --out runs/leap-again
@@ -33,6 +35,12 @@ pub(crate) struct Train {
     /// Where to start from: default, or thesis (the reference algorithm)
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
+    /// How it is searched (see: gambol strategies): ga, neat, cma-es, open-es, cosyne
+    #[arg(long, value_name = "NAME")]
+    strategy: Option<String>,
+    /// Keep the topology of this champion's net (one that NEAT has found, say) and search its weights anew
+    #[arg(long, value_name = "CHAMPION")]
+    topology_from: Option<PathBuf>,
     /// A configuration file, whole or in part, laid over the preset
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -114,11 +122,13 @@ impl Limits {
 impl Train {
     pub(crate) fn run(self) -> Outcome {
         let catalogue = MovementCatalogue::default();
-        let Self { creature, movement, preset, config, set, .. } = &self;
+        let Self { creature, movement, preset, strategy, topology_from, config, set, .. } = &self;
         let request = Request {
             creature: creature.clone(),
             movement: movement.clone(),
             preset: preset.clone(),
+            strategy: strategy.clone(),
+            topology_from: topology_from.clone(),
             config: config.clone(),
             set: set.clone(),
         };
@@ -165,14 +175,7 @@ pub(super) fn carry_out(
     start: impl FnOnce(TrainOptions<'_>) -> Result<training::Outcome, training::TrainError>,
 ) -> Outcome {
     let signal = StopSignal::default();
-    let on_interrupt = signal.clone();
-    ctrlc::set_handler(move || {
-        if on_interrupt.is_set() {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-        eprintln!("\nfinishing this generation, then saving; Ctrl-C once more to stop at once");
-        on_interrupt.stop();
-    })?;
+    super::stop_on_interrupt(&signal)?;
     let unit = catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
     let mut show = Show::new(manner.quiet, manner.json, config, &unit);
     let began = Instant::now();

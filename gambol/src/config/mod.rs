@@ -3,16 +3,17 @@
 mod assembly;
 mod presets;
 mod request;
+mod strategy;
 
 pub use assembly::{Assembly, ConfigError};
 pub use presets::{PRESETS, Preset, preset};
 pub use request::{Request, RequestError};
+pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
 
 use creatures::{Creature, Sensor};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{SettingError, StopConditions};
-use ne_fixed::ConventionalNeSettings;
-use ne_net::Activation;
+use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{MovementSpec, Trials};
 
@@ -40,6 +41,10 @@ pub struct RunConfig {
     pub strategy: StrategySettings,
     /// The controller.
     pub controller: ControllerSettings,
+    /// A topology to search the weights of, in place of the controller's layers; of the controller only `input_range`
+    /// counts then.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub topology: Option<FrozenTopology>,
     /// When the run ends.
     pub stop: StopConditions,
     /// The physics.
@@ -50,18 +55,6 @@ pub struct RunConfig {
     pub sensors: Option<Vec<Sensor>>,
     /// The body.
     pub creature: Creature,
-}
-
-/// The search, by name, with its settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum StrategySettings {
-    /// Conventional neuroevolution: a genetic algorithm over the weights of a fixed topology.
-    Conventional(ConventionalNeSettings),
-    /// A strategy of another program, by the name it has there. That program trains and resumes
-    /// ([`train_with`](crate::training::train_with)); ours reports, replays and verifies.
-    Custom(String),
 }
 
 /// The net between sensors and motors.
@@ -80,6 +73,18 @@ pub struct ControllerSettings {
     pub input_range: f32,
 }
 
+/// A net without its weights, such as the one of a champion that NEAT has found, and what it was made for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct FrozenTopology {
+    /// The name of each input.
+    pub inputs: Vec<String>,
+    /// The name of each output.
+    pub outputs: Vec<String>,
+    /// The net.
+    pub net: Topology,
+}
+
 /// What is written down during a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -96,31 +101,5 @@ impl RecordSettings {
             return Err(SettingError::new("checkpoint_every", 0, "at least 1"));
         }
         Ok(())
-    }
-}
-
-impl StrategySettings {
-    /// The strategy's name.
-    pub fn name(&self) -> &str {
-        match self {
-            Self::Conventional(_) => "conventional",
-            Self::Custom(name) => name,
-        }
-    }
-
-    /// The number of individuals of a generation, if it is a setting of ours.
-    pub fn population(&self) -> Option<usize> {
-        match self {
-            Self::Conventional(settings) => Some(settings.population),
-            Self::Custom(_) => None,
-        }
-    }
-
-    /// Sets the number of individuals of a generation.
-    pub fn set_population(&mut self, population: usize) {
-        match self {
-            Self::Conventional(settings) => settings.population = population,
-            Self::Custom(_) => {}
-        }
     }
 }

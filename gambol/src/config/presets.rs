@@ -5,6 +5,7 @@ use creatures::Creature;
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::StopConditions;
 use ne_fixed::ConventionalNeSettings;
+use ne_neat::NeatSettings;
 use ne_net::Activation;
 use tasks::{MovementSpec, Trials};
 
@@ -15,7 +16,7 @@ pub struct Preset {
     pub name: &'static str,
     /// One sentence.
     pub description: &'static str,
-    strategy: fn() -> ConventionalNeSettings,
+    strategy: fn() -> StrategySettings,
     activation: Activation,
 }
 
@@ -24,14 +25,23 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "default",
         description: "conventional neuroevolution as we found it to work best",
-        strategy: ConventionalNeSettings::default,
+        strategy: || StrategySettings::Conventional(ConventionalNeSettings::default()),
         activation: Activation::Tanh,
     },
     Preset {
         name: "thesis",
         description: "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite",
-        strategy: ConventionalNeSettings::thesis,
+        strategy: || StrategySettings::Conventional(ConventionalNeSettings::thesis()),
         activation: Activation::RationalTanh,
+    },
+    Preset {
+        name: "stanley-2002",
+        description: "NEAT with the settings of Stanley & Miikkulainen 2002; outputs stretched to ±1, as motors want them",
+        strategy: || {
+            let output_activation = Activation::SteepTanh;
+            StrategySettings::Neat(NeatSettings { output_activation, ..NeatSettings::stanley_2002() })
+        },
+        activation: Activation::Tanh,
     },
 ];
 
@@ -49,7 +59,7 @@ impl Preset {
             movement: MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
             trials: Trials::default(),
             variation: Variation::default(),
-            strategy: StrategySettings::Conventional((self.strategy)()),
+            strategy: (self.strategy)(),
             controller: ControllerSettings {
                 hidden: vec![10],
                 hidden_activation: self.activation,
@@ -57,6 +67,7 @@ impl Preset {
                 hidden_scale: 3.0,
                 input_range: creatures::DEFAULT_INPUT_RANGE,
             },
+            topology: None,
             stop: StopConditions { generations: Some(300), ..StopConditions::default() },
             physics: PhysicsSettings::default(),
             record: RecordSettings {

@@ -1,8 +1,16 @@
 //! What a user asks for, and the configuration that follows from it.
 
-use super::{Assembly, ConfigError, PRESETS, Preset, RunConfig, preset};
-use crate::{source, source::SourceError, suggest};
+use super::{
+    Assembly, ConfigError, FrozenTopology, PRESETS, Preset, RunConfig, STRATEGIES, StrategyEntry, preset, strategy,
+};
+use crate::{
+    champion::{Champion, ChannelRecord},
+    source,
+    source::SourceError,
+    suggest,
+};
 use creatures::{Blueprint, Creature, CreatureError};
+use ne_core::archive::ArchiveError;
 use serde_json::Value;
 use std::{
     fs, io,
@@ -19,6 +27,11 @@ pub struct Request {
     pub movement: Option<String>,
     /// The preset; otherwise what the configuration file says, otherwise the first of [`PRESETS`].
     pub preset: Option<String>,
+    /// The strategy, by name or alias; otherwise what the configuration file or the preset says. If that is another one, this
+    /// one has its default settings.
+    pub strategy: Option<String>,
+    /// A champion whose topology is to be kept while its weights are searched for anew.
+    pub topology_from: Option<PathBuf>,
     /// A configuration file laid over the preset. Its `creature` may be a whole creature, a name, or a path (seen from
     /// the file's folder).
     pub config: Option<PathBuf>,
@@ -55,6 +68,9 @@ pub enum RequestError {
         /// What is wrong.
         source: ConfigError,
     },
+    /// The champion cannot be read.
+    #[error(transparent)]
+    Champion(#[from] ArchiveError),
     /// A single setting is wrong.
     #[error("--set {assignment}: {source}")]
     Set {
@@ -71,10 +87,13 @@ impl Request {
     /// # Errors
     /// Names the file, field or setting that is wrong, and the nearest valid name.
     pub fn resolve(&self, catalogue: &MovementCatalogue) -> Result<RunConfig, RequestError> {
-        let layer = self.config.as_deref().map(Layer::read).transpose()?;
+        let mut layer = self.config.as_deref().map(Layer::read).transpose()?;
         let creature = self.creature(layer.as_ref())?;
         let movement = self.movement(layer.as_ref(), catalogue)?;
-        let base = self.preset(layer.as_ref())?.config(creature, &movement);
+        let mut base = self.preset(layer.as_ref())?.config(creature, &movement);
+        if let Some(entry) = self.strategy(layer.as_mut())?.filter(|entry| entry.name != base.strategy.name()) {
+            base.strategy = (entry.settings)();
+        }
         let mut assembly = Assembly::new(&base);
         if let Some(Layer { path, value }) = layer {
             assembly.lay_over(value);
@@ -82,6 +101,10 @@ impl Request {
             assembly.keep(&base, &["creature", "preset"]);
             assembly.keep_movement(&movement);
             assembly.check().map_err(|source| RequestError::File { path, source })?;
+        }
+        if let Some(path) = &self.topology_from {
+            let topology = FrozenTopology::of(&Champion::read(path)?);
+            assembly.lay_over(serde_json::json!({ "topology": topology }));
         }
         for assignment in &self.set {
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
@@ -131,6 +154,22 @@ impl Request {
         }
     }
 
+    /// The strategy that was asked for, on its own or in the file; what the file says of another one is dropped.
+    fn strategy(&self, layer: Option<&mut Layer>) -> Result<Option<&'static StrategyEntry>, RequestError> {
+        let chosen = layer.as_ref().and_then(|layer| layer.value.get("strategy")?.as_object()?.keys().next().cloned());
+        let Some(name) = &self.strategy else { return Ok(chosen.as_deref().and_then(strategy)) };
+        let entry = strategy(name).ok_or_else(|| {
+            let names = STRATEGIES.iter().flat_map(|entry| [entry.alias, Some(entry.name)]).flatten();
+            RequestError::Unknown(suggest::unknown("strategy", name, &names.collect::<Vec<_>>()))
+        })?;
+        if let Some(fields) = layer.and_then(|layer| layer.value.as_object_mut())
+            && chosen.is_some_and(|chosen| chosen != entry.name)
+        {
+            fields.remove("strategy");
+        }
+        Ok(Some(entry))
+    }
+
     fn preset(&self, layer: Option<&Layer>) -> Result<&'static Preset, RequestError> {
         let check = |name: &str| {
             let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
@@ -144,6 +183,15 @@ impl Request {
             Some((layer, other)) => Err(layer.wrong("preset", format!("must be a name, found {other}"))),
             None => Ok(&PRESETS[0]),
         }
+    }
+}
+
+impl FrozenTopology {
+    /// The topology of a champion.
+    pub fn of(champion: &Champion) -> Self {
+        let names = |channels: &[ChannelRecord]| channels.iter().map(|channel| channel.name.clone()).collect();
+        let (inputs, outputs) = (names(&champion.inputs), names(&champion.outputs));
+        Self { inputs, outputs, net: champion.network.topology() }
     }
 }
 

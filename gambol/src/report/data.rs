@@ -1,9 +1,15 @@
 //! What the page is given: plain data, lengths in metres, angles in radians, times in seconds.
 
-use crate::{champion::Champion, config::RunConfig, trajectory::Recording};
+use super::{
+    history::{HistoryPoint, SpeciesHistory, StatisticHistory},
+    network::NetworkData,
+};
+use crate::{
+    champion::Champion,
+    config::{RunConfig, StrategySettings},
+    trajectory::Recording,
+};
 use creatures::Creature;
-use ne_core::GenerationReport;
-use ne_net::Network;
 use serde::Serialize;
 use serde_json::Value;
 use tasks::Snapshot;
@@ -15,6 +21,8 @@ pub(super) struct Report {
     pub(super) movement: MovementData,
     pub(super) summary: Option<Summary>,
     pub(super) history: Vec<HistoryPoint>,
+    pub(super) species: Vec<SpeciesHistory>,
+    pub(super) statistics: Vec<StatisticHistory>,
     pub(super) champion: Option<ChampionData>,
     pub(super) strip: Vec<StripEntry>,
     pub(super) populations: Vec<PopulationEntry>,
@@ -40,44 +48,6 @@ pub(super) struct Summary {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) stopped_because: Option<String>,
     pub(super) body_lengths_per_second: Option<f64>,
-}
-
-#[derive(Serialize)]
-pub(super) struct HistoryPoint {
-    generation: u64,
-    evaluations: u64,
-    failures: u64,
-    best_so_far: Option<f64>,
-    best: Option<f64>,
-    mean: Option<f64>,
-    median: Option<f64>,
-    worst: Option<f64>,
-    quantiles: Option<BandPoint>,
-}
-
-#[derive(Serialize)]
-struct BandPoint {
-    q10: f64,
-    q25: f64,
-    q75: f64,
-    q90: f64,
-}
-
-impl From<&GenerationReport> for HistoryPoint {
-    fn from(report: &GenerationReport) -> Self {
-        let fitness = report.fitness;
-        Self {
-            generation: report.generation,
-            evaluations: report.population,
-            failures: report.failures,
-            best_so_far: report.best_so_far.map(f64::from),
-            best: fitness.map(|of| of.best),
-            mean: fitness.map(|of| of.mean),
-            median: fitness.map(|of| of.median),
-            worst: fitness.map(|of| of.worst),
-            quantiles: fitness.map(|of| BandPoint { q10: of.q10, q25: of.q25, q75: of.q75, q90: of.q90 }),
-        }
-    }
 }
 
 /// Poses of every part, in whole millimetres and milliradians: the first frame as it is, each later one as the
@@ -121,22 +91,6 @@ pub(super) struct ChampionData {
     pub(super) body_lengths_per_second: Option<f64>,
 }
 
-#[derive(Serialize)]
-struct NetworkData {
-    layers: Vec<Vec<Neuron>>,
-    /// For each pair of layers: for each target the weights of its sources, the bias last.
-    weights: Vec<Vec<Vec<f32>>>,
-    /// For each frame every neuron's activation, in hundredths.
-    activations: Vec<Vec<i32>>,
-}
-
-#[derive(Serialize)]
-struct Neuron {
-    name: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unit: Option<String>,
-}
-
 impl ChampionData {
     pub(super) fn new(champion: &Champion, recording: &Recording, body_length: f32) -> Self {
         let time_step = champion.physics.time_step;
@@ -150,7 +104,7 @@ impl ChampionData {
             fitness: champion.fitness.get(),
             replay: Replay::new(&recording.snapshots, time_step, 1),
             contacts: recording.snapshots.iter().map(contact_bits).collect(),
-            network: network_data(champion, recording),
+            network: NetworkData::new(&champion.network, &champion.inputs, &champion.outputs, &recording.activations),
         }
     }
 }
@@ -162,33 +116,6 @@ fn contact_bits(snapshot: &Snapshot) -> String {
         char::from_digit(bits, 16).unwrap_or('0')
     };
     snapshot.parts.chunks(4).rev().map(digit).collect()
-}
-
-fn network_data(champion: &Champion, recording: &Recording) -> Option<NetworkData> {
-    let Network::Dense(net) = &champion.network else { return None };
-    let shape = net.shape();
-    let mut weights = net.weights();
-    let mut matrices = Vec::new();
-    for (sources, targets) in shape.connections() {
-        let (layer, rest) = weights.split_at((sources + 1) * targets);
-        matrices.push(layer.chunks(sources + 1).map(<[f32]>::to_vec).collect());
-        weights = rest;
-    }
-    let channels = |channels: &[crate::champion::ChannelRecord]| {
-        let neuron = |channel: &crate::champion::ChannelRecord| Neuron {
-            name: channel.name.clone(),
-            unit: Some(channel.unit.clone()),
-        };
-        channels.iter().map(neuron).collect::<Vec<_>>()
-    };
-    let mut layers = vec![channels(&champion.inputs)];
-    for &width in &shape.hidden {
-        layers.push((1..=width).map(|index| Neuron { name: format!("hidden {index}"), unit: None }).collect());
-    }
-    layers.push(channels(&champion.outputs));
-    let hundredths = |frame: &Vec<f32>| frame.iter().map(|value| (value * 100.0).round() as i32).collect();
-    let activations = recording.activations.iter().map(hundredths).collect();
-    Some(NetworkData { layers, weights: matrices, activations })
 }
 
 #[derive(Serialize)]
@@ -239,22 +166,74 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
     let terms: Vec<String> =
         config.movement.terms.iter().map(|term| format!("{} × {}", term.weight, term.term)).collect();
     let movement = [vec![config.movement.name.clone()], terms].concat().join(" + ");
-    let hidden: Vec<String> = config.controller.hidden.iter().map(ToString::to_string).collect();
     let mut facts = vec![
         Fact::new("Creature", &config.creature.name),
         Fact::new("Movement", movement),
         Fact::new("Preset", &config.preset),
         Fact::new("Strategy", config.strategy.name()),
-        Fact::new("Hidden layers", if hidden.is_empty() { "none".into() } else { hidden.join(", ") }),
         Fact::new("Trials", config.trials.count),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
     ];
+    facts.splice(4..4, topology(config));
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts
+}
+
+/// What is settled about the net before the run; of a strategy from another program that is not known.
+fn topology(config: &RunConfig) -> Option<Fact> {
+    match (&config.strategy, &config.topology) {
+        (StrategySettings::Neat(settings), _) => {
+            let kind = if settings.recurrent { "recurrent" } else { "feed-forward" };
+            Some(Fact::new("Topology", format!("evolves, {kind}")))
+        }
+        (_, Some(frozen)) => Some(Fact::new("Topology", format!("frozen: {}", frozen.net))),
+        (StrategySettings::Custom(_), None) => None,
+        (_, None) => {
+            let hidden: Vec<String> = config.controller.hidden.iter().map(ToString::to_string).collect();
+            Some(Fact::new("Hidden layers", if hidden.is_empty() { "none".into() } else { hidden.join(", ") }))
+        }
+    }
 }
 
 pub(super) fn versions() -> Vec<Version> {
     let version = |name: &str, version: &str| Version { name: name.into(), version: version.into() };
     vec![version("gambol", env!("CARGO_PKG_VERSION")), version("rapier2d", envs_rapier::RAPIER_VERSION)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::{FrozenTopology, Request};
+    use ne_neat::NeatSettings;
+    use ne_net::DenseShape;
+    use tasks::MovementCatalogue;
+
+    fn neat(recurrent: bool) -> StrategySettings {
+        StrategySettings::Neat(NeatSettings { recurrent, ..NeatSettings::default() })
+    }
+
+    #[test]
+    fn settings_say_of_the_net_what_the_strategy_leaves_settled() {
+        let request = Request { creature: Some("biped-1".into()), movement: Some("running".into()), ..Request::default() };
+        let base = request.resolve(&MovementCatalogue::default()).expect("a configuration");
+        let said = |change: fn(&mut RunConfig)| {
+            let mut config = base.clone();
+            change(&mut config);
+            let facts = settings(&config).into_iter().map(|fact| (fact.label, fact.value));
+            facts.filter(|(label, _)| label == "Topology" || label == "Hidden layers").collect::<Vec<_>>()
+        };
+        let fact = |label: &str, value: &str| vec![(label.to_owned(), value.to_owned())];
+        assert_eq!(said(|_| {}), fact("Hidden layers", "10"));
+        assert_eq!(said(|config| config.controller.hidden.clear()), fact("Hidden layers", "none"));
+        assert_eq!(said(|config| config.controller.hidden = vec![4, 3]), fact("Hidden layers", "4, 3"));
+        assert_eq!(said(|config| config.strategy = neat(false)), fact("Topology", "evolves, feed-forward"));
+        assert_eq!(said(|config| config.strategy = neat(true)), fact("Topology", "evolves, recurrent"));
+        assert_eq!(said(|config| config.strategy = StrategySettings::Custom("own".into())), []);
+        let frozen = |config: &mut RunConfig| {
+            let net = DenseShape::new(3, vec![2], 4).into();
+            config.topology = Some(FrozenTopology { inputs: Vec::new(), outputs: Vec::new(), net });
+        };
+        assert_eq!(said(frozen), fact("Topology", "frozen: 3-2-4"));
+    }
 }

@@ -1,7 +1,9 @@
-//! The report: one HTML file that works offline, with the champion's replay, the fitness curves, the gait as it emerged
-//! and the net at work.
+//! The report: one HTML file that works offline, with the champion's replay, the fitness curves, the species, the gait
+//! as it emerged and the net at work.
 
 mod data;
+mod history;
+mod network;
 mod page;
 mod replays;
 
@@ -10,7 +12,8 @@ use crate::{
     run_folder::{FolderError, GalleryKind, RunFolder},
     setup::SetupError,
 };
-use data::{ChampionData, Command, Fact, HistoryPoint, MovementData, Report, Summary};
+use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
+use history::HistoryPoint;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
@@ -76,6 +79,8 @@ pub fn write_report(
             body_lengths_per_second: champion_data.as_ref().and_then(|champion| champion.body_lengths_per_second),
         }),
         history: log.iter().map(HistoryPoint::from).collect(),
+        species: history::species(&log),
+        statistics: history::statistics(&log),
         champion: champion_data,
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
@@ -99,6 +104,8 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         movement: movement_data(catalogue, &champion.movement.name, &unit),
         summary: None,
         history: Vec::new(),
+        species: Vec::new(),
+        statistics: Vec::new(),
         champion: Some(champion_data(champion, catalogue)?),
         strip: Vec::new(),
         populations: Vec::new(),
@@ -108,6 +115,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
             Fact::new("Fitness", format!("{:.3} {unit}", champion.fitness)),
             Fact::new("Found in generation", champion.generation),
             Fact::new("Strategy", &champion.strategy),
+            Fact::new("Net", champion.network.topology()),
             Fact::new("Physics", format!("{} {}", champion.engine.name, champion.engine.version)),
         ],
         config: serde_json::Value::Null,

@@ -11,7 +11,10 @@ const SCRIPTS: &[&str] = &[
     include_str!("assets/drawing.js"),
     include_str!("assets/replay.js"),
     include_str!("assets/chart.js"),
+    include_str!("assets/statistics.js"),
+    include_str!("assets/species.js"),
     include_str!("assets/strip.js"),
+    include_str!("assets/network_layout.js"),
     include_str!("assets/network.js"),
     include_str!("assets/page.js"),
 ];

@@ -54,6 +54,11 @@ pub(crate) fn start_and_read(command: &mut Command, lines: usize) -> (Child, Buf
     (child, output)
 }
 
+/// Starts a command and lets it go on, unheard.
+pub(crate) fn start(command: &mut Command) -> Child {
+    command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts")
+}
+
 /// What a command that has ended left behind.
 #[derive(Debug)]
 pub(crate) struct Ended {

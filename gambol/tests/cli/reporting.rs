@@ -41,6 +41,48 @@ fn a_report_stands_alone_and_holds_the_run() -> Outcome {
     Ok(())
 }
 
+#[test]
+fn a_report_of_neat_holds_the_net_it_found_its_species_and_its_numbers() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(small_run(&path, 6).args(["--quiet", "--strategy", "neat", "--population", "20"]));
+    succeed(gambol("report").arg(&path));
+    let page = fs::read_to_string(path.join("report.html"))?;
+    assert_stands_alone(&page);
+    let data = data(&page);
+    let network = &data["champion"]["network"];
+    let nodes = network["nodes"].as_array().map(Vec::len).expect("a list");
+    assert!(network["connections"].as_array().is_some_and(|connections| !connections.is_empty()));
+    let activations = network["activations"].as_array().expect("a list");
+    assert_eq!(activations.len(), 61);
+    assert!(activations.iter().all(|frame| frame.as_array().map(Vec::len) == Some(nodes)));
+    let species = data["species"].as_array().expect("a list");
+    for row in 0..6_usize {
+        let size = |species: &Value| {
+            let row = row.checked_sub(usize::try_from(species["start"].as_u64()?).ok()?)?;
+            species["sizes"][row].as_u64()
+        };
+        let members: u64 = species.iter().filter_map(size).sum();
+        assert_eq!(members, 20, "generation {}", row + 1);
+    }
+    let statistics = data["statistics"].as_array().expect("a list");
+    assert!(statistics.iter().any(|statistic| statistic["name"] == "compatibility_threshold"));
+    assert!(statistics.iter().all(|statistic| statistic["values"].as_array().map(Vec::len) == Some(6)));
+    Ok(())
+}
+
+#[test]
+fn a_run_without_species_has_none_in_its_report() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(small_run(&path, 2).arg("--quiet"));
+    succeed(gambol("report").arg(&path));
+    let data = data(&fs::read_to_string(path.join("report.html"))?);
+    assert_eq!(data["species"], serde_json::json!([]));
+    assert!(data["statistics"].as_array().is_some_and(|statistics| !statistics.is_empty()));
+    Ok(())
+}
+
 /// What a creature's author writes is shown, and never run.
 #[test]
 fn text_from_a_creature_file_cannot_break_the_page() -> Outcome {

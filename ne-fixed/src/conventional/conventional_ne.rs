@@ -1,16 +1,16 @@
 use super::{ConventionalNeSettings, state::State};
-use crate::{Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector};
+use crate::{Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector, diversity::diversity};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
-use ne_net::DenseShape;
+use ne_net::Topology;
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
-use std::{cmp::Reverse, sync::Arc};
+use std::cmp::Reverse;
 
 const FIRST_GENERATION: Purpose = Purpose::new("conventional-ne first generation");
 const PARENTS: Purpose = Purpose::new("conventional-ne parents");
 const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 
-/// Conventional neuroevolution: a generational genetic algorithm over the weights of a net of fixed shape.
+/// Conventional neuroevolution: a generational genetic algorithm over the weights of a net of fixed topology.
 ///
 /// A generation consists of, in this order:
 /// 1. the elites, best first, unchanged (of equals those with the lower index);
@@ -40,7 +40,7 @@ const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 )]
 pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     pub(super) settings: ConventionalNeSettings<S, C, M>,
-    pub(super) shape: Arc<DenseShape>,
+    pub(super) topology: Topology,
     /// The generation last told, with its scores: the parents of the next. Empty before the first.
     pub(super) parents: Vec<WeightVector>,
     pub(super) scores: Vec<Option<Fitness>>,
@@ -58,20 +58,17 @@ pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice
 }
 
 impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
-    /// A search for weights of nets of this shape.
+    /// A search for weights of nets of this topology.
     ///
     /// # Errors
-    /// If a setting or a width of the shape (`shape.hidden[0]`) is out of range.
-    pub fn new(
-        settings: ConventionalNeSettings<S, C, M>,
-        shape: impl Into<Arc<DenseShape>>,
-    ) -> Result<Self, SettingError> {
-        let shape = shape.into();
+    /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
+    pub fn new(settings: ConventionalNeSettings<S, C, M>, topology: impl Into<Topology>) -> Result<Self, SettingError> {
+        let topology = topology.into();
         settings.validate()?;
-        shape.validate().map_err(|error| error.within("shape"))?;
+        topology.validate().map_err(|error| error.within("topology"))?;
         Ok(Self {
             settings,
-            shape,
+            topology,
             parents: Vec::new(),
             scores: Vec::new(),
             population: Vec::new(),
@@ -88,31 +85,14 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
         &self.settings
     }
 
-    /// The shape of all nets.
-    pub fn shape(&self) -> &Arc<DenseShape> {
-        &self.shape
+    /// The topology of all nets.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
     }
 
     /// What mutations are multiplied by now: 1 unless the population stagnates.
     pub fn mutation_strength(&self) -> f64 {
         self.settings.stagnation_boost.map_or(1.0, |boost| boost.strength(self.stagnation))
-    }
-
-    /// The standard deviation of a gene over the individuals last told, mean of all genes.
-    fn diversity(&self) -> f64 {
-        let Some(reference) = self.parents.first() else { return 0.0 };
-        let (count, genes) = (self.parents.len() as f64, reference.weights().len());
-        let (mut sums, mut squares) = (vec![0.0; genes], vec![0.0; genes]);
-        for parent in &self.parents {
-            for (gene, (weight, origin)) in parent.weights().iter().zip(reference.weights()).enumerate() {
-                // Differences, since squares of a common large offset would swamp the deviation.
-                let difference = f64::from(weight - origin);
-                sums[gene] += difference;
-                squares[gene] += difference * difference;
-            }
-        }
-        let variance = |(sum, square): (&f64, &f64)| ((square - sum * sum / count) / count).max(0.0);
-        sums.iter().zip(&squares).map(|sums| variance(sums).sqrt()).sum::<f64>() / genes as f64
     }
 }
 
@@ -174,7 +154,7 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let ConventionalNeSettings { population: size, elites, immigrants, .. } = self.settings;
         let mut population = std::mem::take(&mut self.population);
-        population.resize_with(size, || WeightVector::zero(Arc::clone(&self.shape)));
+        population.resize_with(size, || WeightVector::zero(self.topology.clone()));
         let place = |index: usize| seed.individual(index as u64);
         let first_drawn = if self.parents.is_empty() { 0 } else { size - immigrants };
         if !self.parents.is_empty() {
@@ -210,7 +190,7 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
             Statistic::new("mutation_strength", self.mutation_strength()),
             Statistic::new("mutation_deviation", deviations / self.parents.len().max(1) as f64),
             Statistic::new("stagnation_generations", self.stagnation as f64),
-            Statistic::new("diversity", self.diversity()),
+            Statistic::new("diversity", diversity(&self.parents)),
             Statistic::new("distinct_parents", self.distinct_parents as f64),
         ]
     }

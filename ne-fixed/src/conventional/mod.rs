@@ -5,7 +5,4 @@ mod settings;
 mod stagnation_boost;
 mod state;
 
-pub use {
-    conventional_ne::ConventionalNe, settings::ConventionalNeSettings, stagnation_boost::StagnationBoost,
-    state::StateError,
-};
+pub use {conventional_ne::ConventionalNe, settings::ConventionalNeSettings, stagnation_boost::StagnationBoost};

@@ -1,5 +1,5 @@
 // Fitness over generations: bands, lines, axes and a crosshair that mouse, finger and arrow keys can move. The legend
-// above the chart doubles as the readout.
+// above the chart doubles as the readout. The first functions serve the other charts over generations too.
 
 const SVG = "http://www.w3.org/2000/svg";
 
@@ -18,6 +18,45 @@ function niceTicks(low, high, wanted) {
   const ticks = [];
   for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; i++) ticks.push(i * step);
   return { ticks, step };
+}
+
+// The generation axis under a chart.
+function drawGenerations(root, rows, box, x, narrow) {
+  const [first, last] = [rows[0].generation, rows[rows.length - 1].generation];
+  const wanted = Math.min(narrow ? 4 : 8, Math.max(rows.length - 1, 1));
+  const ticks = niceTicks(first, Math.max(last, first + 1), wanted).ticks
+    .filter(tick => Number.isInteger(tick) && tick >= first && tick <= last);
+  if (!ticks.includes(first) && (!ticks.length || x(ticks[0]) - x(first) > 24)) ticks.unshift(first);
+  for (const tick of ticks) {
+    svg("line", { class: "mark", x1: x(tick), x2: x(tick), y1: box.bottom, y2: box.bottom + 5 }, root);
+    svg("text", { class: "tick", x: x(tick), y: box.bottom + 19, "text-anchor": "middle" }, root).textContent = fixed(tick, 0);
+  }
+  svg("text", { class: "axis", x: box.right, y: box.bottom + 37, "text-anchor": "end" }, root).textContent = "generation";
+}
+
+// The index of the row closest to a place on the generation axis.
+function nearestRow(rows, x, place) {
+  let found = 0;
+  rows.forEach((row, i) => {
+    if (Math.abs(x(row.generation) - place) < Math.abs(x(rows[found].generation) - place)) found = i;
+  });
+  return found;
+}
+
+// Where a key leads from the row picked; undefined for keys that lead nowhere.
+function rowForKey(key, now, rows) {
+  return { ArrowLeft: now - 1, ArrowDown: now - 1, ArrowRight: now + 1, ArrowUp: now + 1,
+    PageUp: now + 10, PageDown: now - 10, Home: 0, End: rows.length - 1 }[key];
+}
+
+// Makes a chart a slider over generations for those who cannot point at it.
+function makeSlider(place, rows, label) {
+  place.tabIndex = 0;
+  place.dataset.keys = "";
+  place.setAttribute("role", "slider");
+  place.setAttribute("aria-label", label);
+  place.setAttribute("aria-valuemin", rows[0].generation);
+  place.setAttribute("aria-valuemax", rows[rows.length - 1].generation);
 }
 
 const SERIES = [
@@ -40,12 +79,7 @@ class FitnessChart {
     this.usable = usable;
     this.place = document.getElementById("fitness-chart");
     this.buildLegend();
-    this.place.tabIndex = 0;
-    this.place.dataset.keys = "";
-    this.place.setAttribute("role", "slider");
-    this.place.setAttribute("aria-label", "Fitness over generations; arrow keys choose a generation");
-    this.place.setAttribute("aria-valuemin", this.rows[0].generation);
-    this.place.setAttribute("aria-valuemax", this.rows[this.rows.length - 1].generation);
+    makeSlider(this.place, this.rows, "Fitness over generations; arrow keys choose a generation");
     this.listen();
     new ResizeObserver(() => this.build()).observe(this.place);
     this.build();
@@ -129,15 +163,7 @@ class FitnessChart {
       svg("text", { class: "tick", x: box.left - 8, y: y(tick) + 4, "text-anchor": "end" }, root).textContent = fixed(tick, decimals);
     }
     svg("text", { class: "axis", x: 0, y: 11 }, root).textContent = this.unit ? `fitness, ${this.unit}` : "fitness";
-    const wanted = Math.min(narrow ? 4 : 8, Math.max(this.rows.length - 1, 1));
-    const ticks = niceTicks(this.first, Math.max(this.last, this.first + 1), wanted).ticks
-      .filter(tick => Number.isInteger(tick) && tick >= this.first && tick <= this.last);
-    if (!ticks.includes(this.first) && (!ticks.length || x(ticks[0]) - x(this.first) > 24)) ticks.unshift(this.first);
-    for (const tick of ticks) {
-      svg("line", { class: "mark", x1: x(tick), x2: x(tick), y1: box.bottom, y2: box.bottom + 5 }, root);
-      svg("text", { class: "tick", x: x(tick), y: box.bottom + 19, "text-anchor": "middle" }, root).textContent = fixed(tick, 0);
-    }
-    svg("text", { class: "axis", x: box.right, y: box.bottom + 37, "text-anchor": "end" }, root).textContent = "generation";
+    drawGenerations(root, this.rows, box, x, narrow);
   }
 
   drawSeries(plot, series) {
@@ -206,12 +232,7 @@ class FitnessChart {
 
   listen() {
     const nearest = event => {
-      const px = event.clientX - this.place.getBoundingClientRect().left;
-      let found = 0;
-      this.rows.forEach((row, i) => {
-        if (Math.abs(this.x(row.generation) - px) < Math.abs(this.x(this.rows[found].generation) - px)) found = i;
-      });
-      this.pick(found, true);
+      this.pick(nearestRow(this.rows, this.x, event.clientX - this.place.getBoundingClientRect().left), true);
     };
     this.place.addEventListener("pointermove", nearest);
     this.place.addEventListener("pointerdown", nearest);
@@ -219,9 +240,7 @@ class FitnessChart {
       if (event.pointerType === "mouse") this.pick(this.rows.length - 1, false);
     });
     this.place.addEventListener("keydown", event => {
-      const now = this.picked ?? this.rows.length - 1;
-      const to = { ArrowLeft: now - 1, ArrowDown: now - 1, ArrowRight: now + 1, ArrowUp: now + 1,
-        PageUp: now + 10, PageDown: now - 10, Home: 0, End: this.rows.length - 1 }[event.key];
+      const to = rowForKey(event.key, this.picked ?? this.rows.length - 1, this.rows);
       if (to === undefined) return;
       event.preventDefault();
       this.pick(to, true);

@@ -2,15 +2,14 @@
 
 class NetworkView {
   constructor(network, activations, replay, clock) {
-    Object.assign(this, { replay, clock });
-    this.layers = network.layers.map(layer => layer.map(neuron => typeof neuron === "string" ? { name: neuron } : neuron));
-    this.weights = network.weights;
-    this.activations = activations;
-    this.starts = [];
-    this.total = 0;
-    for (const layer of this.layers) { this.starts.push(this.total); this.total += layer.length; }
+    Object.assign(this, { network, activations, replay, clock });
+    this.total = network.nodes.length;
+    this.kinds = this.findKinds();
     this.peaks = this.findPeaks();
-    this.heaviest = Math.max(1e-6, ...this.weights.map(matrix => Math.max(...matrix.map(row => Math.max(...row.map(Math.abs))))));
+    this.heaviest = network.connections.reduce((most, [, , weight]) => Math.max(most, Math.abs(weight)), 1e-6);
+    // The heaviest last, so that they lie on top.
+    const size = index => Math.abs(network.connections[index][2]);
+    this.order = network.connections.map((_, index) => index).sort((a, b) => size(a) - size(b));
     this.place = document.getElementById("network-net");
     this.note = document.getElementById("network-note");
     this.canvas = document.createElement("canvas");
@@ -18,6 +17,7 @@ class NetworkView {
     this.hovered = null;
     this.visible = true;
     this.stale = true;
+    this.frame = 0;
     this.place.append(this.canvas);
     new ResizeObserver(() => this.layout()).observe(this.place);
     new IntersectionObserver(entries => { this.visible = entries[entries.length - 1].isIntersecting; }).observe(this.place);
@@ -25,50 +25,44 @@ class NetworkView {
     this.buildLegend();
   }
 
-  // The largest activation of each layer: what full colour stands for.
-  findPeaks() {
-    return this.layers.map((layer, l) => {
-      let peak = 0.1;
-      if (!this.activations) return 1;
-      const { values, frames } = this.activations;
-      for (let frame = 0; frame < frames; frame++) {
-        const from = frame * this.total + this.starts[l];
-        for (let i = from; i < from + layer.length; i++) peak = Math.max(peak, Math.abs(values[i]));
-      }
-      return peak;
-    });
+  findKinds() {
+    const kinds = this.network.nodes.map((_, node) => node < this.network.inputs ? "input" : "hidden");
+    for (const node of this.network.outputs) kinds[node] = "output";
+    return kinds;
   }
 
-  value(layer, index) {
-    return this.activations ? this.activations.values[this.frameStart + this.starts[layer] + index] : 0;
+  // The largest activation of all inputs, hidden neurons and outputs: what full colour stands for.
+  findPeaks() {
+    const peaks = { input: 0.1, hidden: 0.1, output: 0.1 };
+    this.activations?.values.forEach((value, i) => {
+      const kind = this.kinds[i % this.total];
+      peaks[kind] = Math.max(peaks[kind], Math.abs(value));
+    });
+    return peaks;
+  }
+
+  // What a node put out, in this step or some steps before; before the first step nothing.
+  value(node, before = 0) {
+    const frame = this.frame - before;
+    return this.activations && frame >= 0 ? this.activations.values[frame * this.total + node] : 0;
   }
 
   layout() {
     const width = Math.round(this.place.clientWidth);
     if (width < 40 || width === this.width) return;
     this.width = width;
-    const narrow = width < 560;
-    const most = Math.max(...this.layers.map(layer => layer.length));
-    const gap = narrow ? 29 : Math.max(25, Math.min(40, 400 / most));
-    const height = Math.max(most * gap + 12, 180);
-    const gutter = narrow ? Math.round(width * 0.30) : Math.min(220, Math.round(width * 0.22));
-    this.radius = narrow ? 7 : Math.min(11, gap * 0.32);
-    const left = gutter + this.radius;
-    const right = width - gutter - this.radius;
-    this.nodes = this.layers.map((layer, l) => layer.map((neuron, i) => ({
-      x: left + (right - left) * l / Math.max(this.layers.length - 1, 1),
-      y: height / 2 + (i - (layer.length - 1) / 2) * (l > 0 && l < this.layers.length - 1 ? Math.min(gap * 1.9, height / (layer.length + 0.5))
-        : Math.min(gap * 1.5, height / (layer.length + 0.2))),
-    })));
+    this.plan = layOutNetwork(this.network, width);
+    const { height } = this.plan;
     this.ratio = Math.min(window.devicePixelRatio || 1, 3);
     this.canvas.width = Math.round(width * this.ratio);
     this.canvas.height = Math.round(height * this.ratio);
     this.canvas.style.height = this.place.style.height = `${height}px`;
-    this.drawNodes(width, height, gutter, narrow);
+    this.drawNodes(width);
     this.stale = true;
   }
 
-  drawNodes(width, height, gutter, narrow) {
+  drawNodes(width) {
+    const { narrow, height, gutter, radius, nodes } = this.plan;
     this.root?.remove();
     this.root = svg("svg", { width, height, viewBox: `0 0 ${width} ${height}`, role: "group", "aria-label": "The net, neuron by neuron" });
     this.place.append(this.root);
@@ -76,20 +70,21 @@ class NetworkView {
     const ruler = document.createElement("canvas").getContext("2d");
     ruler.font = `${size}px ${theme.font}`;
     const room = gutter - 10;
-    this.circles = this.layers.map((layer, l) => layer.map((neuron, i) => {
-      const node = this.nodes[l][i];
-      const group = svg("g", { class: "node", tabindex: "0", role: "img", "aria-label": neuron.name }, this.root);
-      const first = l === 0;
-      const last = l === this.layers.length - 1;
-      const area = first ? [0, node.x + 14] : last ? [node.x - 14, width] : [node.x - 16, node.x + 16];
-      svg("rect", { x: area[0], width: area[1] - area[0], y: node.y - 12, height: 24, fill: "transparent" }, group);
-      const circle = svg("circle", { cx: node.x, cy: node.y, r: this.radius }, group);
-      if (first || last) {
-        const x = first ? node.x - this.radius - 7 : node.x + this.radius + 7;
+    const joined = new Set(this.network.connections.flatMap(([source, target]) => [source, target]));
+    this.circles = this.network.nodes.map((neuron, node) => {
+      const { x, y } = nodes[node];
+      const kind = this.kinds[node];
+      const group = svg("g", { class: joined.has(node) ? "node" : "node loose", tabindex: "0", role: "img", "aria-label": neuron.name }, this.root);
+      const reach = radius + 5;
+      const area = kind === "input" ? [0, x + reach] : kind === "output" ? [x - reach, width] : [x - reach, x + reach];
+      svg("rect", { x: area[0], width: area[1] - area[0], y: y - reach, height: 2 * reach, fill: "transparent" }, group);
+      const circle = svg("circle", { cx: x, cy: y, r: radius }, group);
+      if (kind !== "hidden") {
+        const textX = kind === "input" ? x - radius - 7 : x + radius + 7;
         const lines = wrapWords(ruler, neuron.name, room, 2);
-        const text = svg("text", { "text-anchor": first ? "end" : "start", "font-size": size }, group);
+        const text = svg("text", { "text-anchor": kind === "input" ? "end" : "start", "font-size": size }, group);
         lines.forEach((line, k) => {
-          const span = svg("tspan", { x, y: node.y + size * 0.35 + (k - (lines.length - 1) / 2) * (size + 1) }, text);
+          const span = svg("tspan", { x: textX, y: y + size * 0.35 + (k - (lines.length - 1) / 2) * (size + 1) }, text);
           span.textContent = line;
         });
         const unit = neuron.unit && ` ${neuron.unit}`;
@@ -97,90 +92,100 @@ class NetworkView {
           svg("tspan", { class: "unit" }, text).textContent = unit;
         }
       }
-      const enter = () => { this.hovered = [l, i]; this.stale = true; };
+      const enter = () => { this.hovered = node; this.stale = true; };
       const leave = () => { this.hovered = null; this.stale = true; };
       group.addEventListener("pointerenter", enter);
       group.addEventListener("pointerleave", leave);
       group.addEventListener("focus", enter);
       group.addEventListener("blur", leave);
       return circle;
-    }));
+    });
   }
 
   draw() {
     if (this.activations) {
       const { frames } = this.activations;
       const share = this.replay.frames > 1 ? frameAt(this.replay, this.clock.now) / (this.replay.frames - 1) : 0;
-      const frame = frames === this.replay.frames ? frameAt(this.replay, this.clock.now) : Math.round(share * (frames - 1));
-      this.frameStart = frame * this.total;
+      this.frame = frames === this.replay.frames ? frameAt(this.replay, this.clock.now) : Math.round(share * (frames - 1));
     }
     this.drawEdges();
-    this.layers.forEach((layer, l) => layer.forEach((_, i) => {
-      const circle = this.circles[l][i];
-      circle.setAttribute("fill", this.activations ? diverging(this.value(l, i) / this.peaks[l]) : theme.zero);
-      circle.classList.toggle("lit", this.hovered !== null && this.hovered[0] === l && this.hovered[1] === i);
-    }));
+    this.circles.forEach((circle, node) => {
+      circle.setAttribute("fill", this.activations ? diverging(this.value(node) / this.peaks[this.kinds[node]]) : theme.zero);
+      circle.classList.toggle("lit", this.hovered === node);
+    });
     this.describe();
   }
 
-  // Width shows the weight; the edge brightens with the signal it carries.
+  // Width shows the weight; the edge brightens with the signal it carries, which on a way back is one step old.
   drawEdges() {
     const c = this.canvas.getContext("2d");
+    const { connections } = this.network;
     c.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    c.clearRect(0, 0, this.width, this.canvas.height);
-    const crowd = Math.min(1, Math.sqrt(120 / Math.max(...this.weights.map(m => m.length * (m[0]?.length || 1)))));
-    this.weights.forEach((matrix, l) => matrix.forEach((row, target) => {
-      for (let source = 0; source < this.layers[l].length; source++) {
-        const weight = row[source] / this.heaviest;
-        const size = Math.abs(weight);
-        const signal = this.activations ? Math.min(1, Math.abs(this.value(l, source)) / this.peaks[l]) : 0.6;
-        let alpha = (0.06 + 0.74 * size * (0.25 + 0.75 * signal)) * (0.5 + 0.5 * crowd);
-        if (this.hovered) {
-          const [hl, hi] = this.hovered;
-          const joined = (hl === l && hi === source) || (hl === l + 1 && hi === target);
-          alpha = joined ? 0.35 + 0.65 * size : 0.03;
-        }
-        const a = this.nodes[l][source];
-        const b = this.nodes[l + 1][target];
-        c.globalAlpha = alpha;
-        c.strokeStyle = weight < 0 ? theme.minus : theme.plus;
-        c.lineWidth = 0.5 + 3.2 * size;
-        c.beginPath();
-        c.moveTo(a.x, a.y);
-        const bend = (b.x - a.x) * 0.4;
-        c.bezierCurveTo(a.x + bend, a.y, b.x - bend, b.y, b.x, b.y);
-        c.stroke();
-      }
-    }));
+    c.clearRect(0, 0, this.width, this.plan.height);
+    const crowd = Math.min(1, Math.sqrt(120 / Math.max(connections.length / (this.plan.columns.length - 1), 1)));
+    const faintest = 0.06 + 0.1 * Math.max(0, 1 - connections.length / 100);
+    for (const index of this.order) {
+      const [source, target, weight] = connections[index];
+      const back = source >= target;
+      const size = Math.abs(weight) / this.heaviest;
+      const signal = this.activations ? Math.min(1, Math.abs(this.value(source, back ? 1 : 0)) / this.peaks[this.kinds[source]]) : 0.6;
+      let alpha = (faintest + 0.74 * size * (0.25 + 0.75 * signal)) * (0.5 + 0.5 * crowd);
+      if (this.hovered !== null) alpha = source === this.hovered || target === this.hovered ? 0.35 + 0.65 * size : 0.03;
+      c.globalAlpha = Math.min(alpha, 1);
+      c.strokeStyle = c.fillStyle = weight < 0 ? theme.minus : theme.plus;
+      c.lineWidth = 0.5 + 3.2 * size;
+      c.setLineDash(back ? [5, 4] : []);
+      const { points, arrow } = this.plan.curves[index];
+      c.beginPath();
+      c.moveTo(points[0], points[1]);
+      c.bezierCurveTo(...points.slice(2));
+      c.stroke();
+      if (arrow) drawArrow(c, points, 4 + 1.6 * c.lineWidth);
+    }
+    c.setLineDash([]);
     c.globalAlpha = 1;
   }
 
-  // One line about the neuron pointed at: its value and what weighs most.
+  // One line about the neuron pointed at: its value, what makes it, and what weighs most.
   describe() {
     let text = "Point at a neuron to see its value and its connections.";
-    if (this.hovered) {
-      const [l, i] = this.hovered;
-      const neuron = this.layers[l][i];
-      text = this.activations ? `${neuron.name}: ${fixed(this.value(l, i), 2)}` : neuron.name;
-      if (l > 0) {
-        const row = this.weights[l - 1][i];
-        const sources = this.layers[l - 1].map((source, k) => [source.name, row[k]]);
-        text += ` · in: ${strongest(sources)}`;
-        if (row.length > sources.length) text += ` · bias ${fixed(row[row.length - 1], 2)}`;
-      }
-      if (l < this.layers.length - 1) {
-        text += ` · out: ${strongest(this.layers[l + 1].map((target, k) => [target.name, this.weights[l][k][i]]))}`;
-      }
+    if (this.hovered !== null) {
+      const { nodes, connections } = this.network;
+      const node = this.hovered;
+      const { name, activation, bias } = nodes[node];
+      const far = (other, back) => (other === node ? "itself" : nodes[other].name) + (back ? " a step before" : "");
+      const into = connections.filter(([, target]) => target === node).map(([source, target, weight]) => [far(source, source >= target), weight]);
+      const out = connections.filter(([source, target]) => source === node && target !== node)
+        .map(([source, target, weight]) => [nodes[target].name + (source >= target ? " a step later" : ""), weight]);
+      const parts = [this.activations ? `${name}: ${fixed(this.value(node), 2)}` : name];
+      if (activation) parts.push(activation);
+      if (into.length) parts.push(`in: ${strongest(into)}`);
+      if (bias !== undefined) parts.push(`bias ${fixed(bias, 2)}`);
+      if (out.length) parts.push(`out: ${strongest(out)}`);
+      if (!into.length && !out.length) parts.push("not connected");
+      text = parts.join(" · ");
     }
     if (this.note.textContent !== text) this.note.textContent = text;
   }
 
   buildLegend() {
     const legend = document.getElementById("network-legend");
+    const back = this.network.connections.some(([source, target]) => source >= target);
     legend.innerHTML = (this.activations
       ? `<span>activation: negative <i class="ramp"></i> positive</span>` : "")
-      + `<span><i class="edge edge-minus"></i> negative weight</span><span><i class="edge edge-plus"></i> positive weight</span>`;
+      + `<span><i class="edge edge-minus"></i> negative weight</span><span><i class="edge edge-plus"></i> positive weight</span>`
+      + (back ? `<span><i class="edge edge-back"></i> from the step before</span>` : "");
   }
+}
+
+// An arrow's head at the end of a curve.
+function drawArrow(c, points, length) {
+  const [x, y] = points.slice(6);
+  const angle = Math.atan2(y - points[5], x - points[4]);
+  c.beginPath();
+  c.moveTo(x, y);
+  for (const turn of [0.42, -0.42]) c.lineTo(x - length * Math.cos(angle + turn), y - length * Math.sin(angle + turn));
+  c.fill();
 }
 
 function diverging(share) {
@@ -189,8 +194,9 @@ function diverging(share) {
 }
 
 function strongest(pairs) {
-  return pairs.sort((a, b) => Math.abs(b[1]) - Math.abs(a[1])).slice(0, 3)
+  const named = pairs.sort((a, b) => Math.abs(b[1]) - Math.abs(a[1])).slice(0, 3)
     .map(([name, weight]) => `${name} ${weight > 0 ? "+" : ""}${fixed(weight, 2)}`).join(", ");
+  return pairs.length > 3 ? `${named} and ${count(pairs.length - 3, "other", "others")}` : named;
 }
 
 // Breaks a name into at most `most` lines that fit, the last one cut short if need be.

@@ -54,20 +54,29 @@ function buildChampion(run, model) {
 
 function buildNetwork(run, model, replay, contacts, clock) {
   const network = run.champion.network;
-  if (!network || !network.layers || network.layers.length < 2 || !network.weights) return;
-  const sizes = network.layers.map(layer => layer.length);
-  const activations = readActivations(network.activations, sizes.reduce((a, b) => a + b, 0));
+  if (!network || !network.outputs.length) return;
+  const activations = readActivations(network.activations, network.nodes.length);
   document.getElementById("network").hidden = false;
-  const words = [count(sizes[0], "input", "inputs")];
-  if (sizes.length > 2) words.push(`${sizes.slice(1, -1).join(" and ")} hidden`);
-  words.push(count(sizes[sizes.length - 1], "output", "outputs"));
-  const weights = network.weights.reduce((sum, matrix) => sum + matrix.reduce((n, row) => n + row.length, 0), 0);
-  document.getElementById("network-intro").textContent = `${words.join(", ")}; ${count(weights, "weight", "weights")}. `
-    + (activations ? "Sensors on the left, motors on the right; an edge brightens with the signal it carries."
-      : "Sensors on the left, motors on the right.");
+  document.getElementById("network-intro").textContent = `${describeNetwork(network)} Sensors on the left, motors on the right`
+    + (activations ? "; an edge brightens with the signal it carries." : ".");
   playButton(document.getElementById("network-play"), clock);
   loop.addView(new NetworkStage(model, replay, contacts, clock));
   loop.addView(new NetworkView(network, activations, replay, clock));
+}
+
+// `9 inputs, 3 hidden neurons, 8 outputs; 78 connections and 11 biases.`
+function describeNetwork({ nodes, inputs, outputs, connections }) {
+  const hidden = nodes.length - inputs - outputs.length;
+  const biases = nodes.filter(node => node.bias !== undefined).length;
+  const back = connections.filter(([source, target]) => source >= target).length;
+  const words = [count(inputs, "input", "inputs")];
+  if (hidden) words.push(count(hidden, "hidden neuron", "hidden neurons"));
+  words.push(count(outputs.length, "output", "outputs"));
+  const weights = [count(connections.length, "connection", "connections")];
+  if (biases) weights.push(count(biases, "bias", "biases"));
+  const memory = !back ? "" : back === 1 ? " One connection carries what its source put out a step before."
+    : ` ${fixed(back, 0)} of the connections carry what their source put out a step before.`;
+  return `${words.join(", ")}; ${weights.join(" and ")}.${memory}`;
 }
 
 function buildGait(run) {
@@ -153,6 +162,8 @@ function startPage() {
   buildChampion(run, model);
   buildGait(run);
   buildFitness(run);
+  buildStatistics(run);
+  buildSpecies(run);
   buildStrip(run, model);
   buildPopulations(run, model);
   buildSettings(run);

@@ -1,0 +1,84 @@
+use super::Outcome;
+use clap::{Args, Subcommand};
+use gambol::{
+    config::{STRATEGIES, strategy},
+    suggest,
+    yardsticks::{Yardstick, contestants, measure, render},
+};
+use std::process::ExitCode;
+
+#[derive(Args)]
+pub(crate) struct Bench {
+    #[command(subcommand)]
+    what: What,
+}
+
+#[derive(Subcommand)]
+enum What {
+    /// Lets each strategy solve XOR and pole balancing, beside what papers report
+    Yardsticks(Yardsticks),
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol bench yardsticks                                           every strategy, every task: some minutes
+  gambol bench yardsticks --strategies neat --tasks xor --seeds 100
+  gambol bench yardsticks --tasks two-poles --json
+
+Evaluations are counted up to and including that of the first solution. An attempt without a solution counts with all it
+has used up. The settings and nets are named below each table.")]
+struct Yardsticks {
+    /// Which strategies [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_strategy)]
+    strategies: Vec<&'static str>,
+    /// Which tasks [default: all]
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_task)]
+    tasks: Vec<Yardstick>,
+    /// How many seeds, from 1 on
+    #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    seeds: u64,
+    /// Print every attempt as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Bench {
+    pub(crate) fn run(self) -> Outcome {
+        match self.what {
+            What::Yardsticks(yardsticks) => yardsticks.run(),
+        }
+    }
+}
+
+impl Yardsticks {
+    fn run(self) -> Outcome {
+        let wanted = |strategy: &str, task: Yardstick| {
+            (self.strategies.is_empty() || self.strategies.contains(&strategy))
+                && (self.tasks.is_empty() || self.tasks.contains(&task))
+        };
+        let mut measured = Vec::new();
+        for contestant in contestants().iter().filter(|one| wanted(one.settings.name(), one.task)) {
+            if !self.json {
+                eprintln!("{} on {}", contestant.settings.name(), contestant.task.name());
+            }
+            measured.push(measure(contestant, self.seeds)?);
+        }
+        if self.json {
+            say!("{}", serde_json::to_string(&measured)?)?;
+        } else {
+            say!("{} seeds\n\n{}", self.seeds, render(&measured).trim_end())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn known_strategy(name: &str) -> Result<&'static str, String> {
+    let names = STRATEGIES.iter().flat_map(|entry| [entry.alias, Some(entry.name)]).flatten();
+    strategy(name).map(|entry| entry.name).ok_or_else(|| suggest::unknown("strategy", name, &names.collect::<Vec<_>>()))
+}
+
+fn known_task(name: &str) -> Result<Yardstick, String> {
+    let found = Yardstick::ALL.into_iter().find(|task| task.name() == name);
+    found.ok_or_else(|| suggest::unknown("task", name, &Yardstick::ALL.map(Yardstick::name)))
+}

@@ -1,0 +1,148 @@
+use super::{INTERRUPTED, Outcome};
+use clap::Args;
+use gambol::compare::{
+    ComparisonFolder, Method, Part, PlanRequest, Progress, Runners, WorkOptions, merge, table, work, write_outcome,
+};
+use ne_core::{StopConditions, StopSignal};
+use std::{path::PathBuf, process::ExitCode, time::Instant};
+use tasks::MovementCatalogue;
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol compare --strategies ga,neat,cma-es --creatures biped-1,apod --movements running,jumping \\
+      --seeds 10 --evaluations 15000 --out runs/ga-neat-cma
+  gambol compare --strategies thesis,default,large=large.json --creatures biped-1 --movements running \\
+      --seeds 5 --steps 10000000 --out runs/presets
+
+Interrupted, the same command goes on. On a cluster each job does a part into a folder of its own, and one puts them
+together:
+  gambol compare ... --part 3/20 --out part-3
+  gambol merge part-* --out whole
+
+Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html, scores.csv
+and curves.csv.")]
+pub(crate) struct Compare {
+    /// What is compared: strategies (see: gambol strategies), presets, or NAME=CONFIG-FILE
+    #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
+    strategies: Vec<Method>,
+    /// Shipped creatures or creature files
+    #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
+    creatures: Vec<String>,
+    /// Movements (see: gambol movements)
+    #[arg(long, value_delimiter = ',', default_value = "running", value_name = "NAMES")]
+    movements: Vec<String>,
+    /// How many seeds, from 1 on
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    seeds: u64,
+    /// What each run may use up: so many evaluations
+    #[arg(long, required_unless_present = "steps")]
+    evaluations: Option<u64>,
+    /// What each run may use up: so many physics steps
+    #[arg(long)]
+    steps: Option<u64>,
+    /// One setting for all runs, such as movement.steps=600; can be given several times
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Do only a share of the runs, such as 3/20
+    #[arg(long, default_value = "1/1", hide_default_value = true)]
+    part: Part,
+    /// The folder of the comparison; new, empty, or one where the same comparison was begun
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Runs at the same time [default: one for each core]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    at_once: usize,
+    /// Threads of each run
+    #[arg(long, default_value_t = 1)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1024))]
+    threads: usize,
+    /// Show nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Compare {
+    pub(crate) fn run(self) -> Outcome {
+        let catalogue = MovementCatalogue::default();
+        let request = PlanRequest {
+            methods: self.strategies.clone(),
+            creatures: self.creatures.clone(),
+            movements: self.movements.clone(),
+            seeds: (1..=self.seeds).collect(),
+            budget: StopConditions { evaluations: self.evaluations, steps: self.steps, ..StopConditions::default() },
+            set: self.set.clone(),
+        };
+        let plan = request.plan(&catalogue)?;
+        let folder = ComparisonFolder::create(&self.out, &plan)?;
+        let signal = StopSignal::default();
+        super::stop_on_interrupt(&signal)?;
+        let began = Instant::now();
+        let show = |progress: &Progress| {
+            if !self.quiet {
+                let Progress { run, best, done, all } = progress;
+                let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));
+                eprintln!("{done}/{all} after {:.0} s: {run}: {best}", began.elapsed().as_secs_f64());
+            }
+        };
+        let runners = Runners::default();
+        let options = WorkOptions {
+            part: self.part,
+            at_once: self.at_once,
+            threads: self.threads,
+            catalogue,
+            runners: &runners,
+            signal: signal.clone(),
+            on_run: &show,
+        };
+        let left = work(&folder, &plan, &options)?;
+        if signal.is_set() {
+            say!("{left} runs are left; the same command goes on")?;
+            return Ok(ExitCode::from(INTERRUPTED));
+        }
+        if self.part != Part::ALL {
+            say!("part {} is done; when all are: gambol merge {} ... --out DIR", self.part, self.out.display())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        if left > 0 {
+            say!("{left} runs are being done by other processes; when they have ended, repeat the command")?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        finish(&folder, self.quiet)
+    }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol merge part-1 part-2 part-3 --out whole
+  gambol merge runs/ga-neat-cma --out again        make the page of a comparison anew, from its results")]
+pub(crate) struct Merge {
+    /// The folders of the parts
+    #[arg(required = true)]
+    parts: Vec<PathBuf>,
+    /// The folder of the whole; new, empty, or one where the same comparison was begun
+    #[arg(long, value_name = "DIR")]
+    out: PathBuf,
+    /// Show nothing but errors
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Merge {
+    pub(crate) fn run(self) -> Outcome {
+        finish(&merge(&self.parts, &self.out)?, self.quiet)
+    }
+}
+
+/// Writes what came out, and shows it.
+fn finish(folder: &ComparisonFolder, quiet: bool) -> Outcome {
+    let analysis = write_outcome(folder)?;
+    if !quiet {
+        say!("{}", table::render(&analysis))?;
+        say!("page      {}", folder.page().display())?;
+        say!("raw data  {0}/scores.csv, {0}/curves.csv", folder.path().display())?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,209 @@
+use super::{
+    SIGNIFICANCE,
+    overall::Overall,
+    trace::{Axis, Trace, Traces},
+};
+use ne_statistics::{Scores, hodges_lehmann, holm, mean, quantile, vargha_delaney, wilcoxon_signed_rank};
+use serde::Serialize;
+
+/// The scores of all runs when equally much was spent, and what they say.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Standings {
+    /// What was spent.
+    pub axis: Axis,
+    /// Each scenario.
+    pub scenarios: Vec<ScenarioStandings>,
+    /// How many tests were made and corrected together.
+    pub tests: usize,
+    /// All scenarios together; `None` if scores differ on none of them.
+    pub overall: Option<Overall>,
+}
+
+/// The scores on a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ScenarioStandings {
+    /// How much every run may have spent: the plan's budget, or less if a run ended earlier. `None` without runs.
+    pub limit: Option<f64>,
+    /// The worst score of all runs, which those without a score count with; `None` if no run has one.
+    pub worst: Option<f64>,
+    /// The best score of all runs.
+    pub best: Option<f64>,
+    /// The scores of each method.
+    pub methods: Vec<MethodScores>,
+    /// Each pair of methods; none if no run has a score.
+    pub pairs: Vec<PairTest>,
+}
+
+/// The scores of a method on a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MethodScores {
+    /// A score for each seed; empty if no run of any method has one.
+    pub scores: Vec<f64>,
+    /// The places of the seeds without a score, whose runs count with the worst of the scenario: every evaluation had
+    /// failed by then, or the first generation was not over.
+    pub unscored: Vec<usize>,
+    /// The scores in short.
+    pub summary: Option<Summary>,
+}
+
+/// Scores in short.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Half of the runs are at most this.
+    pub median: f64,
+    /// A quarter of the runs are at most this.
+    pub lower: f64,
+    /// Three quarters of the runs are at most this.
+    pub upper: f64,
+    /// The mean.
+    pub mean: f64,
+    /// The highest.
+    pub best: f64,
+    /// The lowest.
+    pub worst: f64,
+}
+
+/// Two methods on a scenario, paired by seed.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PairTest {
+    /// The place of the one method.
+    pub first: usize,
+    /// The place of the other.
+    pub second: usize,
+    /// By how much the first scores more: the Hodges–Lehmann estimate.
+    pub shift: f64,
+    /// The two-sided p value of the Wilcoxon signed-rank test.
+    pub p: f64,
+    /// The same after Holm's correction for all tests of these [`Standings`].
+    pub p_corrected: f64,
+    /// Seeds at which the two differ; others do not count in the test.
+    pub differing: usize,
+    /// The matched-pairs rank-biserial correlation, from −1 to 1.
+    pub rank_biserial: f64,
+    /// Vargha & Delaney's A₁₂: how probably a run of the first scores more than one of the second.
+    pub superiority: f64,
+    /// A word for it.
+    pub effect: Effect,
+    /// The method that scores more, if that can be claimed: the corrected p value is at most 0.05.
+    pub better: Option<usize>,
+}
+
+/// The size of an effect, as Vargha & Delaney 2000 call it: A₁₂, or one less it, from 0.56 on is small, from 0.64 medium,
+/// from 0.71 large.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Effect {
+    /// Less than small.
+    Negligible,
+    /// Small.
+    Small,
+    /// Medium.
+    Medium,
+    /// Large.
+    Large,
+}
+
+impl Effect {
+    /// The word for an A₁₂.
+    pub fn of(superiority: f64) -> Self {
+        match superiority.max(1.0 - superiority) {
+            size if size < 0.56 => Self::Negligible,
+            size if size < 0.64 => Self::Small,
+            size if size < 0.71 => Self::Medium,
+            _ => Self::Large,
+        }
+    }
+
+    /// The word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Negligible => "negligible",
+            Self::Small => "small",
+            Self::Medium => "medium",
+            Self::Large => "large",
+        }
+    }
+}
+
+impl Standings {
+    pub(super) fn new(traces: &Traces, axis: Axis, budget: Option<u64>) -> Self {
+        let of_scenario = |scenario| ScenarioStandings::new(traces.methods(scenario), axis, budget);
+        let mut scenarios: Vec<ScenarioStandings> = (0..traces.scenarios()).map(of_scenario).collect();
+        let tests = correct(&mut scenarios);
+        let overall = Overall::new(&scenarios);
+        Self { axis, scenarios, tests, overall }
+    }
+}
+
+impl ScenarioStandings {
+    fn new(methods: &[Vec<Trace>], axis: Axis, budget: Option<u64>) -> Self {
+        let ends = methods.iter().flatten().filter_map(|run| Some(run.curve(axis)?.end()));
+        let limit = ends.reduce(f64::min).map(|least| budget.map_or(least, |budget| least.min(budget as f64)));
+        let score = |run: &Trace| run.score(axis, limit?);
+        let found: Vec<f64> = methods.iter().flatten().filter_map(score).collect();
+        let (worst, best) = (found.iter().copied().reduce(f64::min), found.iter().copied().reduce(f64::max));
+        let methods: Vec<MethodScores> = methods.iter().map(|runs| method_scores(runs, score, worst)).collect();
+        Self { limit, worst, best, pairs: pairs(&methods), methods }
+    }
+}
+
+fn method_scores(runs: &[Trace], score: impl Fn(&Trace) -> Option<f64>, worst: Option<f64>) -> MethodScores {
+    let found: Vec<Option<f64>> = runs.iter().map(score).collect();
+    let scores: Vec<f64> = found.iter().filter_map(|score| score.or(worst)).collect();
+    let unscored = (0..found.len()).filter(|&seed| found[seed].is_none()).collect();
+    MethodScores { summary: Summary::of(&scores), scores, unscored }
+}
+
+impl Summary {
+    fn of(scores: &[f64]) -> Option<Self> {
+        let share = |share| quantile(scores, share);
+        Some(Self {
+            median: share(0.5)?,
+            lower: share(0.25)?,
+            upper: share(0.75)?,
+            mean: mean(&Scores::new(&[scores.to_vec()]).ok()?),
+            best: share(1.0)?,
+            worst: share(0.0)?,
+        })
+    }
+}
+
+fn pairs(methods: &[MethodScores]) -> Vec<PairTest> {
+    let seconds = |first| (first + 1..methods.len()).map(move |second| (first, second));
+    let places = (0..methods.len()).flat_map(seconds);
+    places.filter_map(|(first, second)| pair(methods, first, second)).collect()
+}
+
+/// The test of a pair, not corrected yet. `None` without scores.
+fn pair(methods: &[MethodScores], first: usize, second: usize) -> Option<PairTest> {
+    let (x, y) = (&methods[first].scores, &methods[second].scores);
+    let test = wilcoxon_signed_rank(x, y).ok()?;
+    let superiority = vargha_delaney(x, y).ok()?;
+    Some(PairTest {
+        first,
+        second,
+        shift: hodges_lehmann(x, y).ok()?,
+        p: test.p,
+        p_corrected: test.p,
+        differing: test.pairs,
+        rank_biserial: test.rank_biserial,
+        superiority,
+        effect: Effect::of(superiority),
+        better: None,
+    })
+}
+
+/// Corrects all tests together; gives how many there are.
+fn correct(scenarios: &mut [ScenarioStandings]) -> usize {
+    let tests = || scenarios.iter().flat_map(|scenario| &scenario.pairs);
+    let p_values: Vec<f64> = tests().map(|test| test.p).collect();
+    // p values of tests are from 0 to 1, so this cannot fail; without a correction nothing would be claimed.
+    let corrected = holm(&p_values).unwrap_or_else(|_| vec![1.0; p_values.len()]);
+    let tests = scenarios.iter_mut().flat_map(|scenario| &mut scenario.pairs);
+    for (test, p_corrected) in tests.zip(corrected) {
+        test.p_corrected = p_corrected;
+        let better = if test.rank_biserial > 0.0 { test.first } else { test.second };
+        test.better = (p_corrected <= SIGNIFICANCE).then_some(better);
+    }
+    p_values.len()
+}

@@ -1,0 +1,244 @@
+use super::{analyse, *};
+use crate::compare::testing::{clear_and_open, comparison, plan, run};
+
+fn points(scores: &[(u64, f64)]) -> Vec<(u64, Option<f64>)> {
+    scores.iter().map(|&(evaluations, score)| (evaluations, Some(score))).collect()
+}
+
+#[test]
+fn scores_are_those_of_the_last_generation_within_the_budget() {
+    let mut plan = plan(&["a", "b"], &["s"], 1);
+    let results = [
+        // Overruns the budget of 1,000: what it found there does not count.
+        run("a", "s", 1, &points(&[(300, 1.0), (900, 2.0), (1200, 9.0)])),
+        run("b", "s", 1, &points(&[(1000, 3.0)])),
+    ];
+    let analysis = analyse(&plan, &results);
+    let scenario = &analysis.at_equal_evaluations.scenarios[0];
+    assert_eq!(scenario.limit, Some(1000.0));
+    assert_eq!([&scenario.methods[0].scores, &scenario.methods[1].scores], [&[2.0], &[3.0]]);
+    // Without a budget of steps the shortest run sets it.
+    assert_eq!(analysis.at_equal_steps.scenarios[0].limit, Some(10_000.0));
+    assert_eq!(analysis.primary, Axis::Evaluations);
+    // With one, steps come first, and a run that ended before it sets it.
+    plan.budget = StopConditions { steps: Some(11_000), ..StopConditions::default() };
+    let analysis = analyse(&plan, &results);
+    assert_eq!((analysis.primary, analysis.at_equal_steps.scenarios[0].limit), (Axis::Steps, Some(10_000.0)));
+    assert_eq!(analysis.at_equal_evaluations.scenarios[0].limit, Some(1000.0));
+    assert!(analysis.caveats.iter().any(|caveat| caveat
+        == "On s a run ended after 10,000 physics steps, before the budget of 11,000: scores are compared there."));
+}
+
+#[test]
+fn a_clear_and_an_open_scenario() {
+    let (plan, results) = clear_and_open();
+    let analysis = analyse(&plan, &results);
+    let [clear, open] = &analysis.at_equal_evaluations.scenarios[..] else { panic!("two scenarios") };
+    let summary = clear.methods[0].summary.expect("there are scores");
+    assert_eq!((summary.median, summary.lower, summary.upper), (16.75, 14.125, 19.375));
+    assert_eq!((summary.mean, summary.best, summary.worst), (16.75, 22.0, 11.5));
+    // All eight differences 1.5, 2, ..., 5 are above 0: p = 2 / 2⁸, twice that for two tests.
+    let test = clear.pairs[0];
+    assert_eq!((test.p, test.p_corrected, test.better, test.differing), (2.0 / 256.0, 4.0 / 256.0, Some(0), 8));
+    assert_eq!((test.shift, test.rank_biserial, test.effect), (3.25, 1.0, Effect::Large));
+    let test = open.pairs[0];
+    assert_eq!((test.p, test.p_corrected, test.better, test.shift), (1.0, 1.0, None, 0.0));
+    assert_eq!((test.superiority, test.effect), (0.5, Effect::Negligible));
+    assert_eq!(
+        analysis.headline,
+        [
+            "Over all scenarios no difference can be claimed between strong and weak.",
+            "1 of 2 paired tests on single scenarios shows a difference (p ≤ 0.05 after Holm's correction): \
+             strong scores more than weak on biped running.",
+        ]
+    );
+}
+
+#[test]
+fn over_all_scenarios_scores_are_normalised_between_the_worst_and_the_best_run() {
+    let (plan, results) = clear_and_open();
+    let overall = analyse(&plan, &results).at_equal_evaluations.overall.expect("scores differ");
+    assert_eq!(overall.scenarios, [0, 1]);
+    // By hand: pairs won on the first scenario are 51 of 64, and half of them on the second.
+    let wins = (1..=8).flat_map(|x| (1..=8).map(move |y| (10.0 + 1.5 * f64::from(x), 9.0 + f64::from(y))));
+    let share: f64 = wins
+        .map(|(x, y)| {
+            if x > y {
+                1.0
+            } else if x < y {
+                0.0
+            } else {
+                0.5
+            }
+        })
+        .sum::<f64>()
+        / 64.0;
+    assert_eq!(overall.pairs[0].probability.value, (share + 0.5) / 2.0);
+    let [first, last] = [overall.profiles[0][0], overall.profiles[0][50]];
+    assert_eq!((overall.thresholds[50], last.value), (1.0, 0.0));
+    assert_eq!(first.value, 15.0 / 16.0, "all but the worst run are above 0");
+    for estimate in overall.methods.iter().chain(overall.profiles.iter().flatten()) {
+        let [low, high] = estimate.interval.expect("there are several seeds");
+        assert!(0.0 <= low && low <= estimate.value && estimate.value <= high && high <= 1.0, "{estimate:?}");
+    }
+}
+
+#[test]
+fn a_method_that_always_wins_is_said_to() {
+    let score = |method, _, seed| 3.0 - method as f64 + 0.01 * seed as f64;
+    let (plan, results) = comparison(&["a", "b", "c"], &["r", "s", "t", "u"], 10, score);
+    assert_eq!(
+        analyse(&plan, &results).headline,
+        [
+            "Over all 4 scenarios a (interquartile mean 0.98, 95 % interval 0.97 to 0.98) does better than b and c.",
+            "Over all 4 scenarios b (interquartile mean 0.50, 95 % interval 0.50 to 0.50) does better than c.",
+            "12 of 12 paired tests on single scenarios show a difference (p ≤ 0.05 after Holm's correction): a scores \
+             more than b on 4 of 4 scenarios; a scores more than c on 4 of 4 scenarios; b scores more than c on 4 of 4 \
+             scenarios.",
+        ]
+    );
+}
+
+#[test]
+fn equal_methods_are_not_told_apart() {
+    let (plan, results) = comparison(&["a", "b"], &["s", "t"], 8, |_, _, seed| seed as f64);
+    let analysis = analyse(&plan, &results);
+    let test = analysis.at_equal_evaluations.scenarios[0].pairs[0];
+    assert_eq!((test.p, test.differing, test.superiority, test.better), (1.0, 0, 0.5, None));
+    assert_eq!(analysis.headline[0], "Over all scenarios no difference can be claimed between a and b.");
+    let (plan, results) = comparison(&["a", "b"], &["s", "t"], 8, |_, _, _| 1.0);
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.at_equal_evaluations.overall, None);
+    assert_eq!(
+        (&*analysis.headline[0], &*analysis.caveats[1]),
+        (
+            "All runs of a scenario score the same: no difference can be claimed over all scenarios.",
+            "On s and t all runs score the same or none has a score: left out of the overall figures.",
+        )
+    );
+}
+
+#[test]
+fn one_method_has_nothing_to_be_compared_with() {
+    let (plan, results) = comparison(&["a"], &["s"], 10, |_, _, seed| seed as f64);
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.headline, ["a is the only method: there is nothing to compare it with."]);
+    assert_eq!(analysis.caveats, ["There is one scenario: nothing is said about other creatures or movements."]);
+    assert!(analysis.at_equal_evaluations.overall.is_some_and(|overall| overall.pairs.is_empty()));
+}
+
+#[test]
+fn few_seeds_claim_nothing() {
+    let score = |method, _, seed| method as f64 * 10.0 + seed as f64;
+    let (plan, results) = comparison(&["a", "b"], &["s"], 1, score);
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.headline, ["With 1 seed no difference can be claimed; the figures only describe these runs."]);
+    assert_eq!(
+        analysis.caveats[0],
+        "There is one seed: no interval, no test. With another seed the order may be another."
+    );
+    let overall = analysis.at_equal_evaluations.overall.expect("scores differ");
+    assert!(overall.methods.iter().all(|mean| mean.interval.is_none()) && overall.pairs[0].better.is_none());
+    let (plan, results) = comparison(&["a", "b"], &["s"], 5, score);
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.headline, ["With 5 seeds no difference can be claimed; the figures only describe these runs."]);
+    assert_eq!(
+        analysis.caveats[0],
+        "With 5 seeds the least p value a test can have is 0.0625: 6 seeds are needed for 0.05."
+    );
+    let (plan, results) = comparison(&["a", "b", "c"], &["s", "t"], 7, score);
+    let analysis = analyse(&plan, &results);
+    assert_eq!(
+        analysis.caveats[0],
+        "With 7 seeds the least p value a test can have is 0.0156, after Holm's correction for 6 tests 0.0938: 8 seeds \
+         are needed for 0.05."
+    );
+    assert_eq!(
+        analysis.headline.last().map(String::as_str),
+        Some(
+            "None of the 6 paired tests on single scenarios shows a difference (p ≤ 0.05 after Holm's correction): none can \
+         be claimed there."
+        )
+    );
+}
+
+#[test]
+fn runs_that_failed_count_with_the_worst_score_and_are_named() {
+    let (plan, mut results) = comparison(&["a", "b"], &["s"], 8, |method, _, seed| (method * 10) as f64 + seed as f64);
+    results[0] = run("a", "s", 1, &[(100, None), (1000, None)]);
+    // Its first generation ends after the budget.
+    results[3] = run("b", "s", 2, &[(1500, Some(50.0))]);
+    let analysis = analyse(&plan, &results);
+    let scenario = &analysis.at_equal_evaluations.scenarios[0];
+    assert_eq!((&*scenario.methods[0].unscored, &*scenario.methods[1].unscored), (&[0][..], &[1][..]));
+    assert_eq!((scenario.methods[0].scores[0], scenario.methods[1].scores[1], scenario.worst), (2.0, 2.0, Some(2.0)));
+    assert!(analysis.caveats.contains(
+        &"On s at 1,000 evaluations, 1 run of a and 1 run of b had no score yet (every evaluation had failed, or the \
+          first generation was not over) and counts with the worst score of all runs there, 2.0 m."
+            .into()
+    ));
+    assert_eq!(analysis.runs[0].score_at_equal_evaluations, None, "raw data has no substitute");
+    let [evaluations, ..] = &analysis.scenarios[0].curves[..] else { panic!("three axes") };
+    assert_eq!((evaluations.methods[0].lower[11], evaluations.methods[0].lower.last()), (None, Some(&Some(3.5))));
+}
+
+#[test]
+fn without_any_score_nothing_is_said() {
+    let (plan, mut results) = comparison(&["a", "b"], &["s"], 8, |_, _, _| 1.0);
+    for result in &mut results {
+        result.points.iter_mut().for_each(|point| point.best = None);
+    }
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.headline, ["No run has a score: nothing can be compared."]);
+    assert_eq!(analysis.at_equal_evaluations.scenarios[0].methods[0].summary, None);
+    assert!(analysis.scenarios[0].thresholds.is_empty());
+    let nothing = analyse(&plan, &[]);
+    assert_eq!(nothing.headline, analysis.headline);
+    assert_eq!((nothing.runs.len(), nothing.runs[0].evaluations), (16, None));
+}
+
+#[test]
+fn time_to_a_threshold_counts_runs_that_never_reach_it() {
+    // The best median is 10, of b; of a only three of eight runs reach half of it, and none reaches nine tenths.
+    let (plan, results) = comparison(&["a", "b"], &["s"], 8, |method, _, seed| match method {
+        0 => {
+            if seed <= 3 {
+                6.0
+            } else {
+                1.0
+            }
+        }
+        _ => 10.0,
+    });
+    let analysis = analyse(&plan, &results);
+    let [half, most] = &analysis.scenarios[0].thresholds[..] else { panic!("two thresholds") };
+    assert_eq!((half.score, half.share, most.score), (5.0, 0.5, 9.0));
+    assert_eq!((half.methods[0].reached, half.methods[0].evaluations), (3, None));
+    let time = half.methods[1];
+    assert_eq!((time.reached, time.evaluations, time.steps, time.seconds), (8, Some(100.0), Some(1000.0), Some(1.0)));
+    assert_eq!((most.methods[0].reached, most.methods[1].evaluations), (0, Some(500.0)));
+    let (plan, results) = comparison(&["a", "b"], &["s"], 8, |_, _, seed| -(seed as f64));
+    // Halves of negative scores fall, which no best so far does: such a run is not usable.
+    assert!(analyse(&plan, &results).scenarios[0].thresholds.is_empty());
+}
+
+#[test]
+fn curves_reach_from_the_first_generation_to_the_end_of_the_shortest_run() {
+    let (plan, mut results) = comparison(&["a"], &["s"], 2, |_, _, seed| seed as f64);
+    results[1] = run("a", "s", 2, &points(&[(200, 1.0), (1200, 3.0)]));
+    let analysis = analyse(&plan, &results);
+    let curves = &analysis.scenarios[0].curves[0];
+    assert_eq!((curves.axis, curves.limit), (Axis::Evaluations, Some(1000.0)));
+    assert_eq!((curves.grid[0], curves.grid[60], curves.grid[120]), (0.0, 500.0, 1000.0));
+    let median = &curves.methods[0].median;
+    assert_eq!((median[23], median[24], median[60]), (None, Some(0.75), Some(1.0)));
+    assert_eq!(analysis.scenarios[0].curves[2].limit, None);
+}
+
+#[test]
+fn the_same_results_give_the_same_analysis_in_any_order() {
+    let (plan, mut results) = clear_and_open();
+    let analysis = analyse(&plan, &results);
+    results.reverse();
+    assert_eq!(analyse(&plan, &results), analysis);
+}

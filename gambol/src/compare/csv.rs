@@ -1,0 +1,45 @@
+//! The raw data as CSV.
+
+use super::{Analysis, RunResult};
+use std::fmt::Write;
+
+/// A row for each run:
+/// `method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds`.
+///
+/// A score is empty if the run had none by then; nothing is put in its place here.
+pub(super) fn scores(analysis: &Analysis) -> String {
+    let header = "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds\n";
+    let mut text = String::from(header);
+    for run in &analysis.runs {
+        let name = [&run.method, &run.scenario].map(|name| quoted(name)).join(",");
+        let scores = [run.score_at_equal_evaluations, run.score_at_equal_steps].map(field).join(",");
+        let (evaluations, steps, seconds) = (field(run.evaluations), field(run.steps), field(run.seconds));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{name},{},{scores},{evaluations},{steps},{seconds}", run.seed);
+    }
+    text
+}
+
+/// A row for each point of each run: `method,scenario,seed,evaluations,steps,seconds,best`.
+///
+/// `best` is empty while every evaluation had failed.
+pub(super) fn curves(results: &[RunResult]) -> String {
+    let mut text = String::from("method,scenario,seed,evaluations,steps,seconds,best\n");
+    for run in results {
+        let name = [&run.method, &run.scenario].map(|name| quoted(name)).join(",");
+        for point in &run.points {
+            let (evaluations, steps, seconds, best) =
+                (point.evaluations, point.steps, point.seconds, field(point.best));
+            let _ = writeln!(text, "{name},{},{evaluations},{steps},{seconds},{best}", run.seed);
+        }
+    }
+    text
+}
+
+fn field(value: Option<impl ToString>) -> String {
+    value.map_or_else(String::new, |value| value.to_string())
+}
+
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+}

@@ -1,0 +1,143 @@
+//! Comparisons: every run is done once, whoever does it, and the parts give the whole.
+
+use crate::{
+    folder::read,
+    program::{assert_says, fail, gambol, run, start, succeed, text},
+};
+use std::{fs, path::Path, process::Command};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Two strategies, one creature, two movements, two seeds: eight runs of a blink.
+fn small(out: &Path) -> Command {
+    let mut compare = gambol("compare");
+    compare.args(["--strategies", "ga,thesis", "--creatures", "biped-1", "--movements", "running,jumping"]);
+    compare.args(["--seeds", "2", "--evaluations", "100", "--set", "movement.steps=40", "--out"]).arg(out);
+    compare
+}
+
+/// Scores without the seconds, which are the last column.
+fn scores(folder: &Path) -> Vec<String> {
+    let text = String::from_utf8(read(&folder.join("scores.csv"))).expect("text");
+    text.lines().map(|line| line.rsplit_once(',').expect("columns").0.to_owned()).collect()
+}
+
+#[test]
+fn all_runs_are_done_and_the_outcome_is_written() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("whole");
+    let printed = succeed(&mut small(&out));
+    assert_says(&printed, &["ga", "thesis", "biped-1 running", "biped-1 jumping", "comparison.html"]);
+    assert_eq!(scores(&out).len(), 1 + 8);
+    assert!(fs::read_to_string(out.join("comparison.html"))?.contains("<html"));
+    assert!(fs::read_to_string(out.join("curves.csv"))?.lines().count() > 8);
+    // Again: nothing is left to be done, and the same comes out.
+    let before = scores(&out);
+    succeed(small(&out).arg("--quiet"));
+    assert_eq!(scores(&out), before);
+    Ok(())
+}
+
+#[test]
+fn parts_done_elsewhere_and_runs_side_by_side_give_the_whole() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small(&path("whole")).args(["--quiet", "--at-once", "1", "--threads", "2"]));
+    for part in ["1/3", "2/3", "3/3"] {
+        let out = path(&part.replace('/', "-of-"));
+        assert_says(&succeed(small(&out).args(["--part", part])), &["gambol merge"]);
+    }
+    let parts = ["1-of-3", "2-of-3", "3-of-3"].map(path);
+    succeed(gambol("merge").args(&parts).arg("--out").arg(path("merged")));
+    assert_eq!(scores(&path("merged")), scores(&path("whole")));
+
+    let message = fail(gambol("merge").args(&parts[..2]).arg("--out").arg(path("gap")));
+    assert_says(&message, &["2 of 8 runs are missing; the first is: ", ", seed "]);
+    assert!(!path("gap").exists());
+    let mut other = small(&path("other"));
+    succeed(other.args(["--quiet", "--set", "movement.steps=41", "--part", "3/3"]));
+    let message = fail(gambol("merge").args(&parts[..2]).arg(path("other")).arg("--out").arg(path("mixed")));
+    assert_says(&message, &["are not parts of one comparison: they differ in the settings of the runs"]);
+    let message = fail(gambol("merge").arg(path("nowhere")).arg("--out").arg(path("nothing")));
+    assert_says(&message, &["is not the folder of a comparison"]);
+    Ok(())
+}
+
+#[test]
+fn killed_and_started_again_it_goes_on() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+    let longer = |out: &Path| {
+        let mut compare = small(out);
+        compare.args(["--evaluations", "2000"]);
+        compare
+    };
+    succeed(longer(&whole).arg("--quiet"));
+    let mut child = start(&mut longer(&broken));
+    while !broken.join("runs").exists() {
+        std::thread::yield_now();
+    }
+    child.kill()?;
+    child.wait()?;
+    succeed(longer(&broken).arg("--quiet"));
+    assert_eq!(scores(&broken), scores(&whole));
+    Ok(())
+}
+
+#[test]
+fn a_changed_result_is_noticed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small(&path("whole")).arg("--quiet"));
+    let file = path("whole").join("results/ga/biped-1-running/seed-1.json");
+    let text = fs::read_to_string(&file)?;
+    fs::write(&file, text.replacen("\"seed\":1", "\"seed\":3", 1))?;
+    let message = fail(gambol("merge").arg(path("whole")).arg("--out").arg(path("again")));
+    assert_says(&message, &["seed-1.json", "damaged"]);
+    Ok(())
+}
+
+#[test]
+fn requests_that_make_no_sense_are_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let compare = |arguments: &[&str]| {
+        let mut compare = gambol("compare");
+        compare.args(["--creatures", "biped-1", "--evaluations", "10", "--out"]).arg(&out).args(arguments);
+        compare
+    };
+    for (arguments, says) in [
+        (&["--strategies", "ga,ga"][..], "the strategy \"ga\" is there twice"),
+        (&["--strategies", "ga", "--movements", "running,running"], "the movement \"running\" is there twice"),
+        (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
+        (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean \"biped-2\"?"),
+        (&["--strategies", "ga", "--movements", "runing"], "did you mean \"running\"?"),
+        (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
+        (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),
+        (&["--strategies", "ga", "--set", "movement.steps=0"], "ga on biped-1 running: movement.steps = 0"),
+    ] {
+        assert_says(&fail(&mut compare(arguments)), &[says]);
+    }
+    for (arguments, says) in [
+        (&["--strategies", "gaa"][..], "there is no strategy or preset \"gaa\"; did you mean \"ga\"?"),
+        (&["--strategies", "../x=y.json"], "\"../x\" is no name for a strategy"),
+        (&["--strategies", "ga", "--part", "0/3"], "must be a number and how many parts there are, such as 3/20"),
+        (&["--strategies", "ga", "--part", "4/3"], "such as 3/20"),
+        (&["--strategies", "ga", "--seeds", "0"], "0 is not in 1.."),
+    ] {
+        let ended = run(&mut compare(arguments));
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert_says(&ended.stderr, &[says]);
+    }
+    assert!(!out.exists(), "nothing was made");
+
+    fs::create_dir(&out)?;
+    fs::write(out.join("precious.txt"), "mine")?;
+    let message = fail(&mut compare(&["--strategies", "ga"]));
+    assert_says(&message, &[text(&out), "already exists and is no comparison"]);
+    let begun = folder.path().join("begun");
+    succeed(small(&begun).arg("--quiet"));
+    let message = fail(small(&begun).args(["--evaluations", "200"]));
+    assert_says(&message, &["holds another comparison (the budget)"]);
+    Ok(())
+}

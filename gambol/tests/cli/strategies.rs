@@ -1,0 +1,148 @@
+//! Every strategy gets what conventional neuroevolution gets: repeatable runs, exact resumption, champions that verify.
+
+use crate::{
+    damage::json,
+    folder::{assert_same_run, read},
+    program::{assert_says, fail, gambol, succeed, text},
+};
+use std::path::Path;
+use std::process::Command;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const STRATEGIES: [&str; 5] = ["ga", "neat", "cma-es", "open-es", "cosyne"];
+
+fn small_run(strategy: &str, folder: &Path, generations: u32) -> Command {
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--strategy", strategy, "--population", "12", "--set", "movement.steps=60"]);
+    train.args(["--quiet", "--generations"]).arg(generations.to_string()).arg("--out").arg(folder);
+    train
+}
+
+#[test]
+fn a_run_is_the_same_on_other_threads_and_after_a_pause() -> Outcome {
+    for strategy in STRATEGIES {
+        let folder = tempfile::tempdir()?;
+        let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
+        succeed(small_run(strategy, &whole, 12).args(["--threads", "2", "--no-report"]));
+        succeed(small_run(strategy, &broken, 5).args(["--threads", "1", "--no-report"]));
+        succeed(gambol("resume").arg(&broken).args([
+            "--generations",
+            "12",
+            "--no-report",
+            "--quiet",
+            "--threads",
+            "1",
+        ]));
+        assert_same_run(&whole, &broken);
+        assert_says(&succeed(gambol("verify").arg(whole.join("champion.json"))), &["identical"]);
+    }
+    Ok(())
+}
+
+#[test]
+fn another_seed_is_another_run() -> Outcome {
+    for strategy in STRATEGIES {
+        let folder = tempfile::tempdir()?;
+        let (one, two) = (folder.path().join("one"), folder.path().join("two"));
+        succeed(small_run(strategy, &one, 2).arg("--no-report"));
+        succeed(small_run(strategy, &two, 2).args(["--no-report", "--seed", "2"]));
+        assert_ne!(read(&one.join("log.jsonl")), read(&two.join("log.jsonl")), "{strategy}");
+    }
+    Ok(())
+}
+
+#[test]
+fn the_report_of_every_strategy_can_be_made_and_names_it() -> Outcome {
+    for (strategy, name) in STRATEGIES.into_iter().zip(["conventional", "neat", "cma-es", "open-es", "cosyne"]) {
+        let folder = tempfile::tempdir()?;
+        let run = folder.path().join("run");
+        succeed(&mut small_run(strategy, &run, 4));
+        let page = String::from_utf8(read(&run.join("report.html")))?;
+        assert_says(&page, &[&format!("\"{name}\"")]);
+        assert_eq!(json(&run.join("champion.json"))["content"]["strategy"], name);
+    }
+    Ok(())
+}
+
+#[test]
+fn they_are_listed_and_a_misspelt_one_is_corrected() -> Outcome {
+    assert_says(&succeed(&mut gambol("strategies")), &["conventional (or ga)", "neat", "cma-es", "open-es", "cosyne"]);
+    let listed: serde_json::Value = serde_json::from_str(&succeed(gambol("strategies").arg("--json")))?;
+    assert_eq!(listed.as_array().map(Vec::len), Some(STRATEGIES.len()));
+    let message = fail(gambol("train").args(["biped-1", "running", "--strategy", "naet"]));
+    assert_says(&message, &["there is no strategy \"naet\"; did you mean \"neat\"?"]);
+    Ok(())
+}
+
+#[test]
+fn a_file_may_name_a_strategy_and_only_the_settings_that_differ() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (file, run) = (folder.path().join("neat.json"), folder.path().join("run"));
+    std::fs::write(
+        &file,
+        r#"{"strategy": {"neat": {"recurrent": true, "population": 20}}, "movement": {"steps": 60}}"#,
+    )?;
+    let train = |more: &[&str]| {
+        let mut train = gambol("train");
+        train.args(["biped-1", "running", "--quiet", "--no-report", "--generations", "1", "--config"]).arg(&file);
+        train.args(more);
+        train
+    };
+    succeed(train(&[]).arg("--out").arg(&run));
+    let neat = &json(&run.join("config.json"))["content"]["strategy"]["neat"];
+    assert_eq!((&neat["recurrent"], &neat["population"]), (&true.into(), &20.into()));
+    // What is said on the command line wins, also over a file that says another strategy.
+    let other = folder.path().join("other");
+    succeed(train(&["--strategy", "ga", "--population", "6"]).arg("--out").arg(&other));
+    assert_eq!(json(&other.join("config.json"))["content"]["strategy"]["conventional"]["population"], 6);
+    Ok(())
+}
+
+#[test]
+fn the_weights_of_a_found_topology_can_be_searched() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let found = folder.path().join("found");
+    succeed(small_run("neat", &found, 6).arg("--no-report"));
+    let champion = found.join("champion.json");
+    for strategy in ["ga", "cma-es", "open-es", "cosyne"] {
+        let run = folder.path().join(strategy);
+        succeed(small_run(strategy, &run, 3).arg("--topology-from").arg(&champion));
+        let (old, new) = (json(&champion), json(&run.join("champion.json")));
+        assert_eq!(new["content"]["network"]["shape"], old["content"]["network"]["shape"], "{strategy}");
+        assert_ne!(new["content"]["network"]["weights"], old["content"]["network"]["weights"], "{strategy}");
+        assert_says(&succeed(gambol("verify").arg(run.join("champion.json"))), &["identical"]);
+        // The folder alone repeats it.
+        let again = folder.path().join(format!("{strategy}-again"));
+        let config = run.join("config.json");
+        succeed(gambol("train").args(["--quiet", "--no-report", "--config"]).arg(config).arg("--out").arg(&again));
+        assert_eq!(read(&run.join("champion.json")), read(&again.join("champion.json")), "{strategy}");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let found = folder.path().join("found");
+    succeed(small_run("neat", &found, 1).arg("--no-report"));
+    let champion = found.join("champion.json");
+    let train = |creature: &str| {
+        let mut train = gambol("train");
+        train.args([creature, "running", "--strategy", "cma-es", "--topology-from"]).arg(&champion);
+        train
+    };
+    let message = fail(&mut train("biped-2"));
+    assert_says(
+        &message,
+        &["the topology does not fit the creature: it has 3 inputs, the creature has 5", "only the creature has"],
+    );
+    let message = fail(train("biped-1").args(["--strategy", "neat"]).args(["--set", "sensors=[]"]));
+    assert_says(&message, &["the"]);
+    let message = fail(gambol("train").args(["biped-1", "running", "--topology-from", "nowhere.json"]));
+    assert_says(&message, &["nowhere.json"]);
+    let config = found.join("config.json");
+    let message = fail(gambol("train").args(["biped-1", "running", "--topology-from", text(&config)]));
+    assert_says(&message, &["config.json"]);
+    Ok(())
+}

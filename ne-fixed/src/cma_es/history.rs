@@ -1,0 +1,63 @@
+use ne_core::Fitness;
+use serde::{Deserialize, Serialize};
+use std::collections::VecDeque;
+
+/// The fitnesses of one search, generation by generation: by them it is known to have ended.
+///
+/// Source: Hansen, *The CMA Evolution Strategy: A Tutorial*, arXiv 1604.00772, appendix B.3.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub(super) struct History {
+    /// The best and the median of each of the last generations that did not fail as a whole.
+    generations: VecDeque<[Fitness; 2]>,
+}
+
+/// The most generations that are kept.
+const LONGEST: usize = 20_000;
+
+/// A best fitness that differs by no more than this has not changed.
+const EQUAL: f64 = 1e-12;
+
+impl History {
+    /// Adds a generation, scores best first; `updates` is the number of generations of the search so far, this one
+    /// included.
+    pub(super) fn push(&mut self, ranked: &[Option<Fitness>], n: usize, updates: u64) {
+        let Some(best) = ranked[0] else { return };
+        // If half of them failed, the median is the worst there is.
+        let succeeded = ranked.iter().flatten().count();
+        let median = ranked[(ranked.len() / 2).min(succeeded - 1)].unwrap_or(best);
+        self.generations.push_back([best, median]);
+        let length = (updates / 5).max(stagnation_length(n, ranked.len()) as u64).min(LONGEST as u64);
+        while self.generations.len() as u64 > length {
+            self.generations.pop_front();
+        }
+    }
+
+    /// Whether the search makes no progress any more: the best has been the same for 10 + ⌈30 n / λ⌉ generations
+    /// (EqualFunValues), or neither best nor median have been better in the last 30 % of at least 120 + 30 n / λ
+    /// generations, and of the last fifth of all, than in the first 30 % of them (Stagnation).
+    pub(super) fn stagnates(&self, n: usize, population: usize) -> bool {
+        let equal_length = 10 + (30 * n).div_ceil(population);
+        let bests = || self.generations.iter().rev().take(equal_length).map(|[best, _]| best.get());
+        let range = bests().fold(f64::MIN, f64::max) - bests().fold(f64::MAX, f64::min);
+        if self.generations.len() >= equal_length && range <= EQUAL {
+            return true;
+        }
+        if self.generations.len() < stagnation_length(n, population) {
+            return false;
+        }
+        let part = self.generations.len() * 3 / 10;
+        let median = |which: usize, skipped: usize| {
+            let mut values: Vec<Fitness> =
+                self.generations.iter().skip(skipped).take(part).map(|pair| pair[which]).collect();
+            values.sort_unstable();
+            values[part / 2]
+        };
+        let last = self.generations.len() - part;
+        (0..2).all(|which| median(which, last) <= median(which, 0))
+    }
+}
+
+fn stagnation_length(n: usize, population: usize) -> usize {
+    (120 + 30 * n / population).min(LONGEST)
+}

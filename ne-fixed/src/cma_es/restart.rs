@@ -1,0 +1,123 @@
+use super::CmaEsSettings;
+use ne_core::{RandomStream, SettingError};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+/// When the search of [`CmaEs`](crate::CmaEs) has ended (it has converged, stagnates, or its covariance has
+/// degenerated), whether it begins anew, and how. The mean is drawn again, and nothing is kept of the search before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Restart {
+    /// Never; the search goes on with the least deviation. The default.
+    #[default]
+    None,
+    /// With twice the population each time, which sees more of a landscape's large shape.
+    ///
+    /// Source: Auger & Hansen, *A Restart CMA Evolution Strategy with Increasing Population Size*, CEC 2005.
+    Ipop,
+    /// In one of two ways, whichever has had fewer evaluations so far: with twice the population of the last such
+    /// restart, or with a small population and a small step size, both by chance, for at most half the evaluations of
+    /// the last large search.
+    ///
+    /// Source: Hansen, *Benchmarking a BI-Population CMA-ES on the BBOB-2009 Function Testbed*, GECCO 2009.
+    Bipop,
+}
+
+/// The population grows to at most this many times the first: nine doublings, as in the papers.
+const GREATEST_GROWTH: usize = 512;
+
+/// What the restarts so far have come to, and what the present search is like.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct Restarts {
+    /// How many there were.
+    pub(super) count: u64,
+    /// The population of the present search.
+    pub(super) population: usize,
+    /// The first step size of the present search.
+    pub(super) step_size: f64,
+    /// The evaluations of the present search.
+    pub(super) evaluations: u64,
+    /// The regime of the present search.
+    regime: Regime,
+    /// The evaluations after which the present search ends in any case.
+    evaluation_limit: Option<u64>,
+    /// The population of the last large search.
+    large_population: usize,
+    /// The evaluations of the large searches that have ended, and of the last of all that was not small.
+    large_evaluations: u64,
+    last_large_evaluations: u64,
+    /// The evaluations of the small searches that have ended.
+    small_evaluations: u64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+enum Regime {
+    First,
+    Large,
+    Small,
+}
+
+impl Restarts {
+    /// Before the first restart.
+    pub(super) fn new(population: usize, step_size: f64) -> Self {
+        Self {
+            count: 0,
+            population,
+            step_size,
+            evaluations: 0,
+            regime: Regime::First,
+            evaluation_limit: None,
+            large_population: population,
+            large_evaluations: 0,
+            last_large_evaluations: 0,
+            small_evaluations: 0,
+        }
+    }
+
+    /// Checks the numbers of a saved one.
+    pub(super) fn check(&self) -> Result<(), SettingError> {
+        for (field, population) in [("population", self.population), ("large_population", self.large_population)] {
+            if !(2..=CmaEsSettings::MAX_POPULATION).contains(&population) {
+                return Err(SettingError::new(field, population, "from 2 to 1000000"));
+            }
+        }
+        SettingError::check_range("step_size", self.step_size, f64::MIN_POSITIVE, 1000.0)
+    }
+
+    /// Whether the present search has had its share.
+    pub(super) fn is_over(&self) -> bool {
+        self.evaluation_limit.is_some_and(|limit| self.evaluations >= limit)
+    }
+
+    /// Begins the next search; `first` is the population of the first.
+    pub(super) fn next(&mut self, settings: &CmaEsSettings, first: usize, stream: &mut RandomStream) {
+        match self.regime {
+            Regime::First => self.last_large_evaluations = self.evaluations,
+            Regime::Large => {
+                self.last_large_evaluations = self.evaluations;
+                self.large_evaluations += self.evaluations;
+            }
+            Regime::Small => self.small_evaluations += self.evaluations,
+        }
+        self.count += 1;
+        self.evaluations = 0;
+        if settings.restart == Restart::Bipop && self.small_evaluations < self.large_evaluations {
+            // Hansen 2009, section 2: λ (½ λ_large / λ)^(U²), and 10^(−2U) times the step size.
+            let (size, shrink): (f64, f64) = (stream.random(), stream.random());
+            let growth = 0.5 * self.large_population as f64 / first as f64;
+            self.population = ((first as f64 * libm::pow(growth, size * size)) as usize).max(2);
+            self.step_size = (settings.step_size * libm::pow(10.0, -2.0 * shrink)).max(settings.least_deviation);
+            self.regime = Regime::Small;
+            self.evaluation_limit = Some(self.last_large_evaluations / 2);
+        } else {
+            let greatest = (first * GREATEST_GROWTH).min(CmaEsSettings::MAX_POPULATION);
+            self.large_population = (2 * self.large_population).min(greatest);
+            self.population = self.large_population;
+            self.step_size = settings.step_size;
+            self.regime = Regime::Large;
+            self.evaluation_limit = None;
+        }
+    }
+}

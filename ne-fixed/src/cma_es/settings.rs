@@ -1,0 +1,59 @@
+use super::{CovarianceModel, Restart};
+use crate::Initialization;
+use ne_core::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// The settings of [`CmaEs`](crate::CmaEs). Those a file leaves out have their defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CmaEsSettings {
+    /// Number of individuals, from 2 to 1,000,000, until a restart changes it; default none, which is 4 + ⌊3 ln n⌋ for
+    /// n weights: 19 for 188. More make the search slower and steadier, which helps where fitness is noisy or full of
+    /// traps.
+    pub population: Option<usize>,
+    /// The deviation of each weight in the first generation, σ, above 0 and at most 1000; default 0.5. A third of the
+    /// distance at which the answer may lie is right.
+    pub step_size: f64,
+    /// The least the greatest deviation of a weight may become, from 1e-9 to `step_size`; default 1e-5. The search does
+    /// not get finer than that; with restarts it then begins anew.
+    pub least_deviation: f64,
+    /// Which covariance matrices are adapted; default full.
+    pub covariance: CovarianceModel,
+    /// When a search that has ended begins anew; default never.
+    pub restart: Restart,
+    /// How the mean of the first generation, and of each restart, is drawn; default zeros.
+    pub initial_mean: Initialization,
+}
+
+impl Default for CmaEsSettings {
+    fn default() -> Self {
+        Self {
+            population: None,
+            step_size: 0.5,
+            least_deviation: 1e-5,
+            covariance: CovarianceModel::default(),
+            restart: Restart::default(),
+            initial_mean: Initialization::Uniform { limit: 0.0 },
+        }
+    }
+}
+
+impl CmaEsSettings {
+    /// The greatest population.
+    pub(super) const MAX_POPULATION: usize = 1_000_000;
+
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the field and its range: `step_size = 0: must be above 0 and at most 1000`.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        if let Some(population) = self.population.filter(|size| !(2..=Self::MAX_POPULATION).contains(size)) {
+            return Err(SettingError::new("population", population, "from 2 to 1000000"));
+        }
+        if !(self.step_size > 0.0 && self.step_size <= 1000.0) {
+            return Err(SettingError::new("step_size", self.step_size, "above 0 and at most 1000"));
+        }
+        SettingError::check_range("least_deviation", self.least_deviation, 1e-9, self.step_size)?;
+        self.initial_mean.validate().map_err(|error| error.within("initial_mean"))
+    }
+}

@@ -1,0 +1,223 @@
+use super::{
+    CmaEsSettings, Restart, covariance::Covariance, distribution::Distribution, history::History,
+    parameters::Parameters, restart::Restarts, state::State,
+};
+use crate::{WeightVector, normal::Normal, ranking::best_first};
+use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
+use ne_net::{NetworkError, Topology};
+use serde::{Deserialize, Serialize};
+
+const MEAN: Purpose = Purpose::new("cma-es mean");
+const SAMPLES: Purpose = Purpose::new("cma-es samples");
+const RESTART: Purpose = Purpose::new("cma-es restart");
+
+/// The evolution strategy with covariance matrix adaptation: draws weights from a normal distribution, and learns from
+/// the better ones where its mean, its size and its shape should go.
+///
+/// A generation, once evaluated, changes in this order, with the weights of the better half positive and of the others
+/// negative (active CMA):
+/// 1. the mean: the weighted mean of the better half;
+/// 2. the step size: it grows if successive steps of the mean agree, and shrinks if they cancel each other;
+/// 3. the covariance: it grows along the path of the mean and the steps of the better half, and shrinks along those of
+///    the others.
+///
+/// Only the order of the fitnesses counts. Failed evaluations rank below every fitness; of equals those with the lower
+/// index are better. If all fail, nothing is learnt. If seven tenths are equally good, the step size grows.
+///
+/// Genes are rounded to `f32`, and what is learnt is learnt from the rounded ones. The mean itself is not evaluated.
+/// If the covariance degenerates (its condition number passes 1e14) and there are no restarts, it begins anew
+/// with its mean variance.
+///
+/// # Statistics
+/// - `step_size`: σ;
+/// - `greatest_deviation`: σ times the deviation of the weight that varies most, in units of the weights;
+/// - `condition_number`: of the covariance matrix; of a full one a lower bound, mostly within a factor n;
+/// - `population`: of the next generation;
+/// - `restarts`: how many there were;
+/// - `evaluations_since_restart`.
+///
+/// Source: Hansen, *The CMA Evolution Strategy: A Tutorial*, arXiv 1604.00772. Where this differs:
+/// [`CovarianceModel`](crate::CovarianceModel).
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "State", try_from = "State")]
+pub struct CmaEs {
+    pub(super) settings: CmaEsSettings,
+    pub(super) topology: Topology,
+    /// Where the first search begins, if the settings do not say it.
+    pub(super) start: Option<Vec<f32>>,
+    pub(super) restarts: Restarts,
+    pub(super) history: History,
+    /// None before a search begins.
+    pub(super) distribution: Option<Distribution>,
+    /// The generation last asked. Once told, what stands here is memory to be used again.
+    pub(super) population: Vec<WeightVector>,
+    /// Whether `population` was asked and not told yet.
+    pub(super) asked: bool,
+}
+
+/// The search diverges when a deviation has grown by this much.
+const GREATEST_GROWTH: f64 = 1e4;
+
+impl CmaEs {
+    /// A search for weights of nets of this topology.
+    ///
+    /// # Errors
+    /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
+    pub fn new(settings: CmaEsSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
+        let topology = topology.into();
+        settings.validate()?;
+        topology.validate().map_err(|error| error.within("topology"))?;
+        Ok(Self {
+            restarts: Restarts::new(Self::first_population(&settings, &topology), settings.step_size),
+            settings,
+            topology,
+            start: None,
+            history: History::default(),
+            distribution: None,
+            population: Vec::new(),
+            asked: false,
+        })
+    }
+
+    /// The same search, beginning at these weights: a champion to be made better, or moved to another task. Restarts
+    /// begin elsewhere. Without effect once a generation was asked.
+    ///
+    /// # Errors
+    /// If the number of weights is not the topology's or one is NaN or infinite.
+    pub fn with_mean(self, start: &[f32]) -> Result<Self, NetworkError> {
+        self.topology.check_weights(start)?;
+        Ok(Self { start: Some(start.to_vec()), ..self })
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &CmaEsSettings {
+        &self.settings
+    }
+
+    /// The topology of all nets.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// The mean of the distribution, in the order of the genes; none before the first generation and right after the
+    /// end of a search that begins anew.
+    pub fn mean(&self) -> Option<&[f64]> {
+        self.distribution.as_ref().map(|distribution| distribution.mean.as_slice())
+    }
+
+    /// The population of the first search.
+    pub(super) fn first_population(settings: &CmaEsSettings, topology: &Topology) -> usize {
+        settings.population.unwrap_or_else(|| Parameters::default_population(topology.weight_count()))
+    }
+
+    /// The distribution a search begins with.
+    fn first_distribution(&self, seed: Seed) -> Distribution {
+        let mean = match &self.start {
+            Some(start) if self.restarts.count == 0 => start.clone(),
+            _ => {
+                let mut individual = WeightVector::zero(self.topology.clone());
+                self.settings.initial_mean.draw(&mut individual, &mut seed.stream(MEAN));
+                individual.weights().to_vec()
+            }
+        };
+        let covariance = Covariance::identity(self.settings.covariance, mean.len(), 1.0);
+        Distribution::new(mean.into_iter().map(f64::from).collect(), self.restarts.step_size, covariance)
+    }
+
+    /// Whether the present search has nothing more to give.
+    fn has_ended(&self, distribution: &Distribution) -> bool {
+        let deviation = distribution.greatest_deviation();
+        deviation <= self.settings.least_deviation
+            || deviation >= GREATEST_GROWTH * self.restarts.step_size
+            || distribution.covariance.is_degenerate()
+            || self.history.stagnates(self.topology.weight_count(), self.restarts.population)
+            || self.restarts.is_over()
+    }
+
+    /// Keeps a search alive that would have ended.
+    fn revive(&self, distribution: &mut Distribution) {
+        if distribution.covariance.is_degenerate() {
+            let variance = distribution.covariance.mean_variance().clamp(1e-100, 1e100);
+            let covariance = Covariance::identity(self.settings.covariance, distribution.mean.len(), variance);
+            let updates = distribution.updates;
+            let mean = std::mem::take(&mut distribution.mean);
+            *distribution = Distribution { updates, ..Distribution::new(mean, distribution.step_size, covariance) };
+        }
+        distribution.limit_deviation(self.settings.least_deviation, GREATEST_GROWTH * self.settings.step_size);
+    }
+}
+
+impl Strategy for CmaEs {
+    type Genome = WeightVector;
+
+    fn name(&self) -> &str {
+        "cma-es"
+    }
+
+    fn ask(&mut self, seed: Seed) -> &[WeightVector] {
+        let distribution = self.distribution.take().unwrap_or_else(|| self.first_distribution(seed));
+        let normal = Normal::new();
+        let draw = |index: usize| {
+            let mut stream = seed.individual(index as u64).stream(SAMPLES);
+            (0..distribution.mean.len()).map(|_| f64::from(normal.next(&mut stream))).collect()
+        };
+        let mut samples: Vec<Vec<f64>> = (0..self.restarts.population).map(draw).collect();
+        distribution.sample(&mut samples);
+        self.population.resize_with(samples.len(), || WeightVector::zero(self.topology.clone()));
+        for (individual, sample) in self.population.iter_mut().zip(&samples) {
+            let (genes, _) = individual.genes_mut();
+            let finite = |x: f64| (x as f32).clamp(f32::MIN, f32::MAX);
+            genes.iter_mut().zip(sample).for_each(|(gene, &x)| *gene = finite(x));
+        }
+        self.distribution = Some(distribution);
+        self.asked = true;
+        &self.population
+    }
+
+    fn tell(&mut self, evaluations: &[Evaluation], seed: Seed) {
+        debug_assert_eq!(evaluations.len(), self.population.len());
+        self.asked = false;
+        self.restarts.evaluations += evaluations.len() as u64;
+        let scores: Vec<_> = evaluations.iter().map(Evaluation::fitness).collect();
+        let order = best_first(&scores);
+        let Some(mut distribution) = self.distribution.take() else { return };
+        if scores[order[0]].is_some() {
+            let ranked = order.iter().map(|&index| self.population[index].weights());
+            let ranked = ranked.map(|genes| genes.iter().map(|&gene| gene.into()).collect()).collect();
+            let n = self.topology.weight_count();
+            let parameters = Parameters::new(n, order.len(), self.settings.covariance);
+            distribution.update(ranked, &parameters);
+            if scores[order[0]] == scores[order[order.len() * 7 / 10]] {
+                // Flat fitness, appendix B.3: the answer is farther away.
+                distribution.step_size *=
+                    libm::exp(0.2 + parameters.step_size_rate / parameters.step_size_damping);
+            }
+            let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
+            self.history.push(&ranked, n, distribution.updates);
+        }
+        if self.settings.restart != Restart::None && self.has_ended(&distribution) {
+            let first = Self::first_population(&self.settings, &self.topology);
+            self.restarts.next(&self.settings, first, &mut seed.stream(RESTART));
+            self.history = History::default();
+        } else {
+            self.revive(&mut distribution);
+            self.distribution = Some(distribution);
+        }
+    }
+
+    fn statistics(&self) -> Vec<Statistic> {
+        let (step_size, deviation, condition) =
+            self.distribution.as_ref().map_or((self.restarts.step_size, self.restarts.step_size, 1.0), |distribution| {
+                let condition = distribution.covariance.condition();
+                (distribution.step_size, distribution.greatest_deviation(), condition)
+            });
+        vec![
+            Statistic::new("step_size", step_size),
+            Statistic::new("greatest_deviation", deviation),
+            Statistic::new("condition_number", condition),
+            Statistic::new("population", self.restarts.population as f64),
+            Statistic::new("restarts", self.restarts.count as f64),
+            Statistic::new("evaluations_since_restart", self.restarts.evaluations as f64),
+        ]
+    }
+}

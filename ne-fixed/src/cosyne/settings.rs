@@ -1,0 +1,73 @@
+use super::Permutation;
+use crate::{CrossoverChoice, Initialization, OnePoint, Setting};
+use ne_core::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// The settings of [`Cosyne`](crate::Cosyne). Those a file leaves out have their defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CosyneSettings {
+    /// Number of nets, and of weights in each subpopulation, from 2 to 1,000,000; default 50.
+    pub population: usize,
+    /// The share of the nets, the best, that are parents, above 0 and at most 1; default ¼. At least two are.
+    pub parents: f64,
+    /// The share of the nets, the worst, that children take the place of, from 0 to below 1; default ¼.
+    pub offspring: f64,
+    /// How a child's genes are made from two parents'; default one-point.
+    pub crossover: CrossoverChoice,
+    /// The probability that a child's gene mutates, from 0 to 1; default 0.1.
+    pub mutation_rate: f64,
+    /// The scale of mutations, which have a Cauchy distribution, in units of the weights, from 0 to 1000; default 0.3.
+    pub mutation_scale: f64,
+    /// Which weights change places; default by fitness.
+    pub permutation: Permutation,
+    /// How the weights of the first generation are drawn; default uniform in ±1.
+    pub initialization: Initialization,
+}
+
+impl Default for CosyneSettings {
+    fn default() -> Self {
+        Self {
+            population: 50,
+            parents: 0.25,
+            offspring: 0.25,
+            crossover: CrossoverChoice::OnePoint(OnePoint {}),
+            mutation_rate: 0.1,
+            mutation_scale: 0.3,
+            permutation: Permutation::ByFitness,
+            initialization: Initialization::Uniform { limit: 1.0 },
+        }
+    }
+}
+
+impl CosyneSettings {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the field and its range: `mutation_rate = 2: must be from 0 to 1`.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        if !(2..=1_000_000).contains(&self.population) {
+            return Err(SettingError::new("population", self.population, "from 2 to 1000000"));
+        }
+        if !(self.parents > 0.0 && self.parents <= 1.0) {
+            return Err(SettingError::new("parents", self.parents, "above 0 and at most 1"));
+        }
+        if !(0.0..1.0).contains(&self.offspring) {
+            return Err(SettingError::new("offspring", self.offspring, "from 0 to below 1"));
+        }
+        self.crossover.validate().map_err(|error| error.within("crossover"))?;
+        SettingError::check_range("mutation_rate", self.mutation_rate, 0.0, 1.0)?;
+        SettingError::check_range("mutation_scale", self.mutation_scale, 0.0, 1000.0)?;
+        self.initialization.validate().map_err(|error| error.within("initialization"))
+    }
+
+    /// How many nets are parents.
+    pub(super) fn parent_count(&self) -> usize {
+        ((self.parents * self.population as f64) as usize).max(2)
+    }
+
+    /// How many nets children take the place of.
+    pub(super) fn offspring_count(&self) -> usize {
+        (self.offspring * self.population as f64) as usize
+    }
+}

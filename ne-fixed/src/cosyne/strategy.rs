@@ -1,0 +1,140 @@
+use super::{CosyneSettings, cauchy, permutation::shuffle_marked, state::State};
+use crate::{Crossover, WeightVector, diversity::diversity, ranking::best_first};
+use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
+use ne_net::Topology;
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+const FIRST_GENERATION: Purpose = Purpose::new("cosyne first generation");
+const REPRODUCTION: Purpose = Purpose::new("cosyne reproduction");
+const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
+
+/// Cooperative synapse neuroevolution (CoSyNE): each weight of the net has a subpopulation of its own, and weights of
+/// all subpopulations meet in ever new nets.
+///
+/// The population is a table: a row is a net, a column is the subpopulation of one weight. From a generation that was
+/// evaluated the next is made in these steps:
+/// 1. the nets are put in order, best first;
+/// 2. pairs of different parents, drawn from the best quarter, have children by crossover and mutation with Cauchy
+///    noise; the children take the place of the worst quarter;
+/// 3. in each subpopulation, weights are marked by chance ([`Permutation`](crate::Permutation)), and those marked change
+///    places among each other.
+///
+/// Failed evaluations rank below every fitness; of equals those with the lower index are better.
+///
+/// # Statistics
+/// - `diversity`: the standard deviation of a gene over the population, mean of all genes, in units of the weights;
+/// - `marked_share`: the expected share of the weights that are marked after the generation last told, children not
+///   counted.
+///
+/// Source: Gomez, Schmidhuber & Miikkulainen, *Accelerated Neural Evolution through Cooperatively Coevolved Synapses*,
+/// JMLR 9, 2008, algorithm 1.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "State", try_from = "State")]
+pub struct Cosyne {
+    pub(super) settings: CosyneSettings,
+    pub(super) topology: Topology,
+    /// The generation last told, with its scores. Empty before the first.
+    pub(super) parents: Vec<WeightVector>,
+    pub(super) scores: Vec<Option<Fitness>>,
+    /// The generation last asked. Once told, it is a parent, and what stands here is memory to be used again.
+    pub(super) population: Vec<WeightVector>,
+    /// Whether `population` was asked and not told yet.
+    pub(super) asked: bool,
+}
+
+impl Cosyne {
+    /// A search for weights of nets of this topology.
+    ///
+    /// # Errors
+    /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
+    pub fn new(settings: CosyneSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
+        let topology = topology.into();
+        settings.validate()?;
+        topology.validate().map_err(|error| error.within("topology"))?;
+        let (parents, scores, population) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { settings, topology, parents, scores, population, asked: false })
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &CosyneSettings {
+        &self.settings
+    }
+
+    /// The topology of all nets.
+    pub fn topology(&self) -> &Topology {
+        &self.topology
+    }
+
+    /// Writes a child of two of the parents, which stand in `order`, best first.
+    fn breed(&self, child: &mut WeightVector, order: &[usize], seed: Seed) {
+        let CosyneSettings { crossover, mutation_rate, mutation_scale, .. } = &self.settings;
+        let (count, mut stream) = (self.settings.parent_count(), seed.stream(REPRODUCTION));
+        let first = stream.random_range(0..count);
+        let second = (first + stream.random_range(1..count)) % count;
+        let parent = |place: usize| self.parents[order[place]].weights();
+        let (genes, _) = child.genes_mut();
+        crossover.cross(parent(first), parent(second), genes, &mut stream);
+        cauchy::mutate(genes, *mutation_rate, *mutation_scale, &mut stream);
+    }
+
+    /// In each subpopulation, marked weights change places; children, who come last, are not marked by fitness.
+    fn permute(&self, table: &mut [WeightVector], order: &[usize], seed: Seed) {
+        let scores: Vec<_> = order.iter().map(|&index| self.scores[index]).collect();
+        let mut probabilities = self.settings.permutation.probabilities(&scores, self.topology.weight_count());
+        let kept = table.len() - self.settings.offspring_count();
+        probabilities[kept..].fill(self.settings.permutation.of_children());
+        for gene in 0..self.topology.weight_count() {
+            let places = shuffle_marked(&probabilities, &mut seed.individual(gene as u64).stream(PERMUTATION));
+            let column: Vec<f32> = places.into_iter().map(|place| table[place].weights()[gene]).collect();
+            table.iter_mut().zip(column).for_each(|(net, weight)| net.genes_mut().0[gene] = weight);
+        }
+    }
+}
+
+impl Strategy for Cosyne {
+    type Genome = WeightVector;
+
+    fn name(&self) -> &str {
+        "cosyne"
+    }
+
+    fn ask(&mut self, seed: Seed) -> &[WeightVector] {
+        let size = self.settings.population;
+        let mut population = std::mem::take(&mut self.population);
+        population.resize_with(size, || WeightVector::zero(self.topology.clone()));
+        let place = |index: usize| seed.individual(index as u64);
+        if self.parents.is_empty() {
+            for (index, individual) in population.iter_mut().enumerate() {
+                self.settings.initialization.draw(individual, &mut place(index).stream(FIRST_GENERATION));
+            }
+        } else {
+            let order = best_first(&self.scores);
+            let kept = size - self.settings.offspring_count();
+            population.iter_mut().zip(&order[..kept]).for_each(|(net, &index)| net.copy_from(&self.parents[index]));
+            for (index, child) in population.iter_mut().enumerate().skip(kept) {
+                self.breed(child, &order, place(index));
+            }
+            self.permute(&mut population, &order, seed);
+        }
+        self.population = population;
+        self.asked = true;
+        &self.population
+    }
+
+    fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
+        debug_assert_eq!(evaluations.len(), self.population.len());
+        std::mem::swap(&mut self.parents, &mut self.population);
+        self.asked = false;
+        self.scores.clear();
+        self.scores.extend(evaluations.iter().map(Evaluation::fitness));
+    }
+
+    fn statistics(&self) -> Vec<Statistic> {
+        let marked = self.settings.permutation.probabilities(&self.scores, self.topology.weight_count());
+        vec![
+            Statistic::new("diversity", diversity(&self.parents)),
+            Statistic::new("marked_share", marked.iter().sum::<f64>() / marked.len().max(1) as f64),
+        ]
+    }
+}

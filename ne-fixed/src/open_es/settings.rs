@@ -1,0 +1,63 @@
+use super::Adam;
+use crate::Initialization;
+use ne_core::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// The settings of [`OpenEs`](crate::OpenEs). Those a file leaves out have their defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct OpenEsSettings {
+    /// Number of samples, even, from 2 to 1,000,000; default 50. The centre is evaluated besides, so that a generation
+    /// has one individual more.
+    pub population: usize,
+    /// The deviation of the samples from the centre, σ, in units of the weights, above 0 and at most 1000; default 0.1.
+    pub deviation: f64,
+    /// What the deviation is multiplied by after each generation, above 0 and at most 1; default 1. Below 1 the search
+    /// gets finer.
+    pub deviation_decay: f64,
+    /// What the deviation decays to, above 0 and at most `deviation`; default 0.01.
+    pub least_deviation: f64,
+    /// How the centre climbs.
+    pub adam: Adam,
+    /// How strongly weights are drawn to 0: a gradient of −`weight_decay` times the weight is added, from 0 to 1;
+    /// default 0.005. Large weights saturate their neurons, where nothing can be learnt.
+    pub weight_decay: f64,
+    /// How the first centre is drawn; default Gaussian, scaled by fan-in.
+    pub initial_centre: Initialization,
+}
+
+impl Default for OpenEsSettings {
+    fn default() -> Self {
+        Self {
+            population: 50,
+            deviation: 0.1,
+            deviation_decay: 1.0,
+            least_deviation: 0.01,
+            adam: Adam::default(),
+            weight_decay: 0.005,
+            initial_centre: Initialization::ScaledGaussian { scale: 1.0 },
+        }
+    }
+}
+
+impl OpenEsSettings {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the field and its range: `population = 7: must be even, from 2 to 1000000`.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        if !((2..=1_000_000).contains(&self.population) && self.population.is_multiple_of(2)) {
+            return Err(SettingError::new("population", self.population, "even, from 2 to 1000000"));
+        }
+        let above_0 = |field, value, most| {
+            let fits = value > 0.0 && value <= most;
+            if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
+        };
+        above_0("deviation", self.deviation, 1000.0)?;
+        above_0("deviation_decay", self.deviation_decay, 1.0)?;
+        above_0("least_deviation", self.least_deviation, self.deviation)?;
+        self.adam.validate().map_err(|error| error.within("adam"))?;
+        SettingError::check_range("weight_decay", self.weight_decay, 0.0, 1.0)?;
+        self.initial_centre.validate().map_err(|error| error.within("initial_centre"))
+    }
+}

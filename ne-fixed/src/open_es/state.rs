@@ -1,0 +1,68 @@
+use super::{OpenEs, OpenEsSettings, adam::AdamMemory};
+use crate::{
+    StateError,
+    state_error::{asked_generation, check_numbers},
+};
+use ne_core::SettingError;
+use ne_net::Topology;
+use serde::{Deserialize, Serialize};
+
+/// An [`OpenEs`] as a checkpoint has it: without memory that is only kept for reuse.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename = "OpenEs")]
+pub(super) struct State {
+    settings: OpenEsSettings,
+    topology: Topology,
+    /// Empty before the first generation.
+    centre: Vec<f64>,
+    deviation: f64,
+    adam: AdamMemory,
+    gradient_length: f64,
+    /// The generation asked and not told yet; empty between generations.
+    asked: Vec<Vec<f32>>,
+}
+
+impl From<OpenEs> for State {
+    fn from(strategy: OpenEs) -> Self {
+        let asked = if strategy.asked { strategy.population } else { Vec::new() };
+        Self {
+            settings: strategy.settings,
+            topology: strategy.topology,
+            centre: strategy.centre,
+            deviation: strategy.deviation,
+            adam: strategy.adam,
+            gradient_length: strategy.gradient_length,
+            asked: asked.iter().map(|individual| individual.weights().to_vec()).collect(),
+        }
+    }
+}
+
+impl TryFrom<State> for OpenEs {
+    type Error = StateError;
+
+    fn try_from(state: State) -> Result<Self, StateError> {
+        let mut strategy = Self::new(state.settings, state.topology)?;
+        let (settings, n) = (&strategy.settings, strategy.topology.weight_count());
+        if !state.centre.is_empty() {
+            check_numbers("centre", &state.centre, n)?;
+        }
+        SettingError::check_range("deviation", state.deviation, settings.least_deviation, settings.deviation)?;
+        check_numbers("adam.means", &state.adam.means, n)?;
+        check_numbers("adam.squares", &state.adam.squares, n)?;
+        if let Some(index) = state.adam.squares.iter().position(|&square| square < 0.0) {
+            let found = state.adam.squares[index];
+            return Err(SettingError::new(format!("adam.squares[{index}]"), found, "at least 0").into());
+        }
+        SettingError::check_range("gradient_length", state.gradient_length, 0.0, f64::INFINITY)?;
+        strategy.population = asked_generation(state.asked, 1 + settings.population, &strategy.topology)?;
+        strategy.asked = !strategy.population.is_empty();
+        if strategy.asked && state.centre.is_empty() {
+            return Err(SettingError::new("centre", "none", "there when individuals were asked").into());
+        }
+        strategy.centre = state.centre;
+        strategy.deviation = state.deviation;
+        strategy.adam = state.adam;
+        strategy.gradient_length = state.gradient_length;
+        Ok(strategy)
+    }
+}

@@ -1,0 +1,8 @@
+//! What the strategies over weights promise, conventional neuroevolution aside.
+
+mod cma_es;
+mod cma_es_convergence;
+mod common;
+mod cosyne;
+mod open_es;
+mod poles;

@@ -1,0 +1,112 @@
+//! The genome: genes of neurons and of connections.
+
+mod check;
+mod express;
+mod genes;
+pub(crate) mod graph;
+mod layout;
+
+pub use check::GenomeError;
+pub use genes::{ConnectionGene, InnovationNumber, NodeGene};
+pub use layout::{BiasKind, Layout, NodeId, NodeKind};
+
+use check::UncheckedGenome;
+use serde::{Deserialize, Serialize};
+
+/// Genes of neurons and connections: a net whose topology evolves.
+///
+/// Neurons stand in the order of their numbers, so outputs come first; connections in the order of their innovation
+/// numbers. Between two nodes there is at most one connection in each direction; none leads to an input or the bias
+/// node; unless the [layout](Layout) is recurrent, connections form no cycle, disabled ones included.
+///
+/// [`express`](ne_core::Genome::express) builds the net: disabled connections are left out, and so are hidden neurons
+/// from which no way leads to an output.
+///
+/// In JSON: `{"layout": {"inputs": 2, "outputs": 1, "bias": "input-node", "recurrent": false}, "nodes": [{"id": 3,
+/// "activation": "tanh", "bias": 0}], "connections": [{"innovation": 0, "from": 0, "to": 3, "weight": 0.5, "enabled":
+/// true}]}`. Reading checks all of the above.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "UncheckedGenome")]
+pub struct NeatGenome {
+    layout: Layout,
+    nodes: Vec<NodeGene>,
+    connections: Vec<ConnectionGene>,
+}
+
+impl NeatGenome {
+    /// A genome.
+    ///
+    /// # Errors
+    /// If it is not as described above; the error names the gene.
+    pub fn new(layout: Layout, nodes: Vec<NodeGene>, connections: Vec<ConnectionGene>) -> Result<Self, GenomeError> {
+        let genome = Self { layout, nodes, connections };
+        genome.check()?;
+        Ok(genome)
+    }
+
+    /// A genome without genes, which is not yet a valid one: memory to write one into.
+    pub(crate) fn blank(layout: Layout) -> Self {
+        Self { layout, nodes: Vec::new(), connections: Vec::new() }
+    }
+
+    /// Becomes a copy of an individual of the same run, in its own memory.
+    pub(crate) fn copy_from(&mut self, other: &Self) {
+        self.nodes.clone_from(&other.nodes);
+        self.connections.clone_from(&other.connections);
+    }
+
+    /// The inputs and outputs, and what kind of nets these are.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// The genes of the neurons, in order of their numbers.
+    pub fn nodes(&self) -> &[NodeGene] {
+        &self.nodes
+    }
+
+    /// The genes of the connections, in order of their innovation numbers.
+    pub fn connections(&self) -> &[ConnectionGene] {
+        &self.connections
+    }
+
+    /// The number of hidden neurons, whether they lead to an output or not.
+    pub fn hidden_count(&self) -> usize {
+        self.nodes.len() - self.layout.outputs
+    }
+
+    /// The number of connections that are not disabled.
+    pub fn enabled_count(&self) -> usize {
+        self.connections.iter().filter(|gene| gene.enabled).count()
+    }
+
+    /// Whether it has this hidden neuron or output.
+    pub(crate) fn has_neuron(&self, node: NodeId) -> bool {
+        self.nodes.binary_search_by_key(&node, |gene| gene.id).is_ok()
+    }
+
+    /// The index of the gene of a neuron that the genome has; `None` for inputs and the bias node.
+    pub(crate) fn neuron_index(&self, node: NodeId) -> Option<usize> {
+        let index = (node as usize).checked_sub(self.layout.sources())?;
+        // Outputs stand first.
+        let is_output = index < self.layout.outputs;
+        Some(if is_output { index } else { self.nodes.partition_point(|gene| gene.id < node) })
+    }
+
+    /// Both kinds of genes, to be changed.
+    pub(crate) fn genes_mut(&mut self) -> (&mut Vec<NodeGene>, &mut Vec<ConnectionGene>) {
+        (&mut self.nodes, &mut self.connections)
+    }
+
+    /// Adds a connection that the genome does not have yet.
+    pub(crate) fn insert_connection(&mut self, gene: ConnectionGene) {
+        let place = self.connections.partition_point(|other| other.innovation < gene.innovation);
+        self.connections.insert(place, gene);
+    }
+
+    /// Adds a neuron that the genome does not have yet.
+    pub(crate) fn insert_node(&mut self, gene: NodeGene) {
+        let place = self.nodes.partition_point(|other| other.id < gene.id);
+        self.nodes.insert(place, gene);
+    }
+}

@@ -1,0 +1,91 @@
+//! Which number a new gene gets.
+
+use crate::{ConnectionGene, InnovationNumber, Layout, NeatGenome, NodeId};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Gives numbers to new genes: the same invention gets the same number within a generation, any other a new one.
+///
+/// Genes with the same number come from the same invention; crossover and the distance between genomes are built on
+/// that. Mutations only *propose* new structure; numbers are given afterwards, individual by individual, so that it does
+/// not matter in which order individuals were mutated.
+///
+/// Connections from inputs to outputs have their numbers from the beginning and keep them: whoever has lost one, or
+/// started without, and invents it later, has the same gene again. Those of a [hidden
+/// layer](crate::StartTopology::HiddenLayer) have numbers from the beginning too.
+///
+/// Source: Stanley & Miikkulainen, *Evolving Neural Networks through Augmenting Topologies*, Evolutionary Computation
+/// 10(2), 2002, section 3.2.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Innovations {
+    pub(crate) next_node: NodeId,
+    pub(crate) next_innovation: InnovationNumber,
+    /// The connections invented in this generation. Not saved: a generation begins without any.
+    #[serde(skip)]
+    connections: BTreeMap<(NodeId, NodeId), InnovationNumber>,
+    /// The splits of connections invented in this generation, by the number of the connection split.
+    #[serde(skip)]
+    splits: BTreeMap<InnovationNumber, Vec<Split>>,
+}
+
+/// The numbers of a neuron that splits a connection, and of the connections to and from it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Split {
+    pub(crate) node: NodeId,
+    pub(crate) incoming: InnovationNumber,
+    pub(crate) outgoing: InnovationNumber,
+}
+
+impl Innovations {
+    /// Of a run whose first generation has hidden neurons and connections numbered below these.
+    pub(crate) fn new(next_node: NodeId, next_innovation: InnovationNumber) -> Self {
+        Self { next_node, next_innovation, connections: BTreeMap::new(), splits: BTreeMap::new() }
+    }
+
+    /// Forgets the inventions of the generation before.
+    pub(crate) fn begin_generation(&mut self) {
+        self.connections.clear();
+        self.splits.clear();
+    }
+
+    /// The number of a new connection; `None` when numbers have run out.
+    pub(crate) fn connection(&mut self, from: NodeId, to: NodeId, layout: &Layout) -> Option<InnovationNumber> {
+        if let Some(number) = direct_connection(from, to, layout) {
+            return Some(number);
+        }
+        if let Some(&number) = self.connections.get(&(from, to)) {
+            return Some(number);
+        }
+        let number = self.next_innovation;
+        self.next_innovation = number.checked_add(1)?;
+        self.connections.insert((from, to), number);
+        Some(number)
+    }
+
+    /// The numbers of a neuron that splits a connection of this genome; `None` when numbers have run out.
+    pub(crate) fn split(&mut self, gene: &ConnectionGene, genome: &NeatGenome) -> Option<Split> {
+        let splits = self.splits.entry(gene.innovation).or_default();
+        // A genome that has that neuron already splits the connection a second time.
+        if let Some(&split) = splits.iter().find(|split| !genome.has_neuron(split.node)) {
+            return Some(split);
+        }
+        let split = Split {
+            node: self.next_node,
+            incoming: self.next_innovation,
+            outgoing: self.next_innovation.checked_add(1)?,
+        };
+        let next_innovation = split.outgoing.checked_add(1)?;
+        self.next_node = split.node.checked_add(1)?;
+        self.next_innovation = next_innovation;
+        splits.push(split);
+        Some(split)
+    }
+}
+
+/// The number of a connection from an input or the bias node to an output.
+pub(crate) fn direct_connection(from: NodeId, to: NodeId, layout: &Layout) -> Option<InnovationNumber> {
+    let sources = layout.sources() as NodeId;
+    let is_direct = from < sources && (sources..layout.first_hidden()).contains(&to);
+    is_direct.then(|| from * layout.outputs as NodeId + (to - sources))
+}

@@ -1,0 +1,70 @@
+use ne_core::{RandomStream, SettingError};
+use rand::RngExt;
+use serde::{Deserialize, Serialize};
+
+/// How numbers around 0 are drawn, in units of the weights.
+///
+/// In JSON: `{"uniform": {"limit": 1}}` or `{"gaussian": {"deviation": 0.5}}`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Noise {
+    /// All between -limit (included) and limit (excluded) alike.
+    Uniform {
+        /// From 0 to 1000.
+        limit: f64,
+    },
+    /// A bell curve.
+    Gaussian {
+        /// Its standard deviation, from 0 to 1000.
+        deviation: f64,
+    },
+}
+
+impl Noise {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        match *self {
+            Self::Uniform { limit } => SettingError::check_range("uniform.limit", limit, 0.0, 1000.0),
+            Self::Gaussian { deviation } => SettingError::check_range("gaussian.deviation", deviation, 0.0, 1000.0),
+        }
+    }
+
+    /// The next number.
+    #[inline]
+    pub(crate) fn draw(self, stream: &mut RandomStream) -> f32 {
+        match self {
+            Self::Uniform { limit } => limit as f32 * symmetric(stream),
+            Self::Gaussian { deviation } => deviation as f32 * normal(stream),
+        }
+    }
+}
+
+/// Uniform from -1 (included) to 1 (excluded).
+#[inline]
+fn symmetric(stream: &mut RandomStream) -> f32 {
+    2.0 * stream.random::<f32>() - 1.0
+}
+
+/// Normally distributed with mean 0 and deviation 1.
+///
+/// Source: Marsaglia & Bray, *A Convenient Method for Generating Normal Variables*, SIAM Review 6(3), 1964. The
+/// logarithm is `libm`'s, the same on every platform.
+fn normal(stream: &mut RandomStream) -> f32 {
+    loop {
+        let (x, y) = (symmetric(stream), symmetric(stream));
+        let square = x * x + y * y;
+        if square > 0.0 && square < 1.0 {
+            return x * (-2.0 * libm::logf(square) / square).sqrt();
+        }
+    }
+}
+
+/// Whether something happens that has this probability.
+#[inline]
+pub(crate) fn happens(probability: f64, stream: &mut RandomStream) -> bool {
+    // What is certain or impossible takes no number.
+    probability > 0.0 && (probability >= 1.0 || stream.random::<f64>() < probability)
+}

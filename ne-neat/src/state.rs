@@ -1,0 +1,262 @@
+use crate::{
+    ConnectionGene, GenomeError, Neat, NeatGenome, NeatSettings, NodeGene, innovation::Innovations, speciation::Species,
+};
+use ne_core::{Fitness, SettingError};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// Why a saved [`Neat`] cannot go on.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// A setting, or the number of inputs or outputs, is out of range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// There are too many or too few individuals.
+    #[error("{field}: found {found} individuals, the settings say {expected}")]
+    Count {
+        /// Which generation: `parents` or `asked`.
+        field: String,
+        /// How many there must be.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
+    /// An individual is not a genome.
+    #[error("{field}[{index}].{source}")]
+    Individual {
+        /// Which generation: `parents` or `asked`.
+        field: String,
+        /// Which individual, from 0.
+        index: usize,
+        /// What is wrong with it.
+        source: GenomeError,
+    },
+    /// A gene has a number that has not been given yet.
+    #[error("{field}[{index}]: has number {number} of {what}, the next to be given is {next}")]
+    NotGiven {
+        /// Which generation: `parents` or `asked`.
+        field: String,
+        /// Which individual, from 0.
+        index: usize,
+        /// A node or an innovation.
+        what: String,
+        /// The number.
+        number: u32,
+        /// The next that the registry will give.
+        next: u32,
+    },
+    /// Genes of one number are not the same connection.
+    #[error(
+        "{field}[{index}]: innovation {innovation} leads from {from} to {to}, elsewhere from {other_from} to {other_to}"
+    )]
+    Ends {
+        /// Which generation: `parents` or `asked`.
+        field: String,
+        /// Which individual, from 0.
+        index: usize,
+        /// The number.
+        innovation: u32,
+        /// Where it comes from here.
+        from: u32,
+        /// Where it leads to here.
+        to: u32,
+        /// Where it comes from in an individual before.
+        other_from: u32,
+        /// Where it leads to in an individual before.
+        other_to: u32,
+    },
+    /// Species are not in the order of their numbers, or one has a number that has not been given yet.
+    #[error("species[{index}].id = {id}: must be {allowed}")]
+    SpeciesId {
+        /// Which species, from 0.
+        index: usize,
+        /// Its number.
+        id: u64,
+        /// What is allowed, in words.
+        allowed: String,
+    },
+    /// A parent is of no species, or a species has no member.
+    #[error("{what}")]
+    Membership {
+        /// Who is without whom.
+        what: String,
+    },
+    /// A number is not in its range.
+    #[error("threshold = {found}: must be above 0 and finite")]
+    Threshold {
+        /// The threshold.
+        found: f64,
+    },
+}
+
+/// A [`Neat`] as a checkpoint has it: the layout once, and no memory that is only kept for reuse.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename = "Neat")]
+pub(crate) struct State {
+    settings: NeatSettings,
+    inputs: usize,
+    outputs: usize,
+    innovations: Innovations,
+    threshold: f64,
+    next_species: u64,
+    best: Option<Fitness>,
+    stagnation: u64,
+    /// Those of the generation last told, in order of their numbers.
+    species: Vec<SavedSpecies>,
+    /// The generation last told; empty before the first.
+    parents: Vec<Parent>,
+    /// The generation asked and not told yet; empty between generations.
+    asked: Vec<Genes>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct SavedSpecies {
+    id: u64,
+    best: Option<Fitness>,
+    stagnation: u64,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Parent {
+    species: u64,
+    fitness: Option<Fitness>,
+    genes: Genes,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Genes {
+    nodes: Vec<NodeGene>,
+    connections: Vec<ConnectionGene>,
+}
+
+impl From<&NeatGenome> for Genes {
+    fn from(genome: &NeatGenome) -> Self {
+        Self { nodes: genome.nodes().to_vec(), connections: genome.connections().to_vec() }
+    }
+}
+
+impl From<Neat> for State {
+    fn from(neat: Neat) -> Self {
+        let mut species_of = vec![0; neat.parents.len()];
+        for species in &neat.species {
+            species.members.iter().for_each(|&member| species_of[member] = species.id);
+        }
+        let parent = |((genome, &fitness), &species): ((&NeatGenome, &Option<Fitness>), &u64)| Parent {
+            species,
+            fitness,
+            genes: genome.into(),
+        };
+        let saved = |&Species { id, best, stagnation, .. }: &Species| SavedSpecies { id, best, stagnation };
+        let asked: &[_] = if neat.asked { &neat.population } else { &[] };
+        Self {
+            inputs: neat.layout.inputs,
+            outputs: neat.layout.outputs,
+            threshold: neat.threshold,
+            next_species: neat.next_species,
+            best: neat.best,
+            stagnation: neat.stagnation,
+            species: neat.species.iter().map(saved).collect(),
+            parents: neat.parents.iter().zip(&neat.scores).zip(&species_of).map(parent).collect(),
+            asked: asked.iter().map(Genes::from).collect(),
+            innovations: neat.innovations,
+            settings: neat.settings,
+        }
+    }
+}
+
+impl TryFrom<State> for Neat {
+    type Error = StateError;
+
+    fn try_from(state: State) -> Result<Self, StateError> {
+        let mut neat = Self::new(state.settings, state.inputs, state.outputs)?;
+        if !(state.threshold > 0.0 && state.threshold.is_finite()) {
+            return Err(StateError::Threshold { found: state.threshold });
+        }
+        neat.threshold = state.threshold;
+        neat.innovations = state.innovations;
+        neat.scores = state.parents.iter().map(|parent| parent.fitness).collect();
+        neat.next_species = state.next_species;
+        neat.species = species(state.species, &state.parents, &neat)?;
+        let parents = state.parents.into_iter().map(|parent| parent.genes).collect();
+        neat.parents = generation("parents", parents, &neat)?;
+        neat.population = generation("asked", state.asked, &neat)?;
+        neat.asked = !neat.population.is_empty();
+        check_ends(&neat)?;
+        (neat.best, neat.stagnation) = (state.best, state.stagnation);
+        Ok(neat)
+    }
+}
+
+/// The species with their members.
+fn species(saved: Vec<SavedSpecies>, parents: &[Parent], neat: &Neat) -> Result<Vec<Species>, StateError> {
+    let mut all: Vec<Species> = Vec::new();
+    for (index, SavedSpecies { id, best, stagnation }) in saved.into_iter().enumerate() {
+        let wrong = |allowed| Err(StateError::SpeciesId { index, id, allowed });
+        if all.last().is_some_and(|before| before.id >= id) {
+            return wrong("above the one before".into());
+        }
+        if id >= neat.next_species {
+            return wrong(format!("below {}, the next to be given", neat.next_species));
+        }
+        all.push(Species { id, best, stagnation, members: Vec::new() });
+    }
+    for (index, parent) in parents.iter().enumerate() {
+        match all.iter_mut().find(|species| species.id == parent.species) {
+            Some(species) => species.members.push(index),
+            None => {
+                let what = format!("parents[{index}].species = {}: must be one of the species", parent.species);
+                return Err(StateError::Membership { what });
+            }
+        }
+    }
+    for (index, species) in all.iter_mut().enumerate() {
+        if species.members.is_empty() {
+            return Err(StateError::Membership { what: format!("species[{index}]: has no member among the parents") });
+        }
+        species.rank(&neat.scores);
+    }
+    Ok(all)
+}
+
+/// A generation, or an empty one.
+fn generation(field: &str, genes: Vec<Genes>, neat: &Neat) -> Result<Vec<NeatGenome>, StateError> {
+    let expected = neat.settings.population;
+    if !genes.is_empty() && genes.len() != expected {
+        return Err(StateError::Count { field: field.into(), expected, found: genes.len() });
+    }
+    let genome = |(index, genes): (usize, Genes)| {
+        let genome = NeatGenome::new(neat.layout, genes.nodes, genes.connections)
+            .map_err(|source| StateError::Individual { field: field.into(), index, source })?;
+        let Innovations { next_node, next_innovation, .. } = neat.innovations;
+        let node = genome.nodes().last().map(|gene| gene.id);
+        let innovation = genome.connections().last().map(|gene| gene.innovation);
+        for (what, last, next) in [("a node", node, next_node), ("an innovation", innovation, next_innovation)] {
+            if let Some(number) = last.filter(|&number| number >= next) {
+                return Err(StateError::NotGiven { field: field.into(), index, what: what.into(), number, next });
+            }
+        }
+        Ok(genome)
+    };
+    genes.into_iter().enumerate().map(genome).collect()
+}
+
+/// Genes of one number must be the same connection, or crossover could make genomes that are none.
+fn check_ends(neat: &Neat) -> Result<(), StateError> {
+    let mut ends = BTreeMap::new();
+    for (field, generation) in [("parents", &neat.parents), ("asked", &neat.population)] {
+        for (index, genome) in generation.iter().enumerate() {
+            for &ConnectionGene { innovation, from, to, .. } in genome.connections() {
+                let (other_from, other_to) = *ends.entry(innovation).or_insert((from, to));
+                if (other_from, other_to) != (from, to) {
+                    let field = field.into();
+                    return Err(StateError::Ends { field, index, innovation, from, to, other_from, other_to });
+                }
+            }
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,7 @@
+//! Nets of any graph: what NEAT evolves, and what a frozen topology of it is.
+
+mod net;
+mod shape;
+
+pub use net::{GraphNet, GraphNetError};
+pub use shape::{GraphNeuron, GraphShape};
