@@ -14,7 +14,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ne-statistics",   &["ne-core"]),
     ("tasks",           &["ne-core"]),
     ("envs-rapier",     &["ne-core", "tasks", "creatures"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-statistics", "tasks", "creatures", "envs-rapier"]),
+    ("ne-neat",         &["ne-core", "ne-net"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-rapier"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
     ("gambol-tests",    &[]),

@@ -1,7 +1,7 @@
 //! From a configuration to the things a run is made of.
 
 use crate::{
-    config::{ControllerSettings, FrozenTopology, RunConfig},
+    config::{ControllerSettings, FrozenTopology, RunConfig, StrategySettings},
     suggest,
 };
 use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
@@ -37,6 +37,9 @@ pub enum SetupError {
     /// The topology was made for another creature, or for other sensors.
     #[error("the topology does not fit the creature: {0}")]
     Topology(String),
+    /// A topology is given to a strategy that searches for one.
+    #[error("topology: NEAT finds its own, and cannot keep one; choose another strategy for its weights")]
+    Evolving,
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
@@ -100,6 +103,7 @@ impl Setup {
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
         let topology = match &config.topology {
             None => shape.into(),
+            Some(_) if matches!(config.strategy, StrategySettings::Neat(_)) => return Err(SetupError::Evolving),
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
         config.strategy.validate(&topology)?;

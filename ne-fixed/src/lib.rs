@@ -1,9 +1,15 @@
 //! Neuroevolution of weights on a fixed topology: the net's shape stays, its weights evolve.
 //!
-//! The genome is a [`WeightVector`]; each strategy is a file that reads like its paper. So far there is
-//! [`ConventionalNe`], a generational genetic algorithm, in the form of the thesis
-//! ([`ConventionalNeSettings::thesis`]) and in a better one ([`ConventionalNeSettings::default`]); CMA-ES, OpenAI-ES
-//! and CoSyNE will stand beside it.
+//! The genome is a [`WeightVector`]; each strategy is a folder whose main file reads like its paper.
+//!
+//! | strategy | what it is | when |
+//! |---|---|---|
+//! | [`ConventionalNe`] | a generational genetic algorithm, in the form of the thesis ([`thesis`](ConventionalNeSettings::thesis)) and in a better one | to see evolution at work; rugged landscapes |
+//! | [`CmaEs`] | a normal distribution that learns size and shape; restarts with other populations | up to a thousand weights; the fewest evaluations where fitness says much |
+//! | [`OpenEs`] | a centre that climbs an estimated gradient | thousands of weights, noisy fitness, many processors |
+//! | [`Cosyne`] | a subpopulation for each weight, whose members meet in ever new nets | small nets, few evaluations |
+//!
+//! They take any [`Topology`](ne_net::Topology), a dense shape or a frozen graph, recurrent ones included.
 //!
 //! The one decision behind the operators: **they are plain numbers on plain slices.** A [`Crossover`] or [`Mutation`]
 //! sees weights and a random stream of its own and knows nothing of nets, populations or generations. A [`Setting`], it

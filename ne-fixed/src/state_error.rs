@@ -42,8 +42,11 @@ pub(crate) fn generation(
         return Err(StateError::Count { field: field.into(), expected: size, found: genes.len() });
     }
     let genome = |(index, (weights, deviation))| {
-        WeightVector::new(topology.clone(), weights, deviation)
-            .map_err(|source| StateError::Individual { field: field.into(), index, source })
+        WeightVector::new(topology.clone(), weights, deviation).map_err(|source| StateError::Individual {
+            field: field.into(),
+            index,
+            source,
+        })
     };
     genes.enumerate().map(genome).collect()
 }

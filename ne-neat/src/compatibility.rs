@@ -46,10 +46,22 @@ impl Compatibility {
             difference += biases;
             compared += neurons;
         }
-        let larger = first.len().max(second.len());
-        let size = if larger < self.small_genome { 1.0 } else { larger.max(1) as f64 };
         let mean = difference / compared.max(1) as f64;
-        (self.excess * excess as f64 + self.disjoint * disjoint as f64) / size + self.weights * mean
+        (self.excess * excess as f64 + self.disjoint * disjoint as f64) / self.size(a, b) + self.weights * mean
+    }
+
+    /// Whether the distance is below `threshold`.
+    pub(crate) fn is_near(&self, a: &NeatGenome, b: &NeatGenome, threshold: f64) -> bool {
+        // At least so many genes do not match. That settles most comparisons without a look at the genes.
+        let unmatched = a.connections().len().abs_diff(b.connections().len());
+        let least = self.excess.min(self.disjoint) * unmatched as f64 / self.size(a, b);
+        least < threshold && self.distance(a, b) < threshold
+    }
+
+    /// N.
+    fn size(&self, a: &NeatGenome, b: &NeatGenome) -> f64 {
+        let larger = a.connections().len().max(b.connections().len());
+        if larger < self.small_genome { 1.0 } else { larger.max(1) as f64 }
     }
 }
 
@@ -91,4 +103,56 @@ fn bias_difference(a: &NeatGenome, b: &NeatGenome) -> (f64, usize) {
         }
     }
     (sum, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Layout, NodeGene};
+    use ne_net::Activation;
+    use proptest::prelude::*;
+
+    const PAPER: Compatibility = Compatibility { excess: 1.0, disjoint: 1.0, weights: 0.4, small_genome: 20 };
+
+    /// A genome with one output and connections from as many inputs as needed, numbered by them.
+    fn genome(bias: BiasKind, output_bias: f32, genes: &[(u32, f32)]) -> NeatGenome {
+        let layout = Layout { inputs: 50, outputs: 1, bias, recurrent: false };
+        let id = layout.sources() as u32;
+        let gene = |&(from, weight)| ConnectionGene { innovation: from, from, to: id, weight, enabled: from % 2 == 0 };
+        let node = NodeGene { id, activation: Activation::Tanh, bias: output_bias };
+        NeatGenome::new(layout, vec![node], genes.iter().map(gene).collect()).expect("valid")
+    }
+
+    #[test]
+    fn the_terms_are_those_of_the_paper() {
+        // Matching: 1, 2, 4. Disjoint: 3, 5. Excess: 6, 7, 9.
+        let a = genome(BiasKind::None, 0.0, &[(1, 0.5), (2, 1.0), (4, -1.0), (5, 9.0)]);
+        let b = genome(BiasKind::None, 0.0, &[(1, 1.0), (2, 1.0), (3, 9.0), (4, 1.5), (6, 0.0), (7, 0.0), (9, 0.0)]);
+        let settings = Compatibility { excess: 10.0, disjoint: 100.0, weights: 0.5, small_genome: 20 };
+        assert_eq!(settings.distance(&a, &b), 230.0 + 0.5 * (3.0 / 3.0));
+        let divided = Compatibility { small_genome: 7, ..settings };
+        assert_eq!(divided.distance(&a, &b), 230.0 / 7.0 + 0.5);
+    }
+
+    #[test]
+    fn biases_are_weights() {
+        let a = genome(BiasKind::PerNeuron, 1.0, &[(1, 0.5)]);
+        let b = genome(BiasKind::PerNeuron, 3.5, &[(1, 1.0)]);
+        assert_eq!(PAPER.distance(&a, &b), 0.4 * 1.5);
+    }
+
+    fn genes() -> impl Strategy<Value = Vec<(u32, f32)>> {
+        proptest::collection::btree_map(0..50_u32, -3.0..3.0_f32, 0..40).prop_map(|genes| genes.into_iter().collect())
+    }
+
+    proptest! {
+        #[test]
+        fn it_is_a_distance(a in genes(), b in genes(), threshold in 0.0..10.0f64) {
+            let (a, b) = (genome(BiasKind::None, 0.0, &a), genome(BiasKind::None, 0.0, &b));
+            prop_assert_eq!(PAPER.distance(&a, &a), 0.0);
+            prop_assert_eq!(PAPER.distance(&a, &b), PAPER.distance(&b, &a));
+            prop_assert!(PAPER.distance(&a, &b) >= 0.0);
+            prop_assert_eq!(PAPER.is_near(&a, &b, threshold), PAPER.distance(&a, &b) < threshold);
+        }
+    }
 }

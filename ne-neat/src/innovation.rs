@@ -89,3 +89,67 @@ pub(crate) fn direct_connection(from: NodeId, to: NodeId, layout: &Layout) -> Op
     let is_direct = from < sources && (sources..layout.first_hidden()).contains(&to);
     is_direct.then(|| from * layout.outputs as NodeId + (to - sources))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BiasKind, NodeGene};
+    use ne_net::Activation;
+
+    const LAYOUT: Layout = Layout { inputs: 2, outputs: 1, bias: BiasKind::InputNode, recurrent: true };
+
+    fn genome(hidden: &[NodeId]) -> NeatGenome {
+        let node = |&id: &NodeId| NodeGene { id, activation: Activation::Tanh, bias: 0.0 };
+        let connection = ConnectionGene { innovation: 0, from: 0, to: 3, weight: 1.0, enabled: true };
+        NeatGenome::new(LAYOUT, [3].iter().chain(hidden).map(node).collect(), vec![connection]).expect("valid")
+    }
+
+    #[test]
+    fn the_same_invention_has_the_same_number_within_a_generation() {
+        let mut innovations = Innovations::new(4, 3);
+        assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(3));
+        assert_eq!(innovations.connection(0, 4, &LAYOUT), Some(4));
+        assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(3));
+        innovations.begin_generation();
+        assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(5));
+    }
+
+    #[test]
+    fn direct_connections_keep_their_numbers() {
+        let mut innovations = Innovations::new(4, 3);
+        for generation in 0..2 {
+            for from in 0..3 {
+                assert_eq!(innovations.connection(from, 3, &LAYOUT), Some(from), "generation {generation}");
+            }
+            innovations.begin_generation();
+        }
+        assert_eq!(innovations.next_innovation, 3);
+    }
+
+    #[test]
+    fn the_same_split_has_the_same_numbers_unless_the_genome_has_that_neuron() {
+        let mut innovations = Innovations::new(4, 3);
+        let plain = genome(&[]);
+        let gene = plain.connections()[0];
+        let first = Split { node: 4, incoming: 3, outgoing: 4 };
+        let second = Split { node: 5, incoming: 5, outgoing: 6 };
+        assert_eq!(innovations.split(&gene, &plain), Some(first));
+        assert_eq!(innovations.split(&gene, &plain), Some(first));
+        assert_eq!(innovations.split(&gene, &genome(&[4])), Some(second));
+        assert_eq!(innovations.split(&gene, &genome(&[4])), Some(second));
+        innovations.begin_generation();
+        assert_eq!(innovations.split(&gene, &plain), Some(Split { node: 6, incoming: 7, outgoing: 8 }));
+    }
+
+    #[test]
+    fn nothing_is_invented_when_numbers_have_run_out() {
+        let last = InnovationNumber::MAX;
+        let plain = genome(&[]);
+        for (node, innovation) in [(4, last), (4, last - 1), (last, 3)] {
+            let mut innovations = Innovations::new(node, innovation);
+            assert_eq!(innovations.split(&plain.connections()[0], &plain), None);
+            assert_eq!((innovations.next_node, innovations.next_innovation), (node, innovation));
+        }
+        assert_eq!(Innovations::new(4, last).connection(3, 3, &LAYOUT), None);
+    }
+}

@@ -19,6 +19,36 @@
 //! | crossover | [`Crossover`], `crossover.rs` |
 //! | mutations | [`MutationSettings`], `mutation` |
 //! | the first generation | [`StartTopology`], `start.rs` |
+//! | a picture of a genome | [`NeatGenome::to_dot`], `dot.rs` |
+//!
+//! ```
+//! use ne_core::{Evaluation, Evolution, Phenotype, Seed, Serial, StopConditions, Task};
+//! use ne_neat::{Neat, NeatSettings};
+//!
+//! /// Exclusive or: the product of the inputs, ±1, with the other sign.
+//! struct ExclusiveOr;
+//! impl Task for ExclusiveOr {
+//!     fn inputs(&self) -> usize { 2 }
+//!     fn outputs(&self) -> usize { 1 }
+//!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
+//!         let (mut error, mut answer) = (0.0, [0.0]);
+//!         for (a, b) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
+//!             phenotype.activate(&[a, b], &mut answer);
+//!             error += f64::from((answer[0] + a * b).powi(2));
+//!         }
+//!         Evaluation::new(16.0 - error)
+//!     }
+//! }
+//!
+//! let strategy = Neat::new(NeatSettings::default(), 2, 1)?;
+//! let stop = StopConditions { target: Some(15.0), generations: Some(300), ..Default::default() };
+//! let mut evolution = Evolution::new(strategy, Seed::of_run(1), stop);
+//! evolution.run(&ExclusiveOr, &Serial, &mut [])?;
+//! let champion = evolution.champion().expect("there is a best");
+//! assert!(champion.fitness.get() >= 15.0 && champion.genome.hidden_count() > 0);
+//! println!("{}", champion.genome.to_dot(&["a", "b"], &["either"]));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod compatibility;
 mod crossover;

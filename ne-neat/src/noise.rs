@@ -68,3 +68,41 @@ pub(crate) fn happens(probability: f64, stream: &mut RandomStream) -> bool {
     // What is certain or impossible takes no number.
     probability > 0.0 && (probability >= 1.0 || stream.random::<f64>() < probability)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ne_core::{Purpose, Seed};
+
+    #[test]
+    fn numbers_have_the_spread_asked_for() {
+        for (noise, deviation, most) in
+            [(Noise::Uniform { limit: 2.0 }, 2.0 / 3.0_f64.sqrt(), 2.0), (Noise::Gaussian { deviation: 0.5 }, 0.5, 3.5)]
+        {
+            let mut stream = Seed::of_run(1).stream(Purpose::new("test"));
+            let numbers: Vec<f64> = (0..200_000).map(|_| noise.draw(&mut stream).into()).collect();
+            let mean = numbers.iter().sum::<f64>() / 200_000.0;
+            let square = numbers.iter().map(|x| x * x).sum::<f64>() / 200_000.0;
+            assert!(mean.abs() < 0.01 * most && (square.sqrt() - deviation).abs() < 0.01 * deviation, "{noise:?}");
+            assert!(numbers.iter().all(|x| x.abs() <= most), "{noise:?}");
+        }
+    }
+
+    /// Shares of a bell curve beyond 1 and 2 deviations.
+    #[test]
+    fn gaussian_numbers_are_normal() {
+        let mut stream = Seed::of_run(2).stream(Purpose::new("test"));
+        let numbers: Vec<f32> = (0..200_000).map(|_| normal(&mut stream)).collect();
+        for (bound, share) in [(1.0, 0.3173), (2.0, 0.0455)] {
+            let found = numbers.iter().filter(|x| x.abs() > bound).count() as f64 / 200_000.0;
+            assert!((found - share).abs() < 0.004, "{bound}: {found}");
+        }
+    }
+
+    #[test]
+    fn errors_name_the_field() {
+        let error = |noise: Noise| noise.validate().expect_err("out of range").to_string();
+        assert_eq!(error(Noise::Uniform { limit: -1.0 }), "uniform.limit = -1: must be from 0 to 1000");
+        assert_eq!(error(Noise::Gaussian { deviation: 1e4 }), "gaussian.deviation = 10000: must be from 0 to 1000");
+    }
+}

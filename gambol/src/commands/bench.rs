@@ -8,6 +8,9 @@ use gambol::{
 use std::process::ExitCode;
 
 #[derive(Args)]
+#[command(after_help = "\
+Example:
+  gambol bench yardsticks --strategies neat --tasks xor")]
 pub(crate) struct Bench {
     #[command(subcommand)]
     what: What,

@@ -43,3 +43,42 @@ fn field(value: Option<impl ToString>) -> String {
 fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::{
+        analyse,
+        testing::{plan, run},
+    };
+
+    #[test]
+    fn raw_data_has_no_substitutes_and_is_quoted() {
+        let plan = plan(&["a, \"b\""], &["s"], 2);
+        let name = "a, \"b\"";
+        let results = [
+            run(name, "s", 1, &[(500, None), (900, Some(1.5)), (1200, Some(2.0))]),
+            run(name, "s", 2, &[(1100, None)]),
+        ];
+        assert_eq!(
+            scores(&analyse(&plan, &results)),
+            "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds\n\
+             \"a, \"\"b\"\"\",s,1,1.5,1.5,1200,12000,12\n\
+             \"a, \"\"b\"\"\",s,2,,,1100,11000,11\n"
+        );
+        assert_eq!(
+            curves(&results),
+            "method,scenario,seed,evaluations,steps,seconds,best\n\
+             \"a, \"\"b\"\"\",s,1,500,5000,5,\n\
+             \"a, \"\"b\"\"\",s,1,900,9000,9,1.5\n\
+             \"a, \"\"b\"\"\",s,1,1200,12000,12,2\n\
+             \"a, \"\"b\"\"\",s,2,1100,11000,11,\n"
+        );
+    }
+
+    #[test]
+    fn a_run_that_is_missing_has_empty_fields() {
+        let text = scores(&analyse(&plan(&["a"], &["s"], 1), &[]));
+        assert_eq!(text.lines().nth(1), Some("a,s,1,,,,,"));
+    }
+}

@@ -29,7 +29,7 @@ pub(super) fn count(value: f64) -> String {
     let digits = number(value.abs(), 0);
     let mut text = String::new();
     for (place, digit) in digits.chars().enumerate() {
-        if place > 0 && (digits.len() - place) % 3 == 0 {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
             text.push(',');
         }
         text.push(digit);

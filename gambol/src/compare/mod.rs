@@ -6,6 +6,8 @@
 //! where it was killed, its [`Part`]s can be done by machines that know nothing of each other, and [`merge`] needs nothing
 //! but the results.
 //!
+//! When all runs are there, [`write_outcome`] says what came of it: a page, a [`table`] for the terminal, and raw data.
+//!
 //! Programs with a strategy of their own give a [`Runner`] for it.
 
 pub mod analysis;

@@ -20,3 +20,29 @@ pub fn write_outcome(folder: &ComparisonFolder) -> Result<Analysis, CompareError
     }
     Ok(analysis)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::testing::clear_and_open;
+
+    #[test]
+    fn writes_page_and_raw_data_when_all_runs_are_there() {
+        let (plan, results) = clear_and_open();
+        let place = tempfile::tempdir().expect("a folder");
+        let folder = ComparisonFolder::create(place.path(), &plan).expect("a new folder");
+        let missing = write_outcome(&folder).expect_err("there are no results");
+        assert_eq!(missing.to_string(), "32 of 32 runs are missing; the first is: strong, biped running, seed 1");
+        for (job, result) in plan.jobs().zip(&results) {
+            folder.write_result(&job, result).expect("can be written");
+        }
+        let analysis = write_outcome(&folder).expect("all runs are there");
+        assert_eq!(analysis, analyse(&plan, &results));
+        let lines = |name: &str| {
+            let text = std::fs::read_to_string(place.path().join(name)).expect("it was written");
+            text.lines().count()
+        };
+        assert_eq!([lines("scores.csv"), lines("curves.csv")], [1 + 32, 1 + 3 * 32]);
+        assert!(lines("comparison.html") > 100);
+    }
+}

@@ -100,7 +100,7 @@ pub enum PlanError {
         /// Creature and movement.
         scenario: String,
         /// What is wrong.
-        source: RequestError,
+        source: Box<RequestError>,
     },
     /// A configuration cannot run.
     #[error("{method} on {scenario}: {message}")]
@@ -145,13 +145,10 @@ impl PlanRequest {
         };
         for creature in &self.creatures {
             for movement in &self.movements {
-                for method in &self.methods {
-                    let cell = self.cell(method, creature, movement, catalogue)?;
-                    if plan.scenarios.last() != Some(&cell.scenario) {
-                        plan.scenarios.push(cell.scenario.clone());
-                    }
-                    plan.cells.push(cell);
-                }
+                let cell = |method| self.cell(method, creature, movement, catalogue);
+                let cells = self.methods.iter().map(cell).collect::<Result<Vec<_>, _>>()?;
+                plan.scenarios.extend(cells.first().map(|cell| cell.scenario.clone()));
+                plan.cells.extend(cells);
             }
         }
         unique("the scenario", plan.scenarios.iter().cloned())?;
@@ -179,7 +176,7 @@ impl PlanRequest {
         let mut config = config.map_err(|source| PlanError::Request {
             method: method.clone(),
             scenario: scenario.clone(),
-            source,
+            source: Box::new(source),
         })?;
         config.stop = self.budget;
         // Seeds are paired by the plan; whole populations are not looked at in a comparison.

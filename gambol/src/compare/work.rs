@@ -5,8 +5,9 @@ use crate::{
 };
 use ne_core::{GenerationReport, StopReason, StopSignal};
 use std::{
-    fs,
+    fs, io,
     num::NonZero,
+    path::Path,
     sync::{
         Mutex,
         atomic::{AtomicUsize, Ordering},
@@ -128,8 +129,17 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
 }
 
 /// Removes what a run left that was killed before its first checkpoint, unless a process is at work there.
-fn clear(path: &std::path::Path) -> Result<(), CompareError> {
-    let Ok(run) = RunFolder::open(path) else { return Ok(()) };
-    let Ok(_lock) = run.lock() else { return Ok(()) };
-    fs::remove_dir_all(path).map_err(|source| CompareError::Write { path: path.into(), source })
+fn clear(path: &Path) -> Result<(), CompareError> {
+    let _lock = match RunFolder::open(path).map(|run| run.lock()) {
+        Ok(Err(_)) => return Ok(()),
+        Ok(Ok(lock)) => Some(lock),
+        // There is not even a configuration.
+        Err(_) => None,
+    };
+    match fs::remove_dir_all(path) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(CompareError::Write { path: path.into(), source })
+        }
+        _ => Ok(()),
+    }
 }

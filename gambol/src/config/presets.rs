@@ -39,7 +39,7 @@ pub const PRESETS: &[Preset] = &[
         description: "NEAT with the settings of Stanley & Miikkulainen 2002; outputs stretched to ±1, as motors want them",
         strategy: || {
             let output_activation = Activation::SteepTanh;
-            StrategySettings::Neat(NeatSettings { output_activation, ..NeatSettings::stanley_2002() })
+            StrategySettings::Neat(Box::new(NeatSettings { output_activation, ..NeatSettings::stanley_2002() }))
         },
         activation: Activation::Tanh,
     },

@@ -12,7 +12,7 @@ pub enum StrategySettings {
     /// Conventional neuroevolution: a genetic algorithm over the weights of a fixed topology.
     Conventional(ConventionalNeSettings),
     /// NEAT: topology and weights evolve together.
-    Neat(NeatSettings),
+    Neat(Box<NeatSettings>),
     /// CMA-ES: a normal distribution of weights adapts its shape.
     CmaEs(CmaEsSettings),
     /// OpenAI-ES: a gradient estimated from mirrored perturbations.
@@ -49,7 +49,7 @@ pub const STRATEGIES: &[StrategyEntry] = &[
         name: "neat",
         alias: None,
         description: "NeuroEvolution of Augmenting Topologies: the net's connections and neurons evolve with its weights",
-        settings: || StrategySettings::Neat(NeatSettings::default()),
+        settings: || StrategySettings::Neat(Box::default()),
     },
     StrategyEntry {
         name: "cma-es",

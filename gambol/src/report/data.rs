@@ -210,12 +210,13 @@ mod tests {
     use tasks::MovementCatalogue;
 
     fn neat(recurrent: bool) -> StrategySettings {
-        StrategySettings::Neat(NeatSettings { recurrent, ..NeatSettings::default() })
+        StrategySettings::Neat(Box::new(NeatSettings { recurrent, ..NeatSettings::default() }))
     }
 
     #[test]
     fn settings_say_of_the_net_what_the_strategy_leaves_settled() {
-        let request = Request { creature: Some("biped-1".into()), movement: Some("running".into()), ..Request::default() };
+        let request =
+            Request { creature: Some("biped-1".into()), movement: Some("running".into()), ..Request::default() };
         let base = request.resolve(&MovementCatalogue::default()).expect("a configuration");
         let said = |change: fn(&mut RunConfig)| {
             let mut config = base.clone();

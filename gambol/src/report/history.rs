@@ -100,9 +100,9 @@ pub(super) fn statistics(log: &[GenerationReport]) -> Vec<StatisticHistory> {
     histories
 }
 
-/// Four significant digits: more than a chart or its readout shows.
+/// Six significant digits: three more than the page shows, so that rounding twice hardly ever shows.
 fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
+    format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 #[cfg(test)]
@@ -136,7 +136,7 @@ mod tests {
         let best = vec![Some(0.5), Some(0.25), None, Some(2.0)];
         let first = SpeciesHistory { id: 1, start: 0, sizes: vec![10, 4, 0, 3], best };
         let second =
-            SpeciesHistory { id: 2, start: 1, sizes: vec![6, 10, 7], best: vec![None, Some(1.0), Some(0.3333)] };
+            SpeciesHistory { id: 2, start: 1, sizes: vec![6, 10, 7], best: vec![None, Some(1.0), Some(0.333_333)] };
         assert_eq!(species(&log), [first, second]);
         assert_eq!(species(&[report(&[], &[])]), []);
     }
@@ -144,14 +144,14 @@ mod tests {
     #[test]
     fn statistics_become_columns_as_long_as_the_history() {
         let log = [
-            report(&[], &[("deviation", 0.123_456), ("population", 30.0)]),
-            report(&[], &[("deviation", -1234.56)]),
+            report(&[], &[("deviation", 0.123_456_7), ("population", 30.0)]),
+            report(&[], &[("deviation", -1_234_567.8)]),
             report(&[], &[("restarts", 1e-9), ("deviation", 0.0)]),
         ];
         let column =
             |name: &str, values: [Option<f64>; 3]| StatisticHistory { name: name.into(), values: values.into() };
         let expected = [
-            column("deviation", [Some(0.1235), Some(-1235.0), Some(0.0)]),
+            column("deviation", [Some(0.123_457), Some(-1_234_570.0), Some(0.0)]),
             column("population", [Some(30.0), None, None]),
             column("restarts", [None, None, Some(1e-9)]),
         ];

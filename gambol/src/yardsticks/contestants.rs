@@ -45,7 +45,7 @@ fn neat(task: Yardstick) -> Contestant {
         _ => (NeatSettings::pole_balancing(), OutputRange::MinusOneToOne, "NeatSettings::pole_balancing"),
     };
     let topology = DenseShape::new(task.inputs(), Vec::new(), 1).into();
-    Contestant { task, settings: StrategySettings::Neat(settings), topology, output_range, description }
+    Contestant { task, settings: StrategySettings::Neat(Box::new(settings)), topology, output_range, description }
 }
 
 /// The net of those that search weights only.

@@ -10,9 +10,15 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Two strategies, one creature, two movements, two seeds: eight runs of a blink.
 fn small(out: &Path) -> Command {
+    small_of(out, 100)
+}
+
+/// As [`small`], with runs of so many evaluations.
+fn small_of(out: &Path, evaluations: u32) -> Command {
     let mut compare = gambol("compare");
     compare.args(["--strategies", "ga,thesis", "--creatures", "biped-1", "--movements", "running,jumping"]);
-    compare.args(["--seeds", "2", "--evaluations", "100", "--set", "movement.steps=40", "--out"]).arg(out);
+    compare.args(["--seeds", "2", "--set", "movement.steps=40", "--evaluations", &evaluations.to_string()]);
+    compare.arg("--out").arg(out);
     compare
 }
 
@@ -67,19 +73,14 @@ fn parts_done_elsewhere_and_runs_side_by_side_give_the_whole() -> Outcome {
 fn killed_and_started_again_it_goes_on() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
-    let longer = |out: &Path| {
-        let mut compare = small(out);
-        compare.args(["--evaluations", "2000"]);
-        compare
-    };
-    succeed(longer(&whole).arg("--quiet"));
-    let mut child = start(&mut longer(&broken));
-    while !broken.join("runs").exists() {
+    succeed(small_of(&whole, 2000).arg("--quiet"));
+    let mut child = start(&mut small_of(&broken, 2000));
+    while !broken.join("runs").exists() && child.try_wait()?.is_none() {
         std::thread::yield_now();
     }
     child.kill()?;
     child.wait()?;
-    succeed(longer(&broken).arg("--quiet"));
+    succeed(small_of(&broken, 2000).arg("--quiet"));
     assert_eq!(scores(&broken), scores(&whole));
     Ok(())
 }
@@ -93,7 +94,7 @@ fn a_changed_result_is_noticed() -> Outcome {
     let text = fs::read_to_string(&file)?;
     fs::write(&file, text.replacen("\"seed\":1", "\"seed\":3", 1))?;
     let message = fail(gambol("merge").arg(path("whole")).arg("--out").arg(path("again")));
-    assert_says(&message, &["seed-1.json", "damaged"]);
+    assert_says(&message, &["seed-1.json was changed after it was written"]);
     Ok(())
 }
 
@@ -110,7 +111,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga,ga"][..], "the strategy \"ga\" is there twice"),
         (&["--strategies", "ga", "--movements", "running,running"], "the movement \"running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
-        (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean \"biped-2\"?"),
+        (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean `biped-2`?"),
         (&["--strategies", "ga", "--movements", "runing"], "did you mean \"running\"?"),
         (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
         (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),
@@ -137,7 +138,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
     assert_says(&message, &[text(&out), "already exists and is no comparison"]);
     let begun = folder.path().join("begun");
     succeed(small(&begun).arg("--quiet"));
-    let message = fail(small(&begun).args(["--evaluations", "200"]));
+    let message = fail(&mut small_of(&begun, 200));
     assert_says(&message, &["holds another comparison (the budget)"]);
     Ok(())
 }

@@ -1,6 +1,19 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 8] = ["train", "resume", "report", "verify", "replay", "check", "creatures", "movements"];
+const COMMANDS: [&str; 12] = [
+    "train",
+    "resume",
+    "report",
+    "verify",
+    "replay",
+    "check",
+    "compare",
+    "merge",
+    "bench",
+    "creatures",
+    "movements",
+    "strategies",
+];
 
 #[test]
 fn the_help_of_every_command_shows_an_example_of_it() {

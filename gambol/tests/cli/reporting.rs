@@ -45,8 +45,9 @@ fn a_report_stands_alone_and_holds_the_run() -> Outcome {
 fn a_report_of_neat_holds_the_net_it_found_its_species_and_its_numbers() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    succeed(small_run(&path, 6).args(["--quiet", "--strategy", "neat", "--population", "20"]));
-    succeed(gambol("report").arg(&path));
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--strategy", "neat", "--population", "20", "--set", "movement.steps=60"]);
+    succeed(train.args(["--quiet", "--generations", "6", "--out"]).arg(&path));
     let page = fs::read_to_string(path.join("report.html"))?;
     assert_stands_alone(&page);
     let data = data(&page);

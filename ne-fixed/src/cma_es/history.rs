@@ -61,3 +61,38 @@ impl History {
 fn stagnation_length(n: usize, population: usize) -> usize {
     (120 + 30 * n / population).min(LONGEST)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// After how many generations of these values a search of 10 weights with a population of 10 stagnates.
+    fn generations(value: impl Fn(u64) -> f64) -> Option<u64> {
+        let mut history = History::default();
+        (1..=1000).find(|&number| {
+            let fitness = Fitness::new(value(number)).ok();
+            history.push(&[fitness; 10], 10, number);
+            history.stagnates(10, 10)
+        })
+    }
+
+    #[test]
+    fn ends_after_equal_values_or_without_progress() {
+        assert_eq!(generations(|_| 3.0), Some(40));
+        assert_eq!(generations(|number| number as f64), None);
+        // Neither equal nor better.
+        assert_eq!(generations(|number| (number % 7) as f64), Some(150));
+        assert_eq!(generations(|number| if number < 100 { number as f64 } else { 99.0 }), Some(138));
+        assert_eq!(generations(|number| f64::MAX * if number % 2 == 0 { 1.0 } else { -1.0 }), Some(151));
+    }
+
+    #[test]
+    fn failures_are_no_generations_and_count_for_the_median() {
+        let mut history = History::default();
+        history.push(&[None; 4], 10, 1);
+        assert_eq!(history, History::default());
+        let fitness = |value| Fitness::new(value).ok();
+        history.push(&[fitness(3.0), fitness(1.0), None, None], 10, 1);
+        assert_eq!(serde_json::to_string(&history).expect("serialises"), "[[3.0,1.0]]");
+    }
+}

@@ -1,6 +1,5 @@
 //! The evolution strategy with covariance matrix adaptation.
 
-mod strategy;
 mod covariance;
 mod distribution;
 mod history;
@@ -8,6 +7,7 @@ mod parameters;
 mod restart;
 mod settings;
 mod state;
+mod strategy;
 mod triangle;
 
-pub use {strategy::CmaEs, covariance::CovarianceModel, restart::Restart, settings::CmaEsSettings};
+pub use {covariance::CovarianceModel, restart::Restart, settings::CmaEsSettings, strategy::CmaEs};

@@ -38,7 +38,8 @@ impl Parameters {
         let parents = population / 2;
         let (positive, negative) = weights.split_at(parents);
         let effective = |weights: &[f64]| {
-            let (sum, squares) = (weights.iter().sum::<f64>(), weights.iter().map(|weight| weight * weight).sum::<f64>());
+            let (sum, squares) =
+                (weights.iter().sum::<f64>(), weights.iter().map(|weight| weight * weight).sum::<f64>());
             sum * sum / squares
         };
         let (effective_parents, effective_others) = (effective(positive), effective(negative));
@@ -76,6 +77,47 @@ impl Parameters {
             path_rate: (4.0 + effective_parents / n) / (n + 4.0 + 2.0 * effective_parents / n),
             rank_one_rate,
             rank_mu_rate,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn are_those_of_the_table() {
+        let parameters = Parameters::new(10, 10, CovarianceModel::Full);
+        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-4, "{found}, expected {expected}");
+        // ln 5.5 − ln i for i from 1 to 5, over their sum.
+        let expected = [0.4563, 0.2707, 0.1622, 0.0852, 0.0255];
+        parameters.weights.iter().zip(expected).for_each(|(&weight, expected)| near(weight, expected));
+        near(parameters.effective_parents, 3.1673);
+        near(parameters.step_size_rate, 5.1673 / 18.1673);
+        near(parameters.step_size_damping, 1.0 + 5.1673 / 18.1673);
+        near(parameters.path_rate, 4.31673 / 14.63346);
+        near(parameters.rank_one_rate, 2.0 / (11.3 * 11.3 + 3.1673));
+        near(parameters.rank_mu_rate, 2.0 * (3.1673 - 1.75 + 1.0 / 3.1673) / (144.0 + 3.1673));
+        // The negative weights sum to the least of three bounds: here 1 + c₁ / c_μ.
+        let negative: f64 = parameters.weights[5..].iter().sum();
+        near(negative, -(1.0 + parameters.rank_one_rate / parameters.rank_mu_rate));
+    }
+
+    #[test]
+    fn rates_are_shares_for_all_sizes() {
+        for model in [CovarianceModel::Full, CovarianceModel::Separable] {
+            for n in [1, 2, 3, 10, 200, 5000] {
+                for population in [2, 3, 5, 20, 3000] {
+                    let parameters = Parameters::new(n, population, model);
+                    let Parameters { rank_one_rate, rank_mu_rate, .. } = parameters;
+                    assert!(rank_one_rate > 0.0 && rank_mu_rate >= 0.0 && rank_one_rate + rank_mu_rate <= 1.0 + 1e-12);
+                    assert!((parameters.weights[..population / 2].iter().sum::<f64>() - 1.0).abs() < 1e-9);
+                    let negative = -parameters.weights[population / 2..].iter().sum::<f64>();
+                    // What may be lost along one axis is less than what is kept of it.
+                    assert!(n as f64 * rank_mu_rate * negative <= 1.0 - rank_one_rate - rank_mu_rate + 1e-9);
+                    assert!(parameters.weights.iter().all(|weight| weight.is_finite()));
+                }
+            }
         }
     }
 }

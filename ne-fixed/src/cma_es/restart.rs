@@ -3,8 +3,14 @@ use ne_core::{RandomStream, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-/// When the search of [`CmaEs`](crate::CmaEs) has ended (it has converged, stagnates, or its covariance has
-/// degenerated), whether it begins anew, and how. The mean is drawn again, and nothing is kept of the search before.
+/// When the search of [`CmaEs`](crate::CmaEs) has ended, whether it begins anew, and how. The mean is drawn again, and
+/// nothing is kept of the search before.
+///
+/// A search has ended, by the criteria of Hansen's tutorial, appendix B.3, and of Auger & Hansen,
+/// - when no weight deviates by more than the least deviation (TolX), or one by 10,000 times the first (TolXUp);
+/// - when the condition number of the covariance passes 1e14 (ConditionCov);
+/// - when the best fitness was the same for 10 + ⌈30 n / λ⌉ generations (EqualFunValues);
+/// - when best and median fitness have not risen in a long while (Stagnation).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Restart {

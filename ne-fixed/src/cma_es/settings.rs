@@ -17,7 +17,7 @@ pub struct CmaEsSettings {
     /// The least the greatest deviation of a weight may become, from 1e-9 to `step_size`; default 1e-5. The search does
     /// not get finer than that; with restarts it then begins anew.
     pub least_deviation: f64,
-    /// Which covariance matrices are adapted; default full.
+    /// Which covariance matrices are adapted; default separable.
     pub covariance: CovarianceModel,
     /// When a search that has ended begins anew; default never.
     pub restart: Restart,
@@ -39,6 +39,20 @@ impl Default for CmaEsSettings {
 }
 
 impl CmaEsSettings {
+    /// For pole balancing with nets of about ten weights, whose sums must grow far beyond 1 before a logistic output
+    /// pushes hard: population 16, σ = 2, a full covariance, and a restart with twice the population as soon as the search gets finer
+    /// than 0.3 or stagnates, since a search that will balance does so early. Found by experiment.
+    pub fn pole_balancing() -> Self {
+        Self {
+            population: Some(16),
+            step_size: 2.0,
+            least_deviation: 0.3,
+            covariance: CovarianceModel::Full,
+            restart: Restart::Ipop,
+            ..Self::default()
+        }
+    }
+
     /// The greatest population.
     pub(super) const MAX_POPULATION: usize = 1_000_000;
 

@@ -75,7 +75,8 @@ impl TryFrom<State> for CmaEs {
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
         if let Some(start) = state.start {
-            strategy = strategy.with_mean(&start).map_err(|error| SettingError::new("start", error, "weights of the net"))?;
+            strategy =
+                strategy.with_mean(&start).map_err(|error| SettingError::new("start", error, "weights of the net"))?;
         }
         state.restarts.check().map_err(|error| error.within("restarts"))?;
         strategy.restarts = state.restarts;

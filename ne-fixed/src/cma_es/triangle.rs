@@ -112,7 +112,9 @@ impl Triangle {
                 let (head, tail) = vector.split_at_mut(first + BLOCK);
                 let head = &mut head[first..];
                 add_block(tail, std::array::from_fn(|row| (head[row], tails[row])));
-                (0..BLOCK).rev().for_each(|row| multiply_in_place(&self.row(first + row)[..BLOCK - row], &mut head[row..]));
+                (0..BLOCK)
+                    .rev()
+                    .for_each(|row| multiply_in_place(&self.row(first + row)[..BLOCK - row], &mut head[row..]));
             }
         }
     }
@@ -181,9 +183,8 @@ mod tests {
     }
 
     fn vectors() -> impl Strategy<Value = Vec<Vec<f64>>> {
-        (1..14usize).prop_flat_map(|size| {
-            proptest::collection::vec(proptest::collection::vec(-2.0..2.0f64, size), 1..12)
-        })
+        (1..14usize)
+            .prop_flat_map(|size| proptest::collection::vec(proptest::collection::vec(-2.0..2.0f64, size), 1..12))
     }
 
     fn close(found: &[f64], expected: &[f64]) -> bool {

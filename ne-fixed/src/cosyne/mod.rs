@@ -1,9 +1,9 @@
 //! Cooperative synapse neuroevolution.
 
 mod cauchy;
-mod strategy;
 mod permutation;
 mod settings;
 mod state;
+mod strategy;
 
-pub use {strategy::Cosyne, permutation::Permutation, settings::CosyneSettings};
+pub use {permutation::Permutation, settings::CosyneSettings, strategy::Cosyne};

@@ -16,7 +16,7 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 /// evaluated the next is made in these steps:
 /// 1. the nets are put in order, best first;
 /// 2. pairs of different parents, drawn from the best quarter, have children by crossover and mutation with Cauchy
-///    noise; the children take the place of the worst quarter;
+///    noise; the children take the place of the worst nets;
 /// 3. in each subpopulation, weights are marked by chance ([`Permutation`](crate::Permutation)), and those marked change
 ///    places among each other.
 ///

@@ -1,8 +1,8 @@
 //! The evolution strategy of OpenAI.
 
 mod adam;
-mod strategy;
 mod settings;
 mod state;
+mod strategy;
 
-pub use {adam::Adam, strategy::OpenEs, settings::OpenEsSettings};
+pub use {adam::Adam, settings::OpenEsSettings, strategy::OpenEs};

@@ -85,7 +85,8 @@ impl OpenEs {
         let mut gradient = vec![0.0; self.centre.len()];
         for (pair, ranks) in self.population[1..].chunks_exact(2).zip(ranks.chunks_exact(2)) {
             // σε, as it was rounded: half of the difference of the two.
-            let scale = 0.5 * (ranks[0] - ranks[1]) / (self.settings.population as f64 * self.deviation * self.deviation);
+            let scale =
+                0.5 * (ranks[0] - ranks[1]) / (self.settings.population as f64 * self.deviation * self.deviation);
             for (gradient, (plus, minus)) in gradient.iter_mut().zip(pair[0].weights().iter().zip(pair[1].weights())) {
                 *gradient += scale * (f64::from(*plus) - f64::from(*minus));
             }

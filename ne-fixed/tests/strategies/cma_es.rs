@@ -1,1 +1,241 @@
-//! soon
+//! What CMA-ES promises.
+
+use crate::common::{
+    assert_damages_are_found, assert_resumes, dense, digest, generation, generation_of, recurrent, weights,
+};
+use ne_core::{
+    Evaluation, Failure, Seed, Strategy,
+    conformance::{StrategyOptions, check_strategy},
+};
+use ne_fixed::{CmaEs, CmaEsSettings, CovarianceModel, Initialization, Restart};
+use serde_json::json;
+
+fn new(settings: CmaEsSettings) -> CmaEs {
+    CmaEs::new(settings, dense()).expect("valid settings")
+}
+
+fn full() -> CmaEsSettings {
+    CmaEsSettings { covariance: CovarianceModel::Full, ..Default::default() }
+}
+
+/// Searches that end after a few generations, since the deviation may not fall.
+fn restarting(restart: Restart) -> CmaEsSettings {
+    let initial_mean = Initialization::Uniform { limit: 1.0 };
+    CmaEsSettings { population: Some(6), least_deviation: 0.45, restart, initial_mean, ..full() }
+}
+
+fn statistic(strategy: &CmaEs, name: &str) -> f64 {
+    let statistics = strategy.statistics();
+    statistics.iter().find(|statistic| statistic.name == name).expect("a statistic of this name").value
+}
+
+#[test]
+fn keeps_the_promises_of_a_strategy() {
+    let plain = StrategyOptions { generations: 12, ..Default::default() };
+    for settings in [CmaEsSettings::default(), full()] {
+        check_strategy(|| new(settings.clone()), &plain).expect("keeps its promises");
+        let recurrent = || CmaEs::new(settings.clone(), recurrent()).expect("valid");
+        check_strategy(recurrent, &plain).expect("keeps its promises on a graph");
+    }
+    let varying = StrategyOptions { generations: 40, size_varies: true, ..plain };
+    for settings in [restarting(Restart::Ipop), restarting(Restart::Bipop), CmaEsSettings::pole_balancing()] {
+        check_strategy(|| new(settings.clone()), &varying).expect("keeps its promises with restarts");
+    }
+}
+
+#[test]
+fn goes_on_to_the_bit_after_a_save() {
+    assert_resumes(new(CmaEsSettings::default()), 8);
+    assert_resumes(new(full()), 8);
+    assert_resumes(new(CmaEsSettings::default()).with_mean(&[0.5; 26]).expect("26 weights"), 3);
+    assert_resumes(new(restarting(Restart::Bipop)), 40);
+}
+
+/// Golden: another digest is another run for everyone who recorded one.
+#[test]
+fn runs_are_the_same_for_ever() {
+    let digests = [
+        digest(new(CmaEsSettings::default()), 20),
+        digest(new(full()), 20),
+        digest(new(restarting(Restart::Ipop)), 30),
+        digest(new(restarting(Restart::Bipop)), 60),
+        digest(CmaEs::new(full(), recurrent()).expect("valid"), 20),
+    ];
+    assert_eq!(
+        digests,
+        ["1c8bccefe73f6211", "f4492fda2a66342e", "1c670bf21c98d74d", "2da1a24f6c673cfd", "4e82c75fb8364075"]
+    );
+}
+
+#[test]
+fn errors_of_settings_name_the_field() {
+    type Change = fn(&mut CmaEsSettings);
+    let changes: [(Change, &str); 7] = [
+        (|s| s.population = Some(1), "population = 1: must be from 2 to 1000000"),
+        (|s| s.population = Some(1_000_001), "population = 1000001: must be from 2 to 1000000"),
+        (|s| s.step_size = 0.0, "step_size = 0: must be above 0 and at most 1000"),
+        (|s| s.step_size = f64::NAN, "step_size = NaN: must be above 0 and at most 1000"),
+        (|s| s.least_deviation = 0.6, "least_deviation = 0.6: must be from 0.000000001 to 0.5"),
+        (|s| s.least_deviation = 0.0, "least_deviation = 0: must be from 0.000000001 to 0.5"),
+        (
+            |s| s.initial_mean = Initialization::Uniform { limit: -1.0 },
+            "initial_mean.uniform.limit = -1: must be from 0 to 1000",
+        ),
+    ];
+    for (change, message) in changes {
+        let mut settings = CmaEsSettings::default();
+        change(&mut settings);
+        let error = CmaEs::new(settings, dense()).expect_err("out of range");
+        assert_eq!(error.to_string(), message);
+    }
+    let flat = ne_net::DenseShape::new(3, vec![0], 2);
+    let error = CmaEs::new(CmaEsSettings::default(), flat).expect_err("no neuron").to_string();
+    assert_eq!(error, "topology.hidden[0] = 0: must be from 1 to 4096");
+    let error = new(CmaEsSettings::default()).with_mean(&[0.0; 3]).expect_err("three weights").to_string();
+    assert_eq!(error, "weights: found 3, a net of shape 3-4-2 has 26");
+}
+
+#[test]
+fn a_file_may_leave_settings_out() {
+    let settings: CmaEsSettings =
+        serde_json::from_value(json!({"covariance": "full", "restart": "bipop"})).expect("settings");
+    assert_eq!(settings, CmaEsSettings { restart: Restart::Bipop, ..full() });
+    let error = serde_json::from_value::<CmaEsSettings>(json!({"sigma": 1})).expect_err("unknown").to_string();
+    assert!(error.contains("unknown field `sigma`"), "{error}");
+}
+
+#[test]
+fn damaged_states_are_errors_that_name_the_field() {
+    let mut strategy = new(full());
+    generation(&mut strategy, 1);
+    assert_damages_are_found(
+        &strategy,
+        &[
+            (|s| s["settings"]["step_size"] = 0.into(), "step_size = 0: must be above 0 and at most 1000"),
+            (|s| s["topology"]["dense"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
+            (|s| s["start"] = json!([1.0]), "start = weights: found 1, a net of shape 3-4-2 has 26"),
+            (|s| s["restarts"]["population"] = 1.into(), "restarts.population = 1: must be from 2 to 1000000"),
+            (
+                |s| s["restarts"]["large_population"] = 0.into(),
+                "restarts.large_population = 0: must be from 2 to 1000000",
+            ),
+            (|s| s["restarts"]["step_size"] = 0.into(), "restarts.step_size = 0: must be "),
+            (|s| s["distribution"]["mean"] = json!([1.0]), "distribution.mean = 1 numbers: must be 26 numbers"),
+            (|s| s["distribution"]["step_size"] = json!(-1.0), "distribution.step_size = -1: must be "),
+            (|s| s["distribution"]["step_size_path"] = json!([]), "distribution.step_size_path = 0 numbers"),
+            (|s| s["distribution"]["covariance_path"] = json!([]), "distribution.covariance_path = 0 numbers"),
+            (
+                |s| s["distribution"]["covariance"] = json!([]),
+                "distribution.covariance = 0 numbers: must be 351 numbers",
+            ),
+            (
+                |s| s["distribution"]["covariance"][0] = json!(-1.0),
+                "distribution.covariance = a degenerate matrix: must be positive definite",
+            ),
+            (|s| s["asked"] = json!([[1.0]]), "asked: found 1 individuals, the settings say 13"),
+            (|s| s["asked"] = json!(vec![[1.0]; 13]), "asked[0].weights: found 1, a net of shape 3-4-2 has 26"),
+            (
+                |s| {
+                    s["asked"] = json!(vec![[0.0; 26]; 13]);
+                    s["distribution"] = json!(null);
+                },
+                "distribution = none: must be there when individuals were asked",
+            ),
+        ],
+    );
+    let mut strategy = new(CmaEsSettings::default());
+    generation(&mut strategy, 1);
+    assert_damages_are_found(
+        &strategy,
+        &[
+            (|s| s["distribution"]["covariance"] = json!([1.0]), "distribution.covariance = 1 numbers: must be 26"),
+            (
+                |s| s["distribution"]["covariance"][7] = json!(0.0),
+                "distribution.covariance = a degenerate matrix: must be positive definite",
+            ),
+        ],
+    );
+}
+
+#[test]
+fn the_population_follows_the_number_of_weights() {
+    for (count, expected) in [(2, 6), (10, 10), (188, 19), (1000, 24)] {
+        let mut strategy = CmaEs::new(CmaEsSettings::default(), weights(count)).expect("valid");
+        assert_eq!(strategy.ask(Seed::of_run(1)).len(), expected, "{count} weights");
+    }
+}
+
+#[test]
+fn begins_where_it_is_told() {
+    let settings = CmaEsSettings { step_size: 1e-3, ..Default::default() };
+    let mut strategy = new(settings.clone()).with_mean(&[2.5; 26]).expect("26 weights");
+    assert_eq!(strategy.mean(), None);
+    let first = strategy.ask(Seed::of_run(1)).to_vec();
+    assert!(first.iter().flat_map(|genome| genome.weights()).all(|weight| (weight - 2.5).abs() < 0.01));
+    let mut strategy = new(CmaEsSettings { initial_mean: Initialization::Uniform { limit: 1.0 }, ..settings });
+    strategy.ask(Seed::of_run(1));
+    let mean = strategy.mean().expect("asked");
+    assert!(mean.iter().all(|weight| weight.abs() <= 1.0) && mean.iter().any(|weight| weight.abs() > 0.9));
+}
+
+#[test]
+fn a_generation_of_failures_teaches_nothing() {
+    let mut strategy = new(CmaEsSettings::default());
+    generation(&mut strategy, 1);
+    let before = (strategy.mean().expect("asked").to_vec(), statistic(&strategy, "step_size"));
+    generation_of(&mut strategy, 2, &Evaluation::failed(Failure::Other { what: "test".into() }));
+    assert_eq!((strategy.mean().expect("asked").to_vec(), statistic(&strategy, "step_size")), before);
+    assert_eq!(statistic(&strategy, "evaluations_since_restart"), 26.0);
+}
+
+#[test]
+fn the_step_grows_on_a_plain_and_is_bounded() {
+    let mut strategy = new(CmaEsSettings::default());
+    for number in 1..=200 {
+        generation_of(&mut strategy, number, &Evaluation::new(1.0));
+    }
+    assert!((statistic(&strategy, "greatest_deviation") - 5000.0).abs() < 1e-6);
+}
+
+#[test]
+fn the_deviation_stays_above_its_least() {
+    let mut strategy = new(CmaEsSettings { least_deviation: 0.1, ..Default::default() });
+    for number in 1..=400 {
+        generation(&mut strategy, number);
+        assert!(statistic(&strategy, "greatest_deviation") > 0.1 - 1e-9);
+    }
+    assert!(statistic(&strategy, "greatest_deviation") < 0.11);
+}
+
+#[test]
+fn populations_of_restarts_double_or_alternate() {
+    let populations = |restart, searches| {
+        let mut strategy = new(restarting(restart));
+        let mut populations = vec![6.0];
+        for number in 1.. {
+            generation(&mut strategy, number);
+            if statistic(&strategy, "restarts") as usize == populations.len() {
+                populations.push(statistic(&strategy, "population"));
+            }
+            if populations.len() == searches {
+                break;
+            }
+        }
+        populations
+    };
+    let ipop = populations(Restart::Ipop, 6);
+    assert!(ipop.windows(2).all(|pair| pair[1] == 2.0 * pair[0]), "{ipop:?}");
+    let bipop = populations(Restart::Bipop, 12);
+    let mut large = 6.0;
+    let (mut small_searches, mut large_searches) = (0, 0);
+    for &population in &bipop[1..] {
+        if population == 2.0 * large {
+            large = population;
+            large_searches += 1;
+        } else {
+            assert!(population >= 6.0 && population <= large / 2.0 + 1.0, "{bipop:?}");
+            small_searches += 1;
+        }
+    }
+    assert!(large_searches > 1 && small_searches > 1, "{bipop:?}");
+}

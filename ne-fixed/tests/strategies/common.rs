@@ -20,9 +20,9 @@ pub(crate) fn fully_recurrent(inputs: usize, neurons: usize, bias: bool) -> Grap
     GraphShape { inputs, recurrent: true, neurons: vec![neuron; neurons], outputs: vec![inputs + neurons - 1] }
 }
 
-/// One neuron, connected with all inputs.
-pub(crate) fn single_neuron(inputs: usize, bias: bool) -> GraphShape {
-    let neuron = GraphNeuron { activation: Activation::Logistic, bias, sources: (0..inputs).collect() };
+/// One neuron without a bias, connected with all inputs.
+pub(crate) fn single_neuron(inputs: usize) -> GraphShape {
+    let neuron = GraphNeuron { activation: Activation::Logistic, bias: false, sources: (0..inputs).collect() };
     GraphShape { inputs, recurrent: false, neurons: vec![neuron], outputs: vec![inputs] }
 }
 

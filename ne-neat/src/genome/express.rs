@@ -3,6 +3,15 @@ use ne_core::Genome;
 use ne_net::{GraphNet, GraphNeuron, GraphShape};
 use std::sync::Arc;
 
+/// What a neuron of the net gets.
+struct Incoming {
+    /// The neuron's index in the order of computation.
+    target: usize,
+    /// The node it comes from; `None` for the bias node.
+    source: Option<usize>,
+    weight: f32,
+}
+
 impl Genome for NeatGenome {
     type Phenotype = GraphNet;
 
@@ -10,43 +19,40 @@ impl Genome for NeatGenome {
     fn express(&self) -> GraphNet {
         let order = computation_order(self);
         let inputs = self.layout.inputs;
-        // Of each node gene the index in the order, from 1; 0 if it is not expressed.
-        let mut computed = vec![0; self.nodes.len()];
-        order.iter().zip(1..).for_each(|(&neuron, index)| computed[neuron] = index);
-        let per_neuron = self.layout.bias == BiasKind::PerNeuron;
-        let mut neurons: Vec<_> = order
-            .iter()
-            .map(|&neuron| {
-                let activation = self.nodes[neuron].activation;
-                GraphNeuron { activation, bias: per_neuron, sources: Vec::new() }
-            })
-            .collect();
-        let mut weights_of: Vec<Vec<f32>> =
-            order.iter().map(|&neuron| if per_neuron { vec![self.nodes[neuron].bias] } else { Vec::new() }).collect();
+        let has_biases = self.layout.bias == BiasKind::PerNeuron;
+        let mut computed = vec![None; self.nodes.len()];
+        order.iter().enumerate().for_each(|(index, &neuron)| computed[neuron] = Some(index));
+
+        let mut incoming = Vec::with_capacity(self.connections.len());
         for gene in self.connections.iter().filter(|gene| gene.enabled) {
-            let target = self.neuron_index(gene.to).map_or(0, |neuron| computed[neuron]);
-            let Some(target) = usize::checked_sub(target, 1) else { continue };
+            let index = |node| self.neuron_index(node).and_then(|neuron| computed[neuron]);
+            let Some(target) = index(gene.to) else { continue };
             let source = match self.layout.kind(gene.from) {
                 NodeKind::Input => Some(gene.from as usize),
                 NodeKind::Bias => None,
-                NodeKind::Output | NodeKind::Hidden => {
-                    // What a needed neuron has as source is needed too.
-                    self.neuron_index(gene.from).map(|neuron| inputs + computed[neuron] - 1)
-                }
+                // A source of a neuron that is computed is computed too.
+                NodeKind::Output | NodeKind::Hidden => index(gene.from).map(|index| inputs + index),
             };
-            match source {
-                Some(source) => {
-                    neurons[target].sources.push(source);
-                    weights_of[target].push(gene.weight);
-                }
-                None => {
-                    neurons[target].bias = true;
-                    weights_of[target].insert(0, gene.weight);
-                }
-            }
+            incoming.push(Incoming { target, source, weight: gene.weight });
         }
-        let outputs = (0..self.layout.outputs).map(|output| inputs + computed[output] - 1).collect();
+        // The bias comes first; those of one neuron keep their order otherwise.
+        incoming.sort_by_key(|connection| (connection.target, connection.source.is_some()));
+
+        let mut rest = &incoming[..];
+        let mut neurons = Vec::with_capacity(order.len());
+        let mut weights = Vec::with_capacity(incoming.len() + order.len());
+        for (index, &neuron) in order.iter().enumerate() {
+            let (own, later) = rest.split_at(rest.partition_point(|connection| connection.target == index));
+            rest = later;
+            let mut sources = Vec::with_capacity(own.len());
+            sources.extend(own.iter().filter_map(|connection| connection.source));
+            let bias = has_biases || sources.len() < own.len();
+            neurons.push(GraphNeuron { activation: self.nodes[neuron].activation, bias, sources });
+            weights.extend(has_biases.then_some(self.nodes[neuron].bias));
+            weights.extend(own.iter().map(|connection| connection.weight));
+        }
+        let outputs = computed[..self.layout.outputs].iter().flatten().map(|index| inputs + index).collect();
         let shape = GraphShape { inputs, recurrent: self.layout.recurrent, neurons, outputs };
-        GraphNet::from_checked(Arc::new(shape), &weights_of.concat())
+        GraphNet::from_checked(Arc::new(shape), &weights)
     }
 }

@@ -10,7 +10,7 @@ use petgraph::{
     algo::is_cyclic_directed,
     data::Build,
     graph::{DiGraph, NodeIndex},
-    visit::{Bfs, Reversed},
+    visit::{Bfs, Reversed, VisitMap},
 };
 use std::{cmp::Reverse, collections::BinaryHeap};
 
@@ -72,14 +72,13 @@ fn ends(genome: &NeatGenome, gene: &ConnectionGene) -> Option<(NodeIndex, NodeIn
 fn leads_to_output(outputs: usize, graph: &NeuronGraph) -> Vec<bool> {
     let reversed = Reversed(graph);
     let mut leads = vec![false; graph.node_count()];
-    for output in 0..outputs {
-        if leads[output] {
-            continue;
-        }
-        let mut walk = Bfs::new(reversed, NodeIndex::new(output));
-        while let Some(neuron) = walk.next(reversed) {
-            leads[neuron.index()] = true;
-        }
+    let mut walk = Bfs::new(reversed, NodeIndex::new(0));
+    for output in (1..outputs).map(NodeIndex::new) {
+        walk.discovered.visit(output);
+        walk.stack.push_back(output);
+    }
+    while let Some(neuron) = walk.next(reversed) {
+        leads[neuron.index()] = true;
     }
     leads
 }

@@ -5,6 +5,8 @@ mod connections;
 mod nodes;
 mod split_choice;
 mod structure;
+#[cfg(test)]
+mod tests;
 mod weights;
 
 pub use split_choice::SplitChoice;

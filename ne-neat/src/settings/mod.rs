@@ -80,3 +80,94 @@ impl NeatSettings {
         Ok(layout)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{PopulationStagnation, TargetSpecies};
+
+    #[test]
+    fn presets_are_valid_and_survive_serialisation() {
+        for settings in [
+            NeatSettings::default(),
+            NeatSettings::stanley_2002(),
+            NeatSettings::stanley_2002_double_pole(),
+            NeatSettings::pole_balancing(),
+        ] {
+            assert_eq!(settings.validate(), Ok(()));
+            let text = serde_json::to_string(&settings).expect("serialises");
+            let loaded: NeatSettings = serde_json::from_str(&text).expect("deserialises");
+            assert_eq!(loaded, settings);
+        }
+    }
+
+    #[test]
+    fn errors_name_the_field() {
+        type Change = fn(&mut NeatSettings);
+        let target = |species, step| Some(TargetSpecies { species, step });
+        let changes: [(Change, &str); 18] = [
+            (|s| s.population = 1, "population = 1: must be from 2 to 1000000"),
+            (|s| s.hidden_activations.clear(), "hidden_activations = none: must be at least one"),
+            (
+                |s| s.hidden_activations = vec![Activation::Sine, Activation::Sine],
+                "hidden_activations[1] = sine: must be named once",
+            ),
+            (
+                |s| s.start = StartTopology::PartlyConnected { share: 2.0 },
+                "start.partly-connected.share = 2: must be from 0 to 1",
+            ),
+            (
+                |s| s.start = StartTopology::HiddenLayer { neurons: 0 },
+                "start.hidden-layer.neurons = 0: must be from 1 to 4096",
+            ),
+            (
+                |s| s.new_weights = Noise::Uniform { limit: f64::INFINITY },
+                "new_weights.uniform.limit = inf: must be from 0 to 1000",
+            ),
+            (
+                |s| s.speciation.compatibility.excess = -1.0,
+                "speciation.compatibility.excess = -1: must be from 0 to 1000",
+            ),
+            (|s| s.speciation.threshold = 0.0, "speciation.threshold = 0: must be from 0.001 to 1000"),
+            (|s| s.speciation.stagnation = 0, "speciation.stagnation = 0: must be at least 1"),
+            (
+                |s| s.speciation.protected = 151,
+                "speciation.protected = 151: must be at least 1 and at most 150, the population",
+            ),
+            (
+                |s| s.speciation.protected = 0,
+                "speciation.protected = 0: must be at least 1 and at most 150, the population",
+            ),
+            (
+                |s| s.speciation.population_stagnation = Some(PopulationStagnation { generations: 0, species: 2 }),
+                "speciation.population_stagnation.generations = 0: must be at least 1",
+            ),
+            (
+                |s| s.speciation.population_stagnation = Some(PopulationStagnation { generations: 9, species: 0 }),
+                "speciation.population_stagnation.species = 0: must be at least 1",
+            ),
+            (|s| s.reproduction.survival_share = 0.0, "reproduction.survival_share = 0: must be above 0 and at most 1"),
+            (|s| s.reproduction.mutation_only = 1.1, "reproduction.mutation_only = 1.1: must be from 0 to 1"),
+            (|s| s.reproduction.interspecies = -0.1, "reproduction.interspecies = -0.1: must be from 0 to 1"),
+            (|s| s.crossover.averaging = 1.1, "crossover.averaging = 1.1: must be from 0 to 1"),
+            (|s| s.mutation.enable = 1.1, "mutation.enable = 1.1: must be from 0 to 1"),
+        ];
+        let check = |settings: &NeatSettings, message: &str| {
+            assert_eq!(settings.validate().expect_err("out of range").to_string(), message);
+        };
+        for (change, message) in changes {
+            let mut settings = NeatSettings::stanley_2002();
+            change(&mut settings);
+            check(&settings, message);
+        }
+        let mut settings = NeatSettings::stanley_2002();
+        for (species, step, message) in [
+            (0, 1.0, "speciation.target.species = 0: must be at least 1 and at most 75, half of the population"),
+            (76, 1.0, "speciation.target.species = 76: must be at least 1 and at most 75, half of the population"),
+            (5, 0.0, "speciation.target.step = 0: must be from 0.001 to 100"),
+        ] {
+            settings.speciation.target = target(species, step);
+            check(&settings, message);
+        }
+    }
+}

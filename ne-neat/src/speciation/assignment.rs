@@ -21,7 +21,7 @@ pub(crate) fn assign(
     let mut representatives: Vec<&NeatGenome> = species.iter().map(represent).collect();
     species.iter_mut().for_each(|species| species.members.clear());
     for (index, genome) in generation.iter().enumerate() {
-        let is_near = |representative: &&NeatGenome| compatibility.distance(genome, representative) < threshold;
+        let is_near = |representative: &&NeatGenome| compatibility.is_near(genome, representative, threshold);
         let home = representatives.iter().position(is_near).unwrap_or_else(|| {
             representatives.push(genome);
             species.push(Species::new(*next_id));

@@ -83,3 +83,97 @@ fn shares(breeders: &[usize], species: &[Species], scores: &[Option<Fitness>], b
     let equal = 1.0 / breeders.len() as f64;
     means.iter().map(|mean| if total > 0.0 { mean / total } else { equal }).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{NeatSettings, PopulationStagnation};
+    use proptest::prelude::*;
+
+    fn settings(baseline: FitnessBaseline) -> SpeciationSettings {
+        SpeciationSettings { baseline, protected: 1, ..NeatSettings::stanley_2002().speciation }
+    }
+
+    fn score(fitness: f64) -> Option<Fitness> {
+        Fitness::new(fitness).ok()
+    }
+
+    /// Species of these fitnesses; NaN is a failed evaluation.
+    fn species(fitnesses: &[&[f64]]) -> (Vec<Species>, Vec<Option<Fitness>>) {
+        let scores: Vec<_> = fitnesses.concat().into_iter().map(score).collect();
+        let (mut all, mut next) = (Vec::new(), 0);
+        for (id, members) in (1..).zip(fitnesses) {
+            let members = next..next + members.len();
+            next = members.end;
+            let mut species = Species { members: members.collect(), ..Species::new(id) };
+            species.tell(&scores);
+            all.push(species);
+        }
+        (all, scores)
+    }
+
+    fn children(fitnesses: &[&[f64]], population: usize, baseline: FitnessBaseline) -> Vec<usize> {
+        let (species, scores) = species(fitnesses);
+        let everyone: Vec<usize> = (0..species.len()).collect();
+        offspring(&everyone, &species, &scores, population, &settings(baseline))
+    }
+
+    #[test]
+    fn species_share_by_the_mean_fitness_of_their_members() {
+        use FitnessBaseline::{Worst, Zero};
+        assert_eq!(children(&[&[3.0, 5.0], &[2.0], &[1.0, 2.0, 3.0]], 16, Zero), [8, 4, 4]);
+        assert_eq!(children(&[&[3.0, 5.0], &[2.0], &[1.0, 2.0, 3.0]], 10, Worst), [6, 2, 2]);
+        // Negative: counted from the lowest, -2, either way.
+        assert_eq!(children(&[&[4.0], &[-2.0, 2.0]], 8, Zero), [6, 2]);
+        // A failed evaluation counts as 0.
+        assert_eq!(children(&[&[4.0, f64::NAN], &[2.0]], 8, Zero), [4, 4]);
+        // Largest remainders, 10 · (5, 3, 2)/10 of 7: 3.5, 2.1, 1.4.
+        assert_eq!(children(&[&[5.0], &[3.0], &[2.0]], 7, Zero), [4, 2, 1]);
+        // Nobody is better than another.
+        assert_eq!(children(&[&[f64::NAN], &[f64::NAN; 3]], 4, Zero), [2, 2]);
+        assert_eq!(children(&[&[7.0; 2], &[7.0; 4]], 4, Worst), [2, 2]);
+    }
+
+    #[test]
+    fn the_best_species_has_a_child_even_without_a_share() {
+        assert_eq!(children(&[&[1.0, -9.0, -9.0, -9.0, -9.0], &[0.9]], 3, FitnessBaseline::Zero), [1, 2]);
+    }
+
+    #[test]
+    fn stagnant_species_do_not_breed_unless_they_are_the_best() {
+        let (mut all, scores) = species(&[&[1.0], &[3.0], &[2.0]]);
+        let settings = settings(FitnessBaseline::Zero);
+        assert_eq!(breeders(&all, &scores, 0, &settings), [1, 2, 0]);
+        all.iter_mut().for_each(|species| species.stagnation = 15);
+        assert_eq!(breeders(&all, &scores, 0, &settings), [1]);
+        all[0].stagnation = 14;
+        assert_eq!(breeders(&all, &scores, 0, &settings), [1, 0]);
+    }
+
+    #[test]
+    fn only_the_best_species_breed_when_the_population_stagnates() {
+        let (all, scores) = species(&[&[1.0], &[3.0], &[2.0]]);
+        let population_stagnation = Some(PopulationStagnation { generations: 20, species: 2 });
+        let settings = SpeciationSettings { population_stagnation, ..settings(FitnessBaseline::Zero) };
+        for (stagnation, expected) in [(0, 3), (19, 3), (20, 2), (21, 3), (40, 2)] {
+            assert_eq!(breeders(&all, &scores, stagnation, &settings).len(), expected, "{stagnation}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn there_are_exactly_as_many_children_as_individuals(
+            fitnesses in proptest::collection::vec(proptest::collection::vec(proptest::num::f64::ANY, 1..6), 1..9),
+            population in 9..200usize, protected in 1..9usize, worst in proptest::bool::ANY,
+        ) {
+            let slices: Vec<&[f64]> = fitnesses.iter().map(Vec::as_slice).collect();
+            let (all, scores) = species(&slices);
+            let baseline = if worst { FitnessBaseline::Worst } else { FitnessBaseline::Zero };
+            let settings = SpeciationSettings { protected, ..settings(baseline) };
+            let breeders = breeders(&all, &scores, 0, &settings);
+            let children = offspring(&breeders, &all, &scores, population, &settings);
+            prop_assert_eq!(children.iter().sum::<usize>(), population);
+            prop_assert!(children.iter().take(protected).all(|&children| children > 0), "{:?}", children);
+        }
+    }
+}

@@ -21,9 +21,7 @@ pub(super) fn caveats(analysis: &Analysis) -> Vec<String> {
         caveats.push("There is one scenario: nothing is said about other creatures or movements.".into());
     }
     caveats.extend(left_out(analysis));
-    for standings in [analysis.primary_standings(), analysis.secondary_standings()] {
-        caveats.extend(unscored(analysis, standings));
-    }
+    caveats.extend(unscored(analysis, analysis.primary_standings()));
     caveats.extend(ended_early(analysis, &analysis.at_equal_evaluations, analysis.budget.evaluations));
     caveats.extend(ended_early(analysis, &analysis.at_equal_steps, analysis.budget.steps));
     caveats.extend(without_threshold(analysis));
@@ -79,8 +77,8 @@ fn unscored(analysis: &Analysis, standings: &Standings) -> Vec<String> {
         let (Some(worst), Some(limit), false) = (scenario.worst, scenario.limit, failing.is_empty()) else { continue };
         let worst = number(worst, decimals(scenario.worst.into_iter().chain(scenario.best)));
         sentences.push(format!(
-            "On {} at {} {}, {} had no score yet (every evaluation had failed, or the first generation was not over) \
-             and counts with the worst score of all runs there, {worst} {}.",
+            "On {} at {} {}, {} had no score yet (every evaluation had failed, or the first generation was not over): \
+             counted with the worst score of all runs there, {worst} {}.",
             facts.name,
             count(limit),
             standings.axis.name(),

@@ -3,6 +3,11 @@
 use super::{Analysis, FEWEST_SEEDS, standings::PairTest};
 use crate::compare::figures::{counted, listed, number};
 
+/// How many methods that do better than others are named, the highest interquartile mean first.
+const MOST_WINNERS: usize = 3;
+/// How many differences on single scenarios are named; the tables hold all.
+const MOST_DIFFERENCES: usize = 6;
+
 /// The sentences.
 pub(super) fn headline(analysis: &Analysis) -> Vec<String> {
     let names = names(analysis);
@@ -26,8 +31,10 @@ fn overall(analysis: &Analysis, names: &[&str]) -> Vec<String> {
     let Some(overall) = &analysis.primary_standings().overall else {
         return vec!["All runs of a scenario score the same: no difference can be claimed over all scenarios.".into()];
     };
+    let mut by_mean: Vec<usize> = (0..names.len()).collect();
+    by_mean.sort_by(|&one, &other| overall.methods[other].value.total_cmp(&overall.methods[one].value));
     let mut sentences = Vec::new();
-    for (winner, name) in names.iter().enumerate() {
+    for winner in by_mean {
         let wins = overall.pairs.iter().filter(|pair| pair.better == Some(winner));
         let beaten: Vec<&str> =
             wins.map(|pair| names[if pair.first == winner { pair.second } else { pair.first }]).collect();
@@ -35,13 +42,14 @@ fn overall(analysis: &Analysis, names: &[&str]) -> Vec<String> {
         if let (false, Some([low, high])) = (beaten.is_empty(), mean.interval) {
             let [mean, low, high] = [mean.value, low, high].map(|value| number(value, 2));
             sentences.push(format!(
-                "Over all {} scenarios {name} (interquartile mean {mean}, 95 % interval {low} to {high}) does better \
-                 than {}.",
+                "Over all {} scenarios {} (interquartile mean {mean}, 95 % interval {low} to {high}) does better than {}.",
                 overall.scenarios.len(),
+                names[winner],
                 listed(&beaten),
             ));
         }
     }
+    sentences.truncate(MOST_WINNERS);
     let open: Vec<String> = overall
         .pairs
         .iter()
@@ -85,20 +93,18 @@ fn tests(analysis: &Analysis, names: &[&str]) -> String {
     }
     let shown = standings.scenarios.iter().flat_map(|scenario| &scenario.pairs);
     let shown = shown.filter(|test| test.better.is_some()).count();
+    let found = if found.len() > MOST_DIFFERENCES { "the tables say which".into() } else { found.join("; ") };
     let rule = "p ≤ 0.05 after Holm's correction";
     match (standings.tests, shown) {
         (0, _) => "No run has a score: nothing can be compared.".into(),
-        (1, 0) => format!("The paired test shows no difference ({rule}): none can be claimed."),
-        (1, _) => format!("The paired test shows a difference (p ≤ 0.05): {}.", found.join("; ")),
+        (1, 0) => "The paired test shows no difference (p > 0.05): none can be claimed.".into(),
+        (1, _) => format!("The paired test shows a difference (p ≤ 0.05): {found}."),
         (all, 0) => format!(
             "None of the {all} paired tests on single scenarios shows a difference ({rule}): none can be claimed there."
         ),
         (all, _) => {
             let shows = if shown == 1 { "shows" } else { "show" };
-            format!(
-                "{shown} of {all} paired tests on single scenarios {shows} a difference ({rule}): {}.",
-                found.join("; ")
-            )
+            format!("{shown} of {all} paired tests on single scenarios {shows} a difference ({rule}): {found}.")
         }
     }
 }

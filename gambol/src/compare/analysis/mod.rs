@@ -108,11 +108,6 @@ impl Analysis {
     pub fn primary_standings(&self) -> &Standings {
         if self.primary == Axis::Steps { &self.at_equal_steps } else { &self.at_equal_evaluations }
     }
-
-    /// The other standings.
-    pub fn secondary_standings(&self) -> &Standings {
-        if self.primary == Axis::Steps { &self.at_equal_evaluations } else { &self.at_equal_steps }
-    }
 }
 
 /// Analyses the results of a plan. A run that is missing or not usable counts as one without a score.

@@ -30,7 +30,7 @@ pub struct ScenarioStandings {
     pub best: Option<f64>,
     /// The scores of each method.
     pub methods: Vec<MethodScores>,
-    /// Each pair of methods; none if no run has a score.
+    /// Each pair of methods; none if no run has a score, or with a single seed.
     pub pairs: Vec<PairTest>,
 }
 
@@ -174,9 +174,12 @@ fn pairs(methods: &[MethodScores]) -> Vec<PairTest> {
     places.filter_map(|(first, second)| pair(methods, first, second)).collect()
 }
 
-/// The test of a pair, not corrected yet. `None` without scores.
+/// The test of a pair, not corrected yet. `None` without scores, and with a single run, which says nothing of a method.
 fn pair(methods: &[MethodScores], first: usize, second: usize) -> Option<PairTest> {
     let (x, y) = (&methods[first].scores, &methods[second].scores);
+    if x.len() == 1 {
+        return None;
+    }
     let test = wilcoxon_signed_rank(x, y).ok()?;
     let superiority = vargha_delaney(x, y).ok()?;
     Some(PairTest {

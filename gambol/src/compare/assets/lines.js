@@ -10,7 +10,8 @@ function axisScale(axis, most) {
 
 class LineChart {
   // `label`: what a screen reader says. `options`: height, stepped (the line holds its value until the next point), low
-  // and high of the y axis if they are fixed.
+  // and high of the y axis if they are fixed, named (names at the ends of the lines), rest (the share of the x axis that
+  // the readout is of while nobody points at another; otherwise where scores are compared).
   constructor(label, options) {
     this.options = options;
     this.root = element("div");
@@ -30,6 +31,7 @@ class LineChart {
     this.data = data;
     this.width = null;
     this.picked = null;
+    this.rest = this.options.rest === undefined ? this.lastCompared() : Math.round(this.options.rest * (data.x.length - 1));
     const all = data.series.flatMap(series => [...series.middle, ...series.lower, ...series.upper]).filter(v => v !== null);
     this.decimals = decimalsOf(all);
     this.place.setAttribute("aria-valuemin", 0);
@@ -53,6 +55,16 @@ class LineChart {
     Object.assign(this, { low, high });
   }
 
+  // Where the readout rests: the last place at which scores are compared and every series that has values has one.
+  lastCompared() {
+    const { x, mark, series } = this.data;
+    const drawn = series.filter(({ middle }) => middle.some(value => value !== null));
+    for (let place = x.length - 1; place > 0; place--) {
+      if ((mark === null || x[place] <= mark) && drawn.every(({ middle }) => middle[place] !== null)) return place;
+    }
+    return x.length - 1;
+  }
+
   buildLegend() {
     this.legend.replaceChildren();
     this.where = element("div", "", "legend-generation");
@@ -74,8 +86,9 @@ class LineChart {
     const narrow = width < 560;
     const height = narrow ? 250 : this.options.height;
     const longest = Math.max(...data.series.map(series => series.name.length));
-    const names = narrow ? 14 : Math.min(140, 22 + longest * 7);
-    const ticks = niceTicks(this.low, this.high, narrow ? 4 : 6);
+    const named = this.options.named && !narrow;
+    const names = named ? Math.min(140, 22 + longest * 7) : 26;
+    const ticks = niceTicks(this.low, this.high, narrow ? 5 : 6);
     const decimals = Math.max(0, -Math.floor(Math.log10(ticks.step) + 1e-9));
     const widest = Math.max(...ticks.ticks.map(tick => fixed(tick, decimals).length));
     const box = { left: 14 + widest * 7, right: width - names, top: 24, bottom: height - 42 };
@@ -93,9 +106,9 @@ class LineChart {
     this.drawX(root, last, narrow);
     for (const series of data.series) this.drawBand(root, series);
     for (const series of data.series) this.drawLine(root, series);
-    if (!narrow) this.drawNames(root);
+    if (named) this.drawNames(root);
     this.cross = svg("g", { class: "cross" }, root);
-    this.pick(this.picked ?? data.x.length - 1, this.picked !== null);
+    this.pick(this.picked ?? this.rest, this.picked !== null);
   }
 
   drawX(root, last, narrow) {
@@ -151,12 +164,10 @@ class LineChart {
 
   // Names at the ends of the lines, moved apart where they would lie on each other.
   drawNames(root) {
-    const { data, box, options } = this;
+    const { data, box } = this;
     const names = data.series.map(series => {
-      const places = this.pieces([series.middle]).flat();
-      // Lines that all end in the same point are named where they still differ.
-      const place = options.namesAt === undefined ? places[places.length - 1] : Math.round(options.namesAt * (data.x.length - 1));
-      return place === undefined || series.middle[place] === null ? null : { series, y: this.y(series.middle[place]) + 4 };
+      const place = this.pieces([series.middle]).flat().pop();
+      return place === undefined ? null : { series, y: this.y(series.middle[place]) + 4 };
     }).filter(Boolean).sort((a, b) => a.y - b.y);
     names.forEach((name, i) => { if (i) name.y = Math.max(name.y, names[i - 1].y + 15); });
     for (let i = names.length - 1, most = box.bottom + 4; i >= 0; i--, most -= 15) names[i].y = Math.min(names[i].y, most);
@@ -198,11 +209,11 @@ class LineChart {
     this.place.addEventListener("pointermove", nearest);
     this.place.addEventListener("pointerdown", nearest);
     this.place.addEventListener("pointerleave", event => {
-      if (event.pointerType === "mouse") this.pick(this.data.x.length - 1, false);
+      if (event.pointerType === "mouse") this.pick(this.rest, false);
     });
     this.place.addEventListener("keydown", event => {
       const end = this.data.x.length - 1;
-      const now = this.picked ?? end;
+      const now = this.picked ?? this.rest;
       const to = { ArrowLeft: now - 1, ArrowDown: now - 1, ArrowRight: now + 1, ArrowUp: now + 1,
         PageUp: now + 10, PageDown: now - 10, Home: 0, End: end }[event.key];
       if (to === undefined) return;

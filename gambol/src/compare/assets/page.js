@@ -8,8 +8,8 @@ function pairName(run, pair) { return `${run.methods[pair.first].name} – ${run
 
 function buildHeading(run) {
   const names = run.methods.map(method => method.name);
-  const heading = names.length > 1 ? `${listed(names)} compared` : names.join("");
-  document.getElementById("heading").textContent = heading;
+  const heading = names.length > 4 ? `${names.length} methods compared` : names.length > 1 ? `${listed(names)} compared` : names.join("");
+  document.getElementById("heading").textContent = heading.replaceAll("-", "\u2011");
   document.title = `${heading} · Gambol`;
   const budget = [["evaluations", run.budget.evaluations], ["physics steps", run.budget.steps]]
     .filter(([, value]) => value).map(([name, value]) => `${large(value)} ${name}`);
@@ -26,11 +26,12 @@ function buildHeading(run) {
 // All scenarios together, at equal evaluations or at equal steps.
 function overallFigures(run, overall) {
   const scenarios = count(overall.scenarios.length, "scenario", "scenarios");
+  const bars = run.seeds.length > 1 ? " Bars are 95 % intervals." : "";
   const means = overall.methods.map((mean, method) => ({
     name: run.methods[method].name, method, value: mean.value, interval: mean.interval,
     text: mean.interval ? `${fixed(mean.value, 2)}  (${intervalText(mean.interval, 2)})` : fixed(mean.value, 2),
   }));
-  const made = [figure("h3", "Interquartile mean", `Of all runs on ${scenarios}: the higher, the better. Bars are 95 % intervals.`,
+  const made = [figure("h3", "Interquartile mean", `Of all runs on ${scenarios}: the higher, the better.${bars}`,
     new RowChart(means, { label: "Interquartile mean of each method; the numbers are in the table", low: 0, high: 1,
       axis: "normalised score" }).root,
     folded("Numbers of this figure", table("", ["Method", "Interquartile mean", "95 % interval"],
@@ -42,7 +43,7 @@ function overallFigures(run, overall) {
       return { pair, name: pairName(run, pair), method: pair.better, value, interval, text };
     });
     made.push(figure("h3", "Probability of improvement", "How probably a run of the first method scores more than one of the second "
-      + "on a scenario drawn at random. In a method's colour where a difference is claimed.",
+      + `on a scenario drawn at random.${bars} In a method's colour where a difference is claimed.`,
       new RowChart(pairs, { label: "Probability of improvement of each pair; the numbers are in the table", low: 0, high: 1,
         reference: 0.5, ends: ["second better", "first better"], axis: "probability" }).root,
       folded("Numbers of this figure", table("", ["Pair", "Probability", "95 % interval", "Claimed"],
@@ -54,7 +55,7 @@ function overallFigures(run, overall) {
 }
 
 function profileFigure(run, overall) {
-  const chart = new LineChart("Performance profiles", { height: 320, low: 0, high: 1, namesAt: 0.5 });
+  const chart = new LineChart("Performance profiles", { height: 320, low: 0, high: 1, rest: 0.5 });
   const end = (profile, side) => profile.map(point => point.interval ? point.interval[side] : null);
   chart.show({
     x: overall.thresholds, xName: "normalised score", xFactor: 1, yName: "share of runs above", mark: null,
@@ -63,7 +64,8 @@ function profileFigure(run, overall) {
   });
   const rows = overall.thresholds.map((threshold, place) => ({ threshold, place })).filter(({ place }) => place % 5 === 0);
   const text = ({ value, interval }) => interval ? `${fixed(value, 2)} (${intervalText(interval, 2)})` : fixed(value, 2);
-  return figure("h3", "Performance profiles", "The share of runs above each normalised score: the higher, the better. Bands are 95 % intervals, point by point.",
+  const bands = run.seeds.length > 1 ? " Bands are 95 % intervals, point by point." : "";
+  return figure("h3", "Performance profiles", `The share of runs above each normalised score: the higher, the better.${bands}`,
     chart.root, folded("Numbers of this figure", table("", ["Score above", ...run.methods.map(method => method.name)],
       rows.map(({ threshold, place }) => [fixed(threshold, 1), ...overall.profiles.map(profile => text(profile[place]))]))));
 }
@@ -73,6 +75,7 @@ function buildOverall(run) {
   const [primary, secondary] = [run.primary, other].map(axis => standingsOf(run, axis).overall);
   if (!primary) return;
   document.getElementById("overall").hidden = false;
+  if (run.scenarios.length === 1) document.getElementById("overall-heading").textContent = "Scores from 0 to 1";
   document.getElementById("overall-intro").textContent = `Scores at equal ${AXES[run.primary]}, brought to 0 for the worst and 1 for the `
     + "best run of each scenario, so that metres and seconds can be put together.";
   document.getElementById("overall-primary").append(...overallFigures(run, primary));
@@ -136,7 +139,7 @@ function thresholdTable(run, facts) {
 
 // The curves of a scenario, and a function that draws them over another axis.
 function curveFigure(run, facts) {
-  const chart = new LineChart(`Best score so far on ${facts.name}`, { height: 340, stepped: true });
+  const chart = new LineChart(`Best score so far on ${facts.name}`, { height: 340, stepped: true, named: true });
   const numbers = folded("Numbers of this figure");
   const show = axis => {
     const curves = facts.curves.find(curves => curves.axis === axis);
@@ -157,7 +160,7 @@ function curveFigure(run, facts) {
 
 function buildScenarios(run) {
   document.getElementById("scenarios").hidden = false;
-  document.getElementById("scenarios-intro").textContent = "Scores in their own units. Draw the curves over";
+  document.getElementById("scenarios-intro").textContent = "Scores in their own units. Draw the curves over:";
   const list = document.getElementById("scenario-list");
   const other = run.primary === "steps" ? "evaluations" : "steps";
   const curves = run.scenarios.map((facts, place) => {
@@ -183,6 +186,12 @@ function buildScenarios(run) {
   curves.forEach(show => show(run.primary));
 }
 
+function seedText(seeds) {
+  const last = seeds.length - 1;
+  const inRow = last > 1 && seeds.every((seed, place) => seed === seeds[0] + place);
+  return inRow ? `${seeds[0]} to ${seeds[last]}` : listed(seeds.map(String));
+}
+
 function buildMethods(run) {
   const place = document.getElementById("methods");
   place.append(element("h3", "The methods and their settings"));
@@ -194,7 +203,7 @@ function buildMethods(run) {
     details.append(text);
     place.append(details);
   }
-  place.append(element("p", `Settings as on ${run.scenarios[0]?.name ?? "the first scenario"}. Seeds: ${listed(run.seeds.map(String))}.`, "hint"));
+  place.append(element("p", `Settings as on ${run.scenarios[0]?.name ?? "the first scenario"}. Seeds: ${seedText(run.seeds)}.`, "hint"));
 }
 
 function startPage() {

@@ -20,8 +20,8 @@ class RowChart {
     const narrow = width < 560;
     const longest = of => Math.max(...rows.map(row => of(row).length));
     const tall = (rows[0].runs ? 34 : 30) + (narrow ? 16 : 0);
-    const left = narrow ? 8 : Math.min(280, 20 + longest(row => row.name) * 7.4);
-    const right = width - (narrow ? 8 : Math.min(220, 20 + longest(row => row.text) * 7));
+    const left = narrow ? 12 : Math.min(280, 20 + longest(row => row.name) * 7.4);
+    const right = width - (narrow ? 12 : Math.min(220, 20 + longest(row => row.text) * 7));
     const top = options.ends ? 24 : 6;
     const bottom = top + rows.length * tall + 4;
     const height = bottom + 40;
@@ -46,8 +46,8 @@ class RowChart {
       const middle = top + (i + 0.5) * tall + (narrow ? 9 : 0);
       const words = narrow ? middle - tall / 2 + 6 : middle + 4.5;
       const group = svg("g", { class: methodClass(row.method) }, root);
-      svg("text", { class: "name", x: narrow ? left : 0, y: words }, group).textContent = row.name;
-      svg("text", { class: "value", x: narrow ? right : width, y: words, "text-anchor": "end" }, group).textContent = row.text;
+      svg("text", { class: "name", x: 0, y: words }, group).textContent = row.name;
+      svg("text", { class: "value", x: width, y: words, "text-anchor": "end" }, group).textContent = row.text;
       this.drawRow(group, row, x, middle);
     });
   }

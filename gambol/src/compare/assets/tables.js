@@ -7,8 +7,8 @@ function element(name, text, className) {
   return made;
 }
 
-// A method's colour; with more methods than colours they come again, and names tell them apart.
-function methodClass(place) { return place === null ? "no-method" : `method-${place % 8}`; }
+// A method's colour; with more methods than colours they come again, dashed.
+function methodClass(place) { return place === null ? "no-method" : `method-${place % 8}${place < 8 ? "" : " again"}`; }
 
 // How many decimals show differences of a hundredth of the range.
 function decimalsOf(values) {

@@ -129,11 +129,12 @@ class NetworkView {
       const back = source >= target;
       const size = Math.abs(weight) / this.heaviest;
       const signal = this.activations ? Math.min(1, Math.abs(this.value(source, back ? 1 : 0)) / this.peaks[this.kinds[source]]) : 0.6;
-      let alpha = (faintest + 0.74 * size * (0.25 + 0.75 * signal)) * (0.5 + 0.5 * crowd);
+      // A way back is always in sight: it is what makes the net remember.
+      let alpha = ((back ? 0.25 : faintest) + 0.74 * size * (0.25 + 0.75 * signal)) * (0.5 + 0.5 * crowd);
       if (this.hovered !== null) alpha = source === this.hovered || target === this.hovered ? 0.35 + 0.65 * size : 0.03;
       c.globalAlpha = Math.min(alpha, 1);
       c.strokeStyle = c.fillStyle = weight < 0 ? theme.minus : theme.plus;
-      c.lineWidth = 0.5 + 3.2 * size;
+      c.lineWidth = (back ? 1 : 0.5) + 3.2 * size;
       c.setLineDash(back ? [5, 4] : []);
       const { points, arrow } = this.plan.curves[index];
       c.beginPath();

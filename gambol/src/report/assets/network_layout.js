@@ -24,18 +24,21 @@ function layOutNetwork(network, width) {
   const named = Math.max(columns[0].length, columns[last].length);
   const crowd = Math.max(...columns.map(column => column.length));
   const gap = narrow ? 29 : Math.max(25, Math.min(40, 400 / named));
-  const height = Math.max(named * gap + 12, crowd * Math.min(gap, 25) + 12, 180);
-  const gutter = narrow ? Math.round(width * 0.30) : Math.min(220, Math.round(width * 0.22));
+  const hidden = columns.slice(1, -1).reduce((sum, column) => sum + column.length, 0);
+  const height = Math.max(named * gap + 12, crowd * Math.min(gap, 25) + 12, Math.min(180 + 6 * hidden, 380));
+  const gutter = narrow ? Math.round(width * (last > 3 ? 0.25 : 0.30)) : Math.min(220, Math.round(width * 0.22));
   const rim = narrow ? 7 : Math.min(11, gap * 0.32);
   const step = (width - 2 * (gutter + rim)) / last;
   const apart = columns.map((column, c) => c === 0 || c === last
-    ? Math.min(gap * 1.5, height / (column.length + 0.2)) : Math.min(gap * 1.9, height / (column.length + 0.5)));
+    ? Math.min(Math.max(gap * 1.5, height * 0.2), height / (column.length + 0.2)) : Math.min(gap * 1.9, height / (column.length + 0.5)));
   const radius = Math.min(rim, step * 0.4, ...apart.map(distance => distance * 0.42));
   const nodes = [];
   columns.forEach((column, c) => column.forEach((node, i) => {
     nodes[node] = { column: c, x: gutter + rim + step * c, y: height / 2 + (i - (column.length - 1) / 2) * apart[c] };
   }));
-  settle(network, columns.slice(1, -1), nodes, apart[1], [radius + 4, height - radius - 4]);
+  const range = [radius + 4, height - radius - 4];
+  settle(network, columns.slice(1, -1), nodes, gap * 1.9, range);
+  stepAside(network, columns.slice(1, -1), nodes, radius, range);
   const frame = { last, step, radius, middle: height / 2, bottom: height - 3 };
   const curves = network.connections.map(([source, target]) => curveBetween(nodes[source], nodes[target], frame));
   return { narrow, height, gutter, radius, columns, nodes, curves };
@@ -57,6 +60,39 @@ function settle(network, columns, nodes, apart, range) {
         .forEach((y, i) => { nodes[column[i]].y = y; });
     }
   }
+}
+
+// Moves hidden neurons a little, between their neighbours in the column, off the connections that only pass by. In a
+// large net there is no free place to find.
+function stepAside(network, columns, nodes, radius, [top, bottom]) {
+  if (network.connections.length > 1000) return;
+  for (const column of columns) {
+    const order = [...column].sort((a, b) => nodes[a].y - nodes[b].y);
+    order.forEach((node, i) => {
+      const { x, y } = nodes[node];
+      const low = i ? nodes[order[i - 1]].y + 2.4 * radius : top;
+      const high = i < order.length - 1 ? nodes[order[i + 1]].y - 2.4 * radius : bottom;
+      const passing = network.connections.filter(([source, target]) => source !== node && target !== node)
+        .map(([source, target]) => heightAt(nodes[source], nodes[target], x)).filter(height => height !== null);
+      const cost = at => passing.reduce((sum, height) => sum + Math.max(0, 1 - Math.abs(at - height) / (radius + 4)), 0);
+      let best = { at: y, cost: cost(y) };
+      for (let away = 2; away <= 4 * radius; away += 2) {
+        for (const at of [y - away, y + away]) {
+          if (at < low || at > high) continue;
+          const here = cost(at) + away * 0.01;
+          if (here < best.cost) best = { at, cost: here };
+        }
+      }
+      nodes[node].y = best.at;
+    });
+  }
+}
+
+// About where the curve from `a` to `b` passes a place between them; null if it does not.
+function heightAt(a, b, x) {
+  if (x <= a.x + 1 || x >= b.x - 1) return null;
+  const share = (x - a.x) / (b.x - a.x);
+  return a.y + (b.y - a.y) * share * share * (3 - 2 * share);
 }
 
 // The heights closest to those wanted (least squares) that keep their order, a distance and a range.
@@ -87,8 +123,9 @@ function spread(wanted, apart, [top, bottom]) {
 function curveBetween(a, b, { last, step, radius, middle, bottom }) {
   const inside = y => Math.min(Math.max(y, 3), bottom);
   if (a === b) {
-    // A loop above; outputs have their names beside them, so theirs is to the left.
-    const [ux, uy] = a.column === last ? [-1, 0] : [0, a.y < 4 * radius ? 1 : -1];
+    // A loop above, or below the topmost; outputs have their names to the right, so theirs leans to the left.
+    const up = a.y < 4 * radius ? 1 : -1;
+    const [ux, uy] = a.column === last ? [-0.6, 0.8 * up] : [0, up];
     const at = (out, side) => [a.x + radius * (ux * out - uy * side), a.y + radius * (uy * out + ux * side)];
     return { points: [...at(0.75, -0.66), ...at(3.4, -2.2), ...at(3.4, 2.2), ...at(0.75, 0.66)], arrow: true };
   }

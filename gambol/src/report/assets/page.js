@@ -90,10 +90,13 @@ function buildFitness(run) {
   if (!run.history || !run.history.length) return;
   document.getElementById("fitness").hidden = false;
   const rows = run.history;
-  const size = rows[rows.length - 1].evaluations;
+  const sizes = rows.map(row => row.evaluations || 0);
   const text = rows.length > 1 ? [`From ${withUnit(rows[0].best_so_far, run.unit)} to ${withUnit(rows[rows.length - 1].best_so_far, run.unit)} `
     + `in ${count(rows.length, "generation", "generations")}`] : ["One generation"];
-  if (size) text.push(` of ${count(size, "evaluation", "evaluations")} each`);
+  // A strategy may change the size of its generations.
+  const size = sizes.every(size => size === sizes[0]) ? `${count(sizes[0], "evaluation", "evaluations")} each`
+    : `${fixed(Math.min(...sizes), 0)} to ${fixed(Math.max(...sizes), 0)} evaluations`;
+  if (sizes[0]) text.push(` of ${size}`);
   document.getElementById("fitness-intro").textContent = text.join("") + ".";
   new FitnessChart(run);
 }

@@ -62,9 +62,10 @@ class SpeciesChart {
     const x = generation => last === first ? (box.left + box.right) / 2
       : box.left + (generation - first) / (last - first) * (box.right - box.left);
     const y = members => box.bottom - members / this.most * (box.bottom - box.top);
-    Object.assign(this, { box, x, y });
-    this.place.replaceChildren(this.tip);
+    Object.assign(this, { height, box, x, y });
+    this.place.replaceChildren();
     const root = svg("svg", { viewBox: `0 0 ${width} ${height}`, width, height, "aria-hidden": "true" }, this.place);
+    this.place.append(this.tip);
     svg("text", { class: "axis", x: 0, y: 11 }, root).textContent = "members of each species";
     for (const tick of niceTicks(0, this.most, narrow ? 3 : 5).ticks.filter(Number.isInteger)) {
       svg("line", { class: "grid", x1: box.left, x2: box.right, y1: y(tick), y2: y(tick) }, root);
@@ -137,11 +138,14 @@ class SpeciesChart {
     title.prepend(element("i", undefined, `species-swatch species-${this.colours[k]}`));
     this.tip.replaceChildren(title, ...lines.map(line => element("div", line)));
     this.place.setAttribute("aria-valuetext", `species ${id}: ${lines.join(", ")}`);
-    // Beside the line, on the side with more room.
+    // Beside the line, on the side with more room, and away from the layer. On narrow screens the style sheet puts it
+    // below the chart.
     const onLeft = px > this.width / 2;
-    const room = onLeft ? px - 12 : this.width - px - 12;
-    Object.assign(this.tip.style, { left: onLeft ? "" : `${px + 12}px`, right: onLeft ? `${this.width - px + 12}px` : "",
-      top: `${this.box.top}px`, maxWidth: `${room}px` });
+    const isHigh = this.below[row][k] + this.size(k, row) / 2 > this.most / 2;
+    Object.assign(this.tip.style, {
+      left: onLeft ? "" : `${px + 12}px`, right: onLeft ? `${this.width - px + 12}px` : "",
+      top: isHigh ? "" : `${this.box.top + 6}px`, bottom: isHigh ? `${this.height - this.box.bottom + 6}px` : "",
+    });
   }
 
   // The species whose layer lies at a height; the closest if none does.
@@ -170,8 +174,9 @@ class SpeciesChart {
       const vertical = { ArrowUp: 1, ArrowDown: -1 }[event.key];
       let { row, k } = this.picked ?? { row: this.rows.length - 1, k: null };
       if (vertical && k !== null) {
-        do k += vertical; while (k >= 0 && k < this.species.length && !this.size(k, row));
-        if (!this.size(k, row)) return event.preventDefault();
+        let next = k + vertical;
+        while (this.species[next] && !this.size(next, row)) next += vertical;
+        if (this.species[next]) k = next;
       } else {
         const to = vertical ? row : rowForKey(event.key, row, this.rows);
         if (to === undefined) return;
