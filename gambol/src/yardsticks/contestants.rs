@@ -16,52 +16,89 @@ pub struct Contestant {
     pub topology: Topology,
     /// The range of its outputs.
     pub output_range: OutputRange,
+    /// Whether the task gives it a constant input, for nets that have no biases of their own.
+    pub bias_input: bool,
     /// Settings and net, in words.
     pub description: &'static str,
 }
 
-/// Each strategy with each task it can be measured on.
+/// Each strategy with each task, some with more than one setting.
 pub fn contestants() -> Vec<Contestant> {
-    let weights = |task| {
-        [
-            StrategySettings::CmaEs(CmaEsSettings::default()),
-            StrategySettings::OpenEs(OpenEsSettings::default()),
-            StrategySettings::Cosyne(CosyneSettings::default()),
-            StrategySettings::Conventional(ConventionalNeSettings::default()),
-        ]
-        .map(|settings| searching_weights(settings, task))
+    let others = |task| [cma_es(task), cosyne(task), open_es(task), conventional(task)];
+    let all = |task| neat(task).into_iter().chain(others(task));
+    Yardstick::ALL.into_iter().flat_map(all).collect()
+}
+
+/// NEAT as the paper has it, and where poles are balanced without velocities also with settings of our own.
+fn neat(task: Yardstick) -> Vec<Contestant> {
+    let with = |settings, description| Contestant {
+        task,
+        settings: StrategySettings::Neat(Box::new(settings)),
+        topology: DenseShape::new(task.inputs(), Vec::new(), 1).into(),
+        output_range: OutputRange::ZeroToOne,
+        bias_input: false,
+        description,
     };
-    Yardstick::ALL.into_iter().flat_map(|task| [neat(task)].into_iter().chain(weights(task))).collect()
-}
-
-fn searching_weights(settings: StrategySettings, task: Yardstick) -> Contestant {
-    let (topology, description) = net(task);
-    Contestant { task, settings, topology, output_range: OutputRange::MinusOneToOne, description }
-}
-
-fn neat(task: Yardstick) -> Contestant {
-    let (settings, output_range, description) = match task {
-        Yardstick::Xor => (NeatSettings::stanley_2002(), OutputRange::ZeroToOne, "preset stanley-2002"),
-        _ => (NeatSettings::pole_balancing(), OutputRange::MinusOneToOne, "NeatSettings::pole_balancing"),
-    };
-    let topology = DenseShape::new(task.inputs(), Vec::new(), 1).into();
-    Contestant { task, settings: StrategySettings::Neat(Box::new(settings)), topology, output_range, description }
-}
-
-/// The net of those that search weights only.
-fn net(task: Yardstick) -> (Topology, &'static str) {
     match task {
-        Yardstick::Xor => (DenseShape::new(2, vec![2], 1).into(), "net 2-2-1, tanh"),
-        Yardstick::OnePole => (DenseShape::new(4, Vec::new(), 1).into(), "net 4-1, tanh"),
-        Yardstick::TwoPoles => (DenseShape::new(6, Vec::new(), 1).into(), "net 6-1, tanh"),
-        Yardstick::TwoPolesWithoutVelocities => {
-            (recurrent(3, 3).into(), "3 inputs, 3 neurons connected with all, tanh")
-        }
+        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => vec![
+            with(NeatSettings::stanley_2002_double_pole(), "NeatSettings::stanley_2002_double_pole"),
+            with(NeatSettings::pole_balancing(), "NeatSettings::pole_balancing"),
+        ],
+        _ => vec![with(NeatSettings::stanley_2002(), "NeatSettings::stanley_2002")],
     }
 }
 
-/// Neurons that are connected with all inputs, all neurons and a bias; the last is the output.
-fn recurrent(inputs: usize, neurons: usize) -> GraphShape {
-    let neuron = GraphNeuron { activation: Activation::Tanh, bias: true, sources: (0..inputs + neurons).collect() };
+fn cma_es(task: Yardstick) -> Contestant {
+    let settings = match task {
+        Yardstick::Xor => CmaEsSettings::default(),
+        _ => CmaEsSettings::pole_balancing(),
+    };
+    on_its_net(task, StrategySettings::CmaEs(settings))
+}
+
+fn cosyne(task: Yardstick) -> Contestant {
+    let settings = match task {
+        Yardstick::Xor => CosyneSettings::default(),
+        _ => CosyneSettings::pole_balancing(),
+    };
+    on_its_net(task, StrategySettings::Cosyne(settings))
+}
+
+fn open_es(task: Yardstick) -> Contestant {
+    on_its_net(task, StrategySettings::OpenEs(OpenEsSettings::default()))
+}
+
+fn conventional(task: Yardstick) -> Contestant {
+    on_its_net(task, StrategySettings::Conventional(ConventionalNeSettings::default()))
+}
+
+/// A search for the weights of the net the task is given.
+fn on_its_net(task: Yardstick, settings: StrategySettings) -> Contestant {
+    // The constant input is one more.
+    let inputs = task.inputs() + 1;
+    let (topology, output_range, description): (Topology, _, _) = match task {
+        Yardstick::Xor => (DenseShape::new(2, vec![4], 1).into(), OutputRange::MinusOneToOne, "net 2-4-1, tanh"),
+        Yardstick::OnePole | Yardstick::TwoPoles => {
+            let description = "one logistic neuron, a constant among its inputs";
+            (single_neuron(inputs).into(), OutputRange::ZeroToOne, description)
+        }
+        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => {
+            let description = "two logistic neurons connected with all inputs, each other and themselves";
+            (fully_recurrent(inputs, 2).into(), OutputRange::ZeroToOne, description)
+        }
+    };
+    Contestant { task, settings, topology, output_range, bias_input: task != Yardstick::Xor, description }
+}
+
+/// One neuron without a bias, connected with all inputs.
+fn single_neuron(inputs: usize) -> GraphShape {
+    let neuron = GraphNeuron { activation: Activation::Logistic, bias: false, sources: (0..inputs).collect() };
+    GraphShape { inputs, recurrent: false, neurons: vec![neuron], outputs: vec![inputs] }
+}
+
+/// Neurons each connected with all of them and with all inputs; the last is the output.
+fn fully_recurrent(inputs: usize, neurons: usize) -> GraphShape {
+    let neuron =
+        GraphNeuron { activation: Activation::Logistic, bias: false, sources: (0..inputs + neurons).collect() };
     GraphShape { inputs, recurrent: true, neurons: vec![neuron; neurons], outputs: vec![inputs + neurons - 1] }
 }

@@ -29,11 +29,15 @@ pub enum Yardstick {
     TwoPoles,
     /// The same without velocities among the inputs, with the damping fitness.
     TwoPolesWithoutVelocities,
+    /// The same from 1° in place of 4°, and a solution has to hold the poles from 200 of 625 other starts too; only the
+    /// best of each generation is tried. So Stanley & Miikkulainen, 2002, had it.
+    GeneralTwoPoles,
 }
 
 impl Yardstick {
     /// All of them, the easiest first.
-    pub const ALL: [Self; 4] = [Self::Xor, Self::OnePole, Self::TwoPoles, Self::TwoPolesWithoutVelocities];
+    pub const ALL: [Self; 5] =
+        [Self::Xor, Self::OnePole, Self::TwoPoles, Self::TwoPolesWithoutVelocities, Self::GeneralTwoPoles];
 
     /// The name users choose it by.
     pub fn name(self) -> &'static str {
@@ -42,16 +46,17 @@ impl Yardstick {
             Self::OnePole => "one-pole",
             Self::TwoPoles => "two-poles",
             Self::TwoPolesWithoutVelocities => "two-poles-without-velocities",
+            Self::GeneralTwoPoles => "general-two-poles",
         }
     }
 
-    /// The number of inputs of a controller.
+    /// The number of inputs of a controller, a constant one not counted.
     pub fn inputs(self) -> usize {
         match self {
             Self::Xor => 2,
             Self::OnePole => 4,
             Self::TwoPoles => 6,
-            Self::TwoPolesWithoutVelocities => 3,
+            Self::TwoPolesWithoutVelocities | Self::GeneralTwoPoles => 3,
         }
     }
 
@@ -59,18 +64,31 @@ impl Yardstick {
     pub fn limit(self) -> u64 {
         match self {
             Self::Xor | Self::OnePole => 100_000,
-            Self::TwoPoles | Self::TwoPolesWithoutVelocities => 1_000_000,
+            Self::TwoPoles | Self::TwoPolesWithoutVelocities | Self::GeneralTwoPoles => 200_000,
         }
     }
 
-    /// The task, for controllers whose outputs have this range.
-    fn task(self, output_range: OutputRange) -> Result<Box<dyn Benchmark>, SettingError> {
-        let poles = |settings: DoublePoleSettings| DoublePole::new(DoublePoleSettings { output_range, ..settings });
+    /// The task, with the inputs and outputs a contestant wants.
+    fn task(self, output_range: OutputRange, bias_input: bool) -> Result<Box<dyn Benchmark>, SettingError> {
         Ok(match self {
-            Self::Xor => Box::new(Xor::new(XorSettings { output_range, ..Default::default() })),
-            Self::OnePole => Box::new(CartPole::new(CartPoleSettings { output_range, ..Default::default() })?),
-            Self::TwoPoles => Box::new(poles(DoublePoleSettings::with_velocities())?),
-            Self::TwoPolesWithoutVelocities => Box::new(poles(DoublePoleSettings::without_velocities())?),
+            Self::Xor => Box::new(Xor::new(XorSettings { output_range, bias_input })),
+            Self::OnePole => {
+                Box::new(CartPole::new(CartPoleSettings { output_range, bias_input, ..Default::default() })?)
+            }
+            _ => Box::new(self.poles(output_range, bias_input)?),
         })
+    }
+
+    /// Two poles, as [`task`](Self::task) has them.
+    fn poles(self, output_range: OutputRange, bias_input: bool) -> Result<DoublePole, SettingError> {
+        let settings = match self {
+            Self::TwoPolesWithoutVelocities => DoublePoleSettings::without_velocities(),
+            Self::GeneralTwoPoles => DoublePoleSettings {
+                start_angle: DoublePoleSettings::START_ANGLE_2002,
+                ..DoublePoleSettings::without_velocities()
+            },
+            _ => DoublePoleSettings::with_velocities(),
+        };
+        DoublePole::new(DoublePoleSettings { output_range, bias_input, ..settings })
     }
 }

@@ -42,11 +42,11 @@ pub const PUBLISHED: &[Published] = &[
     published("CMA-ES", Some("cma-es"), Yardstick::TwoPolesWithoutVelocities, 6_061, GOMEZ),
     published("NEAT", Some("neat"), Yardstick::TwoPolesWithoutVelocities, 6_929, GOMEZ),
     published("ESP", None, Yardstick::TwoPolesWithoutVelocities, 26_342, GOMEZ),
-    published("NEAT", Some("neat"), Yardstick::TwoPolesWithoutVelocities, 33_184, STANLEY),
     published("conventional NE", Some("conventional"), Yardstick::TwoPolesWithoutVelocities, 87_623, GOMEZ),
     published("SANE", None, Yardstick::TwoPolesWithoutVelocities, 451_612, GOMEZ),
     published("cellular encoding", None, Yardstick::TwoPolesWithoutVelocities, 840_000, GOMEZ),
     published("random weight guessing", None, Yardstick::TwoPolesWithoutVelocities, 1_232_296, GOMEZ),
+    published("NEAT, 286 of 625,", Some("neat"), Yardstick::GeneralTwoPoles, 33_184, STANLEY),
 ];
 
 const fn published(

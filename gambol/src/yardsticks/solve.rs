@@ -1,11 +1,11 @@
 use super::{Contestant, Yardstick};
 use crate::search::{Search, SearchVisitor};
-use ne_core::{Genome, Seed, SettingError, Strategy};
+use ne_core::{Evaluation, Genome, Seed, SettingError, Strategy, Task};
 use ne_net::Network;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::time::Instant;
-use tasks::{Benchmark, DoublePole, DoublePoleSettings};
+use tasks::{Benchmark, DoublePole};
 
 /// What one run came to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -76,22 +76,24 @@ impl SearchVisitor for Try<'_> {
     type Output = Result<Attempt, SettingError>;
 
     fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let Self { contestant: &Contestant { task, ref topology, output_range, .. }, seed } = self;
-        let benchmark = task.task(output_range)?;
+        let Self { contestant: &Contestant { task, ref topology, output_range, bias_input, .. }, seed } = self;
+        let benchmark = task.task(output_range, bias_input)?;
+        let poles = task.poles(output_range, bias_input)?;
         let strategy = S::build(settings, topology)?;
         let began = Instant::now();
-        let (evaluations, solution) = solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit());
-        let seconds = began.elapsed().as_secs_f64();
-        let net = solution.as_ref().map(size);
-        let generalization = match (task, solution) {
-            (Yardstick::TwoPolesWithoutVelocities, Some(mut solution)) => {
-                let settings = DoublePoleSettings { output_range, ..DoublePoleSettings::without_velocities() };
-                DoublePole::new(settings)?.generalization(&mut solution).ok().map(|starts| starts.held)
-            }
-            _ => None,
+        let (evaluations, solution) = match task {
+            Yardstick::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
+            _ => solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit()),
         };
-        let (hidden, connections) = net.unzip();
-        Ok(Attempt { seed, evaluations, solved: net.is_some(), hidden, connections, seconds, generalization })
+        let seconds = began.elapsed().as_secs_f64();
+        let (hidden, connections) = solution.as_ref().map(size).unzip();
+        let solved = solution.is_some();
+        let has_starts = matches!(task, Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles);
+        let generalization = solution
+            .filter(|_| has_starts)
+            .and_then(|mut solution| poles.generalization(&mut solution).ok())
+            .map(|starts| starts.held);
+        Ok(Attempt { seed, evaluations, solved, hidden, connections, seconds, generalization })
     }
 
     fn foreign(self, name: &str) -> Self::Output {
@@ -122,6 +124,37 @@ where
             evaluations.push(evaluation);
         }
         strategy.tell(&evaluations, seed);
+    }
+    (used, None)
+}
+
+/// As [`solve`], but generation by generation: only the best of each is tried, and it has to hold from other starts too.
+fn solve_generally<S>(mut strategy: S, task: &DoublePole, seed: Seed, limit: u64) -> (u64, Option<Network>)
+where
+    S: Strategy<Genome: Genome<Phenotype: Into<Network>>>,
+{
+    let mut used = 0;
+    for generation in 1.. {
+        let seed = seed.generation(generation);
+        let genomes = strategy.ask(seed);
+        let evaluations: Vec<Evaluation> =
+            genomes.iter().map(|genome| task.evaluate(&mut genome.express(), seed)).collect();
+        used += evaluations.len() as u64;
+        let ranked = genomes.iter().zip(&evaluations).rev();
+        // Reversed, since of equals `max_by_key` takes the last.
+        if let Some((genome, evaluation)) = ranked.max_by_key(|(_, evaluation)| evaluation.fitness()) {
+            let mut phenotype = genome.express();
+            if task.is_candidate(evaluation)
+                && task.is_solved(&mut phenotype, evaluation)
+                && task.generalization(&mut phenotype).is_ok_and(|starts| starts.is_general())
+            {
+                return (used, Some(phenotype.into()));
+            }
+        }
+        strategy.tell(&evaluations, seed);
+        if used >= limit {
+            break;
+        }
     }
     (used, None)
 }

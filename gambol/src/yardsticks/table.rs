@@ -39,9 +39,7 @@ fn render_task(text: &mut String, task: Yardstick, measured: &[&Measured]) -> st
             middle(&milliseconds).unwrap_or_default(),
             published(task, |published| published.strategy == Some(measured.strategy.as_str())),
         )?;
-    }
-    for measured in measured {
-        writeln!(text, "    {}: {}", measured.strategy, measured.description)?;
+        writeln!(text, "    {}", measured.description)?;
     }
     let others = published(task, |published| {
         measured.iter().all(|measured| published.strategy != Some(measured.strategy.as_str()))
