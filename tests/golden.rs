@@ -1,6 +1,6 @@
 //! Runs come out as they always did, to the bit.
 //!
-//! For each preset, shipped creature and movement a tiny run is trained, and what came out is compared with what is
+//! For each preset and strategy, shipped creature and movement a tiny run is trained, and what came out is compared with what is
 //! written in the folder `golden`. Where a number differs, every run anybody has recorded comes out differently too, and
 //! every saved champion may fail to verify. If that is wanted, say so in the changelog, and write the numbers anew:
 //!
@@ -10,7 +10,7 @@
 
 use crate::root;
 use gambol::{
-    config::preset,
+    config::{preset, strategy},
     training::{TrainOptions, train},
 };
 use ne_core::digest::Digest;
@@ -30,10 +30,25 @@ struct Golden {
     log: String,
 }
 
-fn tiny_run(preset_name: &str, creature: &str, movement: &str) -> Result<Golden, Box<dyn Error>> {
-    let mut config = preset(preset_name).ok_or("there is no such preset")?.config(creatures::find(creature)?, movement);
+/// What a run starts from: a preset, or a strategy with its default settings.
+#[derive(Clone, Copy)]
+enum From {
+    Preset(&'static str),
+    Strategy(&'static str),
+}
+
+fn tiny_run(from: From, creature: &str, movement: &str) -> Result<Golden, Box<dyn Error>> {
+    let base = |name| preset(name).ok_or("there is no such preset");
+    let mut config = match from {
+        From::Preset(name) => base(name)?.config(creatures::find(creature)?, movement),
+        From::Strategy(name) => {
+            let mut config = base("default")?.config(creatures::find(creature)?, movement);
+            config.strategy = (strategy(name).ok_or("there is no such strategy")?.settings)();
+            config
+        }
+    };
     config.seed = 1;
-    config.strategy.set_population(6);
+    config.strategy.set_population(if matches!(from, From::Preset(_)) { 6 } else { 12 });
     config.stop.generations = Some(3);
     config.movement.steps = Some(100);
     let folder = tempfile::tempdir()?;
@@ -50,12 +65,13 @@ fn tiny_run(preset_name: &str, creature: &str, movement: &str) -> Result<Golden,
     Ok(Golden { fitness: champion.fitness.get(), trajectory: champion.trajectory.digest, log: log.to_string() })
 }
 
-fn check(preset: &str) -> Result<(), Box<dyn Error>> {
-    let path = root().join("tests/golden").join(preset).with_extension("json");
+fn check(from: From) -> Result<(), Box<dyn Error>> {
+    let (From::Preset(name) | From::Strategy(name)) = from;
+    let path = root().join("tests/golden").join(name).with_extension("json");
     let mut found = BTreeMap::new();
     for creature in creatures::shipped() {
         for movement in ["running", "jumping"] {
-            found.insert(format!("{} {movement}", creature.name), tiny_run(preset, creature.name, movement)?);
+            found.insert(format!("{} {movement}", creature.name), tiny_run(from, creature.name, movement)?);
         }
     }
     if env::var("GAMBOL_GOLDEN").is_ok_and(|wish| wish == "write") {
@@ -70,7 +86,7 @@ fn check(preset: &str) -> Result<(), Box<dyn Error>> {
         .collect();
     assert!(
         differing.is_empty() && expected.len() == found.len(),
-        "runs of the preset {preset} come out differently from what {} says. A change of these numbers changes every \
+        "runs of {name} come out differently from what {} says. A change of these numbers changes every \
          recorded run; if it is wanted, the top of golden.rs says how to write them anew.\n{}",
         path.display(),
         differing.join("\n")
@@ -79,11 +95,11 @@ fn check(preset: &str) -> Result<(), Box<dyn Error>> {
 }
 
 #[test]
-fn runs_of_the_default_preset_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
-    check("default")
+fn runs_of_the_presets_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
+    ["default", "thesis", "stanley-2002"].into_iter().try_for_each(|name| check(From::Preset(name)))
 }
 
 #[test]
-fn runs_of_the_thesis_preset_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
-    check("thesis")
+fn runs_of_the_strategies_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
+    ["neat", "cma-es", "open-es", "cosyne"].into_iter().try_for_each(|name| check(From::Strategy(name)))
 }

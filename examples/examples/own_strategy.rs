@@ -8,7 +8,9 @@
 use gambol::compare::{
     ComparisonFolder, ForeignRunner, Method, Part, PlanRequest, Runners, WorkOptions, table, work, write_outcome,
 };
-use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, StopConditions, Strategy, conformance::check_strategy};
+use ne_core::{
+    Evaluation, Fitness, Purpose, Seed, SettingError, StopConditions, Strategy, conformance::check_strategy,
+};
 use ne_fixed::WeightVector;
 use ne_net::{DenseShape, Topology};
 use rand::RngExt;

@@ -107,6 +107,7 @@ impl Request {
             assembly.lay_over(serde_json::json!({ "topology": topology }));
         }
         for assignment in &self.set {
+            check_strategy_of(assignment, base.strategy.name())?;
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
@@ -183,6 +184,20 @@ impl Request {
             Some((layer, other)) => Err(layer.wrong("preset", format!("must be a name, found {other}"))),
             None => Ok(&PRESETS[0]),
         }
+    }
+}
+
+/// A setting of a strategy makes sense only if it is the strategy.
+fn check_strategy_of(assignment: &str, chosen: &str) -> Result<(), RequestError> {
+    let path = assignment.split('=').next().unwrap_or_default();
+    match path.strip_prefix("strategy.").and_then(|path| path.split_once('.')) {
+        Some((other, _)) if other != chosen && strategy(other).is_some_and(|entry| entry.name == other) => {
+            let message = format!(
+                "--set {assignment}: the strategy is \"{chosen}\"; choose the other one with --strategy {other}"
+            );
+            Err(RequestError::Unknown(message))
+        }
+        _ => Ok(()),
     }
 }
 

@@ -23,3 +23,4 @@ mod reporting;
 mod strategies;
 mod training;
 mod verifying;
+mod yardsticks;

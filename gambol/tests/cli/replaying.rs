@@ -120,3 +120,23 @@ fn a_replay_never_takes_the_place_of_its_champion() -> Outcome {
     assert_eq!(fs::read(&champion)?, before);
     Ok(())
 }
+
+#[test]
+fn the_net_is_drawn_as_a_graph() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let champion = trained(folder.path(), "biped-1");
+    let file = folder.path().join("net.dot");
+    assert_says(&succeed(gambol("replay").arg(&champion).arg("--dot").arg(&file)), &[text(&file)]);
+    let drawing = fs::read_to_string(&file)?;
+    assert!(drawing.starts_with("digraph network {") && drawing.ends_with("}\n"));
+    // Three inputs, ten hidden neurons, two outputs, each layer fully connected with the next.
+    assert_eq!(drawing.matches(" -> ").count(), 3 * 10 + 10 * 2);
+    assert_eq!(drawing.matches("shape=box").count(), 3 + 2);
+    assert_eq!(drawing.matches("bias").count(), 10 + 2);
+    assert!(!drawing.contains("dashed"), "nothing leads back in a dense net");
+    let message = fail(gambol("replay").arg(&champion).arg("--dot").arg(&file));
+    assert_says(&message, &[text(&file), "exists; say --force to overwrite it"]);
+    let message = fail(gambol("replay").arg(&champion).arg("--force").arg("--dot").arg(&file).arg("--html").arg(&file));
+    assert_says(&message, &["cannot be both the page and the drawing"]);
+    Ok(())
+}

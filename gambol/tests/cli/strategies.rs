@@ -99,6 +99,70 @@ fn a_file_may_name_a_strategy_and_only_the_settings_that_differ() -> Outcome {
     Ok(())
 }
 
+/// After `train biped-1 running`: a strategy, a setting, and what the message says.
+#[rustfmt::skip]
+const WRONG: &[(&str, &str, &str)] = &[
+    ("neat", "mutation.add_node=2",                 "strategy.neat.mutation.add_node = 2: must be from 0 to 1"),
+    ("neat", "population=8",                        "strategy.neat.speciation.target.species = 5: must be at least 1 and at most 4, half of"),
+    ("neat", "speciation.threshold=-1",             "strategy.neat.speciation.threshold = -1: must be from 0.001 to 1000"),
+    ("neat", "hidden_activations=[\"tanhh\"]",      "strategy.neat.hidden_activations[0]: unknown variant `tanhh`"),
+    ("neat", "hidden_activations=[\"tanhh\"]",      "did you mean `tanh`?"),
+    ("cma-es", "step_size=0",                       "strategy.cma-es.step_size = 0: must be above 0 and at most 1000"),
+    ("cma-es", "population=1",                      "strategy.cma-es.population = 1: must be from 2 to 1000000"),
+    ("cma-es", "restart=bopop",                     "did you mean `bipop`?"),
+    ("open-es", "population=3",                     "strategy.open-es.population = 3: must be even, from 2 to 1000000"),
+    ("open-es", "adam.momentum=1",                  "strategy.open-es.adam.momentum = 1: must be from 0 to below 1"),
+    ("cosyne", "parents=0",                         "strategy.cosyne.parents = 0: must be above 0 and at most 1"),
+    ("cosyne", "popultion=3",                       "did you mean `population`?"),
+];
+
+#[test]
+fn a_wrong_setting_is_named_with_its_range() {
+    for (strategy, setting, says) in WRONG {
+        let mut train = gambol("train");
+        train.args(["biped-1", "running", "--strategy", strategy, "--set", &format!("strategy.{strategy}.{setting}")]);
+        assert_says(&fail(&mut train), &[says]);
+    }
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--set", "strategy.neat.recurrent=true"]);
+    assert_says(&fail(&mut train), &["the strategy is \"conventional\"; choose the other one with --strategy neat"]);
+}
+
+/// Three inputs and two outputs for the biped, in a file; `what` is changed in it.
+fn topology(file: &Path, what: &str, into: &str) -> Command {
+    let text = r#"{"topology": {"inputs": ["rotation of torso", "angle of left leg", "angle of right leg"],
+        "outputs": ["speed of left leg", "speed of right leg"], "net": {"graph": {"inputs": 3, "recurrent": false,
+        "neurons": [{"activation": "tanh", "bias": true, "sources": [0]},
+                    {"activation": "tanh", "bias": true, "sources": [3, 1]}], "outputs": [3, 4]}}}}"#;
+    assert!(text.contains(what), "{what}");
+    std::fs::write(file, text.replacen(what, into, 1)).expect("a file");
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--strategy", "cma-es", "--config"]).arg(file);
+    train
+}
+
+#[test]
+fn a_topology_that_is_no_net_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("topology.json");
+    for (what, into, says) in [
+        (
+            "[0]}",
+            "[4]}",
+            "neurons[0].sources[0] = 4: must be below 3, the node of this neuron: a net that is not recurrent",
+        ),
+        ("[3, 1]", "[3, 9]", "neurons[1].sources[1] = 9: must be below 5, the number of nodes"),
+        ("[3, 1]", "[1, 1]", "neurons[1].sources[1] = 1: must be listed once"),
+        ("\"tanh\"", "\"tan\"", "topology.net.graph.neurons[0].activation: unknown variant `tan`"),
+        ("\"outputs\": [3, 4]", "\"outputs\": [3, 0]", "outputs[1] = 0: must be a neuron, from 3 to 4"),
+        ("\"rotation of torso\", ", "", "topology.inputs = 2 names: must be 3 names"),
+        ("rotation of torso", "mood", "only the topology has \"mood\", only the creature has \"rotation of torso\""),
+    ] {
+        assert_says(&fail(&mut topology(&file, what, into)), &[says]);
+    }
+    Ok(())
+}
+
 #[test]
 fn the_weights_of_a_found_topology_can_be_searched() -> Outcome {
     let folder = tempfile::tempdir()?;

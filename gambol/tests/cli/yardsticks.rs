@@ -1,0 +1,51 @@
+//! The yardsticks: every strategy is measured on classic tasks, the same each time.
+
+use crate::program::{assert_says, gambol, run, succeed};
+use serde_json::Value;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+fn bench(arguments: &[&str]) -> std::process::Command {
+    let mut bench = gambol("bench");
+    bench.arg("yardsticks").args(arguments);
+    bench
+}
+
+#[test]
+fn neat_and_cma_es_solve_what_they_should_beside_the_published_figures() -> Outcome {
+    let table = succeed(&mut bench(&["--tasks", "xor,one-pole", "--strategies", "neat,cma-es", "--seeds", "2"]));
+    assert_says(&table, &["2 seeds", "xor: evaluations to a solution", "NEAT 4755 (Stanley & Miikkulainen 2002)"]);
+    assert_says(&table, &["one-pole: evaluations to a solution", "CMA-ES 283", "2/2"]);
+    Ok(())
+}
+
+#[test]
+fn every_attempt_is_told_as_json_and_is_the_same_again() -> Outcome {
+    let attempts = || -> Result<Vec<Value>, Box<dyn std::error::Error>> {
+        let text = succeed(&mut bench(&["--tasks", "one-pole", "--strategies", "cosyne", "--seeds", "3", "--json"]));
+        let mut measured: Value = serde_json::from_str(&text)?;
+        assert_eq!(measured[0]["strategy"], "cosyne");
+        assert_eq!(measured[0]["task"], "one-pole");
+        let attempts = measured[0]["attempts"].as_array_mut().ok_or("a list")?;
+        attempts.iter_mut().filter_map(Value::as_object_mut).for_each(|attempt| drop(attempt.remove("seconds")));
+        Ok(attempts.clone())
+    };
+    let first = attempts()?;
+    assert_eq!(first.len(), 3);
+    assert!(first.iter().all(|attempt| attempt["solved"] == true), "{first:?}");
+    assert_eq!(first, attempts()?);
+    Ok(())
+}
+
+#[test]
+fn misspelt_names_are_corrected() {
+    for (arguments, says) in [
+        (&["--strategies", "naet"][..], "there is no strategy \"naet\"; did you mean \"neat\"?"),
+        (&["--tasks", "two-pole"], "there is no task \"two-pole\"; did you mean \"two-poles\"?"),
+        (&["--seeds", "0"], "0 is not in 1.."),
+    ] {
+        let ended = run(&mut bench(arguments));
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert_says(&ended.stderr, &[says]);
+    }
+}
