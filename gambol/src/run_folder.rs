@@ -187,6 +187,11 @@ impl RunFolder {
         }
     }
 
+    /// A folder, whatever is in it.
+    pub(crate) fn at(path: &Path) -> Self {
+        Self { path: path.into() }
+    }
+
     /// The folder of an earlier run.
     ///
     /// # Errors

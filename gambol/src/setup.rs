@@ -107,6 +107,7 @@ impl Setup {
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
         config.strategy.validate(&topology)?;
+        check_size(&config.strategy, &topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
         Ok(Self { episode, topology, unit })
     }
@@ -135,6 +136,20 @@ impl RunConfig {
             physics: self.physics,
         }
     }
+}
+
+/// The most weights that a population has altogether: 1 GiB of them.
+const MOST_WEIGHTS: usize = 1 << 28;
+
+/// Checks that a population fits into memory.
+fn check_size(strategy: &StrategySettings, topology: &Topology) -> Result<(), SettingError> {
+    let (Some(population), weights) = (strategy.population(), topology.weight_count()) else { return Ok(()) };
+    let most = MOST_WEIGHTS / weights.max(1);
+    if population <= most {
+        return Ok(());
+    }
+    let field = format!("strategy.{}.population", strategy.name());
+    Err(SettingError::new(field, population, format!("at most {most} for nets of {weights} weights")))
 }
 
 impl FrozenTopology {

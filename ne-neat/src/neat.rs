@@ -141,7 +141,8 @@ impl Neat {
         if self.species.len() > target.species {
             self.threshold += target.step;
         } else if self.species.len() < target.species {
-            self.threshold = (self.threshold - target.step).max(target.step);
+            // Never up, even if a step is larger than the threshold.
+            self.threshold = (self.threshold - target.step).max(target.step.min(self.threshold));
         }
     }
 }

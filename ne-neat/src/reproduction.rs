@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReproductionSettings {
-    /// The share of the best members of a species that breed, at least one of them; above 0, to 1.
+    /// The share of the best members of a species that breed, at least one of them; above 0, to 1. Where it is one, the
+    /// species' children have a single parent.
     pub survival_share: f64,
     /// The best of a species with more members than this is copied unchanged; 5 in the paper.
     pub champion_above: usize,

@@ -32,7 +32,7 @@ pub(crate) struct Train {
     creature: Option<String>,
     /// What it is to learn (see: gambol movements)
     movement: Option<String>,
-    /// Where to start from: default, or thesis (the reference algorithm)
+    /// Where to start from: default, thesis (the reference algorithm), or stanley-2002 (NEAT as in its paper)
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
     /// How it is searched (see: gambol strategies): ga, neat, cma-es, open-es, cosyne

@@ -1,6 +1,6 @@
 use super::{
     Plan,
-    plan::{Job, PlanError},
+    plan::{Job, PlanError, folder_name},
     result::RunResult,
 };
 use crate::training::TrainError;
@@ -77,6 +77,16 @@ pub enum CompareError {
         first: PathBuf,
         /// Another.
         second: PathBuf,
+    },
+    /// A result is not of the run its place is for.
+    #[error("{} is the result of another run ({found}), not of {expected}", path.display())]
+    Misplaced {
+        /// The file.
+        path: PathBuf,
+        /// Which run it is of.
+        found: String,
+        /// Which run it should be of.
+        expected: String,
     },
     /// Runs are missing.
     #[error("{missing} of {all} runs are missing; the first is: {first}")]
@@ -158,7 +168,16 @@ impl ComparisonFolder {
     /// If it cannot be read or is damaged.
     pub fn result(&self, job: &Job<'_>) -> Result<Option<RunResult>, CompareError> {
         let path = self.result_file(job);
-        if path.is_file() { Ok(Some(archive::read(&path, RESULT_FORMAT, VERSION)?)) } else { Ok(None) }
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let result: RunResult = archive::read(&path, RESULT_FORMAT, VERSION)?;
+        if (&result.method, &result.scenario, result.seed) == (&job.cell.method, &job.cell.scenario, job.seed) {
+            Ok(Some(result))
+        } else {
+            let found = format!("{}, {}, seed {}", result.method, result.scenario, result.seed);
+            Err(CompareError::Misplaced { path, found, expected: job.name() })
+        }
     }
 
     /// The results of all runs, in the plan's order.
@@ -203,12 +222,7 @@ impl ComparisonFolder {
     }
 
     fn place(&self, folder: &str, job: &Job<'_>) -> PathBuf {
-        let safe = |name: &str| -> String {
-            name.chars()
-                .map(|letter| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' })
-                .collect()
-        };
-        self.path.join(folder).join(safe(&job.cell.method)).join(safe(&job.cell.scenario))
+        self.path.join(folder).join(folder_name(&job.cell.method)).join(folder_name(&job.cell.scenario))
     }
 
     fn plan_file(&self) -> PathBuf {

@@ -151,7 +151,10 @@ impl PlanRequest {
                 plan.cells.extend(cells);
             }
         }
+        // Names are also folders, on systems too that do not tell capitals from small letters.
         unique("the scenario", plan.scenarios.iter().cloned())?;
+        unique("the folder of the scenario", plan.scenarios.iter().map(|name| folder_name(name).to_lowercase()))?;
+        unique("the folder of the strategy", plan.methods.iter().map(|name| folder_name(name).to_lowercase()))?;
         Ok(plan)
     }
 
@@ -200,9 +203,11 @@ impl Plan {
     /// place of theirs. See [`ForeignRunner`](super::ForeignRunner).
     ///
     /// # Errors
-    /// If there is a method of this name.
+    /// If there is a method of this name, or it cannot be the name of a folder.
     pub fn add_foreign(&mut self, name: &str) -> Result<(), PlanError> {
-        unique("the strategy", self.methods.iter().cloned().chain([name.to_owned()]))?;
+        check_name(name)?;
+        let names = self.methods.iter().map(String::as_str).chain([name]);
+        unique("the strategy", names.map(|name| folder_name(name).to_lowercase()))?;
         let first = self.methods.first().cloned();
         let mut cells = Vec::new();
         for scenario in &self.scenarios {
@@ -241,12 +246,7 @@ impl FromStr for Method {
     fn from_str(text: &str) -> Result<Self, PlanError> {
         let none = Self { name: text.into(), preset: None, strategy: None, config: None };
         if let Some((name, file)) = text.split_once('=') {
-            let fits = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
-            if name.is_empty() || !name.chars().all(fits) || name.starts_with('.') {
-                return Err(PlanError::Method(format!(
-                    "\"{name}\" is no name for a strategy: use letters, digits, hyphens, dots and underscores"
-                )));
-            }
+            check_name(name)?;
             return Ok(Self { name: name.into(), config: Some(file.into()), ..none });
         }
         if strategy(text).is_some() {
@@ -295,6 +295,23 @@ impl fmt::Display for Part {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}/{}", self.number, self.of)
     }
+}
+
+/// What the folder of a scenario or strategy is called.
+pub(super) fn folder_name(name: &str) -> String {
+    let safe = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' };
+    name.chars().map(safe).collect()
+}
+
+/// A method's name is also that of a folder.
+fn check_name(name: &str) -> Result<(), PlanError> {
+    let fits = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    if !name.is_empty() && name.chars().all(fits) && !name.starts_with('.') {
+        return Ok(());
+    }
+    Err(PlanError::Method(format!(
+        "\"{name}\" is no name for a strategy: use letters, digits, hyphens, dots and underscores"
+    )))
 }
 
 fn unique(what: &'static str, names: impl Iterator<Item = String>) -> Result<(), PlanError> {

@@ -5,7 +5,7 @@ use crate::{
 };
 use ne_core::{GenerationReport, StopReason, StopSignal};
 use std::{
-    fs, io,
+    fs,
     num::NonZero,
     path::Path,
     sync::{
@@ -114,11 +114,17 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
             ended => ended.map(|outcome| outcome.reason),
         }
     } else {
-        clear(&path)?;
+        if !clear(&path)? {
+            return Ok(None);
+        }
         runner.train(&job.config(), &path, how).map(|outcome| outcome.reason)
     };
     match reason {
-        Err(TrainError::Folder(FolderError::Busy { .. })) | Ok(StopReason::Interrupted) => return Ok(None),
+        // Exists: another process was faster.
+        Err(TrainError::Folder(FolderError::Busy { .. } | FolderError::Exists { .. }))
+        | Ok(StopReason::Interrupted) => {
+            return Ok(None);
+        }
         Err(error) => return Err(failed(error)),
         Ok(_) => {}
     }
@@ -128,18 +134,14 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
     Ok(Some(result))
 }
 
-/// Removes what a run left that was killed before its first checkpoint, unless a process is at work there.
-fn clear(path: &Path) -> Result<(), CompareError> {
-    let _lock = match RunFolder::open(path).map(|run| run.lock()) {
-        Ok(Err(_)) => return Ok(()),
-        Ok(Ok(lock)) => Some(lock),
-        // There is not even a configuration.
-        Err(_) => None,
-    };
+/// Removes what a run left that was killed before its first checkpoint. `false`: a process is at work there.
+fn clear(path: &Path) -> Result<bool, CompareError> {
+    if !path.exists() {
+        return Ok(true);
+    }
+    let Ok(_lock) = RunFolder::at(path).lock() else { return Ok(false) };
     match fs::remove_dir_all(path) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => {
-            Err(CompareError::Write { path: path.into(), source })
-        }
-        _ => Ok(()),
+        Ok(()) => Ok(true),
+        Err(source) => Err(CompareError::Write { path: path.into(), source }),
     }
 }

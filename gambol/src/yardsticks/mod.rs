@@ -29,8 +29,8 @@ pub enum Yardstick {
     TwoPoles,
     /// The same without velocities among the inputs, with the damping fitness.
     TwoPolesWithoutVelocities,
-    /// The same from 1° in place of 4°, and a solution has to hold the poles from 200 of 625 other starts too; only the
-    /// best of each generation is tried. So Stanley & Miikkulainen, 2002, had it.
+    /// The same, and a solution has to hold the poles from 200 of 625 other starts too; only the best of each generation
+    /// is tried. So Stanley & Miikkulainen, 2002, had it, but from 1° in place of 4°.
     GeneralTwoPoles,
 }
 
@@ -82,11 +82,7 @@ impl Yardstick {
     /// Two poles, as [`task`](Self::task) has them.
     fn poles(self, output_range: OutputRange, bias_input: bool) -> Result<DoublePole, SettingError> {
         let settings = match self {
-            Self::TwoPolesWithoutVelocities => DoublePoleSettings::without_velocities(),
-            Self::GeneralTwoPoles => DoublePoleSettings {
-                start_angle: DoublePoleSettings::START_ANGLE_2002,
-                ..DoublePoleSettings::without_velocities()
-            },
+            Self::TwoPolesWithoutVelocities | Self::GeneralTwoPoles => DoublePoleSettings::without_velocities(),
             _ => DoublePoleSettings::with_velocities(),
         };
         DoublePole::new(DoublePoleSettings { output_range, bias_input, ..settings })

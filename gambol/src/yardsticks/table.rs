@@ -1,4 +1,4 @@
-use super::{Measured, PUBLISHED, Published, Yardstick};
+use super::{Attempt, Measured, PUBLISHED, Published, Yardstick};
 use std::fmt::Write;
 
 /// What was measured, task by task, beside what is published, as text.
@@ -18,25 +18,28 @@ fn render_task(text: &mut String, task: Yardstick, measured: &[&Measured]) -> st
     writeln!(text, "{}: evaluations to a solution", task.name())?;
     writeln!(
         text,
-        "  {:<14}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>8}  published mean",
-        "strategy", "mean", "sd", "median", "worst", "solved", "ms", "of 625"
+        "  {:<14}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8}  published mean",
+        "strategy", "mean", "sd", "median", "worst", "solved", "ms", "hidden", "weights", "of 625"
     )?;
     for measured in measured {
-        let evaluations = measured.evaluations();
+        let sorted = |mut values: Vec<f64>| {
+            values.sort_by(f64::total_cmp);
+            values
+        };
+        let evaluations: Vec<f64> = measured.evaluations().into_iter().map(|count| count as f64).collect();
+        let seconds = sorted(measured.attempts.iter().map(|attempt| attempt.seconds).collect());
         let (mean, deviation) = mean_and_deviation(&evaluations);
-        let mut milliseconds: Vec<f64> = measured.attempts.iter().map(|attempt| attempt.seconds * 1000.0).collect();
-        milliseconds.sort_by(f64::total_cmp);
-        let starts: Vec<u64> =
-            measured.attempts.iter().filter_map(|attempt| attempt.generalization.map(u64::from)).collect();
-        let starts = if starts.is_empty() { "–".into() } else { format!("{:.0}", mean_and_deviation(&starts).0) };
         writeln!(
             text,
-            "  {:<14}{mean:>10.0}{deviation:>10.0}{:>10}{:>10}{:>10}{:>10.1}{starts:>8}  {}",
+            "  {:<14}{mean:>9.0}{deviation:>9.0}{:>9.0}{:>9.0}{:>9}{:>8.1}{:>8}{:>8}{:>8}  {}",
             measured.strategy,
-            middle(&evaluations).map_or_else(|| "–".into(), |median| median.to_string()),
-            evaluations.last().map_or_else(|| "–".into(), u64::to_string),
+            median(&evaluations),
+            evaluations.last().copied().unwrap_or_default(),
             format!("{}/{}", measured.solved(), measured.attempts.len()),
-            middle(&milliseconds).unwrap_or_default(),
+            median(&seconds) * 1000.0,
+            mean_of(measured, |attempt| attempt.hidden.map(|count| count as f64)),
+            mean_of(measured, |attempt| attempt.connections.map(|count| count as f64)),
+            mean_of(measured, |attempt| attempt.generalization.map(f64::from)),
             published(task, |published| published.strategy == Some(measured.strategy.as_str())),
         )?;
         writeln!(text, "    {}", measured.description)?;
@@ -54,15 +57,22 @@ fn published(task: Yardstick, wanted: impl Fn(&Published) -> bool) -> String {
     if texts.is_empty() { "–".into() } else { texts.join(", ") }
 }
 
+/// The mean of what the attempts that have it say, or a dash.
+fn mean_of(measured: &Measured, of: impl Fn(&Attempt) -> Option<f64>) -> String {
+    let values: Vec<f64> = measured.attempts.iter().filter_map(of).collect();
+    if values.is_empty() { "–".into() } else { format!("{:.1}", mean_and_deviation(&values).0) }
+}
+
 /// Arithmetic mean and sample standard deviation.
-fn mean_and_deviation(values: &[u64]) -> (f64, f64) {
+fn mean_and_deviation(values: &[f64]) -> (f64, f64) {
     let count = values.len() as f64;
-    let mean = values.iter().map(|&value| value as f64).sum::<f64>() / count;
-    let squares: f64 = values.iter().map(|&value| (value as f64 - mean).powi(2)).sum();
+    let mean = values.iter().sum::<f64>() / count;
+    let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
     (mean, if values.len() > 1 { (squares / (count - 1.0)).sqrt() } else { 0.0 })
 }
 
-/// The middle of sorted values; with an even number of them the lower of the two in the middle.
-fn middle<T: Copy>(sorted: &[T]) -> Option<T> {
-    sorted.get(sorted.len().saturating_sub(1) / 2).copied()
+/// The middle of sorted values; with an even number of them the mean of the two in the middle.
+fn median(sorted: &[f64]) -> f64 {
+    let count = sorted.len();
+    if count == 0 { 0.0 } else { (sorted[(count - 1) / 2] + sorted[count / 2]) / 2.0 }
 }

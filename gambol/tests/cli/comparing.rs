@@ -99,6 +99,33 @@ fn a_changed_result_is_noticed() -> Outcome {
 }
 
 #[test]
+fn a_result_in_the_place_of_another_is_noticed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let whole = folder.path().join("whole");
+    succeed(small(&whole).arg("--quiet"));
+    let place = whole.join("results/ga/biped-1-running");
+    fs::copy(place.join("seed-1.json"), place.join("seed-2.json"))?;
+    let message = fail(gambol("merge").arg(&whole).arg("--out").arg(folder.path().join("again")));
+    assert_says(&message, &["seed-2.json is the result of another run (ga, biped-1 running, seed 1), not of ga"]);
+    Ok(())
+}
+
+#[test]
+fn two_processes_share_the_work() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, shared) = (folder.path().join("whole"), folder.path().join("shared"));
+    succeed(small_of(&whole, 1000).arg("--quiet"));
+    let mut other = start(&mut small_of(&shared, 1000));
+    let ended = run(small_of(&shared, 1000).arg("--quiet"));
+    let other = other.wait()?;
+    // The plan may be written by one while the other looks: then one has to be called again. Nobody breaks a run.
+    assert!(ended.code == Some(0) || other.success(), "{}", ended.stderr);
+    succeed(small_of(&shared, 1000).arg("--quiet"));
+    assert_eq!(scores(&shared), scores(&whole));
+    Ok(())
+}
+
+#[test]
 fn requests_that_make_no_sense_are_refused() -> Outcome {
     let folder = tempfile::tempdir()?;
     let out = folder.path().join("out");
@@ -115,6 +142,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga", "--movements", "runing"], "did you mean \"running\"?"),
         (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
         (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),
+        (&["--strategies", "ga,cma-es", "--set", "strategy.cma-es.population=20"], "ga on biped-1 running: --set"),
         (&["--strategies", "ga", "--set", "movement.steps=0"], "ga on biped-1 running: movement.steps = 0"),
     ] {
         assert_says(&fail(&mut compare(arguments)), &[says]);

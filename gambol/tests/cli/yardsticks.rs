@@ -24,6 +24,8 @@ fn every_attempt_is_told_as_json_and_is_the_same_again() -> Outcome {
     let attempts = || -> Result<Vec<Value>, Box<dyn std::error::Error>> {
         let text = succeed(&mut bench(&["--tasks", "one-pole", "--strategies", "cosyne", "--seeds", "3", "--json"]));
         let mut measured: Value = serde_json::from_str(&text)?;
+        assert!(measured["published"].as_array().is_some_and(|published| published.len() > 20));
+        let measured = &mut measured["measured"];
         assert_eq!(measured[0]["strategy"], "cosyne");
         assert_eq!(measured[0]["task"], "one-pole");
         let attempts = measured[0]["attempts"].as_array_mut().ok_or("a list")?;

@@ -59,14 +59,12 @@ impl CmaEsSettings {
     /// Checks the numbers.
     ///
     /// # Errors
-    /// Names the field and its range: `step_size = 0: must be above 0 and at most 1000`.
+    /// Names the field and its range: `step_size = 0: must be from 0.000001 to 1000`.
     pub fn validate(&self) -> Result<(), SettingError> {
         if let Some(population) = self.population.filter(|size| !(2..=Self::MAX_POPULATION).contains(size)) {
             return Err(SettingError::new("population", population, "from 2 to 1000000"));
         }
-        if !(self.step_size > 0.0 && self.step_size <= 1000.0) {
-            return Err(SettingError::new("step_size", self.step_size, "above 0 and at most 1000"));
-        }
+        SettingError::check_range("step_size", self.step_size, 1e-6, 1000.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-9, self.step_size)?;
         self.initial_mean.validate().map_err(|error| error.within("initial_mean"))
     }

@@ -1,5 +1,5 @@
 use super::{
-    CmaEsSettings, Restart, covariance::Covariance, distribution::Distribution, history::History,
+    CmaEsSettings, CovarianceModel, Restart, covariance::Covariance, distribution::Distribution, history::History,
     parameters::Parameters, restart::Restarts, state::State,
 };
 use crate::{WeightVector, normal::Normal, ranking::best_first};
@@ -61,14 +61,23 @@ pub struct CmaEs {
 const GREATEST_GROWTH: f64 = 1e4;
 
 impl CmaEs {
+    /// The most weights a search with all covariances takes: time and memory of more are beyond reason.
+    pub const MOST_WEIGHTS_OF_FULL: usize = 4096;
+
     /// A search for weights of nets of this topology.
     ///
     /// # Errors
-    /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
+    /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range, or there are more weights than
+    /// [`MOST_WEIGHTS_OF_FULL`](Self::MOST_WEIGHTS_OF_FULL) for a full covariance.
     pub fn new(settings: CmaEsSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
         let topology = topology.into();
         settings.validate()?;
         topology.validate().map_err(|error| error.within("topology"))?;
+        let weights = topology.weight_count();
+        if settings.covariance == CovarianceModel::Full && weights > Self::MOST_WEIGHTS_OF_FULL {
+            let allowed = format!("separable for nets of more than {} weights", Self::MOST_WEIGHTS_OF_FULL);
+            return Err(SettingError::new("covariance", format!("full for {weights} weights"), allowed));
+        }
         Ok(Self {
             restarts: Restarts::new(Self::first_population(&settings, &topology), settings.step_size),
             settings,

@@ -10,12 +10,12 @@ pub struct OpenEsSettings {
     /// Number of samples, even, from 2 to 1,000,000; default 50. The centre is evaluated besides, so that a generation
     /// has one individual more.
     pub population: usize,
-    /// The deviation of the samples from the centre, σ, in units of the weights, above 0 and at most 1000; default 0.1.
+    /// The deviation of the samples from the centre, σ, in units of the weights, from 1e-6 to 1000; default 0.1.
     pub deviation: f64,
     /// What the deviation is multiplied by after each generation, above 0 and at most 1; default 1. Below 1 the search
     /// gets finer.
     pub deviation_decay: f64,
-    /// What the deviation decays to, above 0 and at most `deviation`; default 0.01.
+    /// What the deviation decays to, from 1e-6 to `deviation`; default 0.01.
     pub least_deviation: f64,
     /// How the centre climbs.
     pub adam: Adam,
@@ -53,9 +53,9 @@ impl OpenEsSettings {
             let fits = value > 0.0 && value <= most;
             if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
         };
-        above_0("deviation", self.deviation, 1000.0)?;
+        SettingError::check_range("deviation", self.deviation, 1e-6, 1000.0)?;
         above_0("deviation_decay", self.deviation_decay, 1.0)?;
-        above_0("least_deviation", self.least_deviation, self.deviation)?;
+        SettingError::check_range("least_deviation", self.least_deviation, 1e-6, self.deviation)?;
         self.adam.validate().map_err(|error| error.within("adam"))?;
         SettingError::check_range("weight_decay", self.weight_decay, 0.0, 1.0)?;
         self.initial_centre.validate().map_err(|error| error.within("initial_centre"))

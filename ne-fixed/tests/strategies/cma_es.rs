@@ -73,8 +73,8 @@ fn errors_of_settings_name_the_field() {
     let changes: [(Change, &str); 7] = [
         (|s| s.population = Some(1), "population = 1: must be from 2 to 1000000"),
         (|s| s.population = Some(1_000_001), "population = 1000001: must be from 2 to 1000000"),
-        (|s| s.step_size = 0.0, "step_size = 0: must be above 0 and at most 1000"),
-        (|s| s.step_size = f64::NAN, "step_size = NaN: must be above 0 and at most 1000"),
+        (|s| s.step_size = 0.0, "step_size = 0: must be from 0.000001 to 1000"),
+        (|s| s.step_size = f64::NAN, "step_size = NaN: must be from 0.000001 to 1000"),
         (|s| s.least_deviation = 0.6, "least_deviation = 0.6: must be from 0.000000001 to 0.5"),
         (|s| s.least_deviation = 0.0, "least_deviation = 0: must be from 0.000000001 to 0.5"),
         (
@@ -111,7 +111,7 @@ fn damaged_states_are_errors_that_name_the_field() {
     assert_damages_are_found(
         &strategy,
         &[
-            (|s| s["settings"]["step_size"] = 0.into(), "step_size = 0: must be above 0 and at most 1000"),
+            (|s| s["settings"]["step_size"] = 0.into(), "step_size = 0: must be from 0.000001 to 1000"),
             (|s| s["topology"]["dense"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
             (|s| s["start"] = json!([1.0]), "start = weights: found 1, a net of shape 3-4-2 has 26"),
             (|s| s["restarts"]["population"] = 1.into(), "restarts.population = 1: must be from 2 to 1000000"),

@@ -40,8 +40,8 @@ pub(crate) fn reachable_from(start: usize, graph: &NeuronGraph) -> Vec<bool> {
 ///
 /// Sources come before the neurons they lead to; of those that are ready the one with the lowest number comes first. In
 /// a net with cycles older connections decide: one that closes a cycle with older ones leads backwards, and carries what
-/// its source put out in the step before. Disabled connections have their say in it, so that neither a split nor a new
-/// connection ever turns an old one around.
+/// its source put out in the step before. Disabled connections have their say where there are cycles, so that a split
+/// seldom turns an old connection around.
 pub(crate) fn computation_order(genome: &NeatGenome) -> Vec<usize> {
     let expressed = graph(genome, |gene| gene.enabled && gene.from != gene.to);
     let is_needed = leads_to_output(genome.layout.outputs, &expressed);

@@ -43,6 +43,9 @@ pub struct NeatSettings {
 }
 
 impl NeatSettings {
+    /// The most connections that the first generation has altogether.
+    pub const MOST_CONNECTIONS: usize = 1 << 26;
+
     /// Checks the numbers.
     ///
     /// # Errors
@@ -76,6 +79,11 @@ impl NeatSettings {
         if connections > most {
             let found = format!("{connections} connections of {inputs} inputs and {outputs} outputs");
             return Err(SettingError::new("start", found, format!("at most {most} connections")));
+        }
+        let most = Self::MOST_CONNECTIONS / connections.max(1);
+        if self.population > most {
+            let allowed = format!("at most {most}, since each starts with up to {connections} connections");
+            return Err(SettingError::new("population", self.population, allowed));
         }
         Ok(layout)
     }
