@@ -1,6 +1,8 @@
 use super::Yardstick;
 use crate::config::StrategySettings;
-use ne_fixed::{CmaEsSettings, ConventionalNeSettings, CosyneSettings, OpenEsSettings};
+use ne_fixed::{
+    CmaEsSettings, ConventionalNeSettings, CosyneSettings, GaussianMutation, MutationChoice, OpenEsSettings,
+};
 use ne_neat::NeatSettings;
 use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
 use tasks::OutputRange;
@@ -69,7 +71,10 @@ fn open_es(task: Yardstick) -> Contestant {
 }
 
 fn conventional(task: Yardstick) -> Contestant {
-    on_its_net(task, StrategySettings::Conventional(ConventionalNeSettings::default()))
+    // The default mutates one gene in twenty, which leaves most children of so small nets as they were.
+    let mutation = MutationChoice::Gaussian(GaussianMutation { rate: 0.4, deviation: 1.0 });
+    let settings = ConventionalNeSettings { mutation, ..ConventionalNeSettings::default() };
+    on_its_net(task, StrategySettings::Conventional(settings))
 }
 
 /// A search for the weights of the net the task is given.
