@@ -74,7 +74,7 @@ fn one_pole_is_balanced() {
 }
 
 #[test]
-#[ignore = "takes long"]
+#[ignore = "dozens of runs: cargo test --release -p ne-fixed --test strategies poles -- --include-ignored"]
 fn one_pole_as_fast_as_published() {
     let shape = single_neuron(5);
     check(|| cma_es(shape.clone()), &one_pole(), 50, 283.0);
@@ -82,7 +82,7 @@ fn one_pole_as_fast_as_published() {
 }
 
 #[test]
-#[ignore = "takes long"]
+#[ignore = "dozens of runs: cargo test --release -p ne-fixed --test strategies poles -- --include-ignored"]
 fn two_poles_as_fast_as_published() {
     let (shape, task) = (single_neuron(7), two_poles(DoublePoleSettings::with_velocities()));
     check(|| cma_es(shape.clone()), &task, 50, 895.0);
@@ -90,7 +90,7 @@ fn two_poles_as_fast_as_published() {
 }
 
 #[test]
-#[ignore = "takes long"]
+#[ignore = "dozens of runs: cargo test --release -p ne-fixed --test strategies poles -- --include-ignored"]
 fn two_poles_without_velocities_as_fast_as_published() {
     let (shape, task) = (fully_recurrent(4, 2, false), two_poles(DoublePoleSettings::without_velocities()));
     check(|| cma_es(shape.clone()), &task, 20, 3_416.0);
