@@ -168,3 +168,44 @@ fn size(network: &Network) -> (usize, usize) {
     };
     (hidden, network.weights().len())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{super::contestants, *};
+    use crate::config::StrategySettings;
+    use ne_fixed::ConventionalNe;
+
+    /// The genetic algorithm with its population of 50, and its task.
+    fn genetic_algorithm(task: Yardstick) -> (ConventionalNe, Contestant) {
+        let is_it = |one: &Contestant| one.task == task && one.settings.name() == "conventional";
+        let contestant = contestants().into_iter().find(is_it).expect("it takes part in every task");
+        let StrategySettings::Conventional(settings) = contestant.settings.clone() else { panic!("another strategy") };
+        (ConventionalNe::new(settings, contestant.topology.clone()).expect("valid settings"), contestant)
+    }
+
+    #[test]
+    fn an_attempt_without_a_solution_ends_at_its_limit() {
+        let (strategy, Contestant { task, output_range, bias_input, .. }) = genetic_algorithm(Yardstick::TwoPoles);
+        let task = task.task(output_range, bias_input).expect("valid settings");
+        let (used, solution) = solve(strategy, task.as_ref(), Seed::of_run(1), 120);
+        assert_eq!((used, solution), (120, None), "in the middle of the third generation");
+    }
+
+    #[test]
+    fn general_solutions_are_looked_for_generation_by_generation() {
+        let (strategy, Contestant { task, output_range, bias_input, .. }) =
+            genetic_algorithm(Yardstick::GeneralTwoPoles);
+        let poles = task.poles(output_range, bias_input).expect("valid settings");
+        let (used, solution) = solve_generally(strategy, &poles, Seed::of_run(1), 120);
+        assert_eq!((used, solution), (150, None), "the third generation is finished");
+    }
+
+    #[test]
+    fn evaluations_are_counted_up_to_the_first_solver() {
+        let is_it = |one: &&Contestant| one.task == Yardstick::OnePole && one.settings.name() == "conventional";
+        let contestants = contestants();
+        let measured = measure(contestants.iter().find(is_it).expect("it takes part"), 4).expect("valid settings");
+        assert_eq!(measured.solved(), 4);
+        assert!(measured.evaluations().iter().any(|evaluations| evaluations % 50 > 0), "{:?}", measured.evaluations());
+    }
+}

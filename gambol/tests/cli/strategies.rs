@@ -212,3 +212,31 @@ fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
     assert_says(&message, &["config.json"]);
     Ok(())
 }
+
+#[test]
+fn searches_too_large_for_any_machine_are_refused_at_once() {
+    for (arguments, says) in [
+        (
+            &["--strategy", "cma-es", "--set", "strategy.cma-es.covariance=full", "--set", "controller.hidden=[2000]"]
+                [..],
+            "strategy.cma-es.covariance = full for 12002 weights: must be separable for nets of more than 4096 weights",
+        ),
+        (
+            &["--strategy", "cosyne", "--population", "100000", "--set", "controller.hidden=[500,500]"],
+            "strategy.cosyne.population = 100000: must be at most 1058 for nets of 253502 weights",
+        ),
+        (
+            &[
+                "--strategy",
+                "neat",
+                "--population",
+                "1000000",
+                "--set",
+                "strategy.neat.start={\"hidden-layer\":{\"neurons\":4096}}",
+            ],
+            "strategy.neat.population = 1000000: must be at most 3275, since each starts with up to 20486 connections",
+        ),
+    ] {
+        assert_says(&fail(gambol("train").args(["biped-1", "running"]).args(arguments)), &[says]);
+    }
+}
