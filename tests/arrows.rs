@@ -13,9 +13,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ne-fixed",        &["ne-core", "ne-net"]),
     ("ne-statistics",   &["ne-core"]),
     ("tasks",           &["ne-core"]),
-    ("envs-rapier",     &["ne-core", "tasks", "creatures"]),
+    ("envs-core",       &["ne-core", "tasks", "creatures"]),
+    ("envs-rapier",     &["ne-core", "tasks", "creatures", "envs-core"]),
+    ("envs-lanes",      &["ne-core", "ne-net", "tasks", "creatures", "envs-core"]),
     ("ne-neat",         &["ne-core", "ne-net"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-rapier"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
     ("gambol-tests",    &[]),

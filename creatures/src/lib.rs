@@ -80,7 +80,7 @@ pub use motors::Motors;
 pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::json_schema;
-pub use senses::{DEFAULT_INPUT_RANGE, Senses};
+pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase};
 pub use sensor::Sensor;
 pub use shape::Shape;
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};

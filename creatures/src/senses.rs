@@ -26,26 +26,52 @@ pub struct Senses {
     input_range: f32,
 }
 
-/// Where a channel's raw value comes from, and how it is scaled.
+/// Where a channel's raw value comes from, and how it is scaled: the input is (value − middle) · factor, clamped. For
+/// engines that sense many bodies at once; all others call [`Senses::read`].
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Probe {
-    source: Source,
-    middle: f32,
-    factor: f32,
+pub struct Probe {
+    /// What is measured.
+    pub source: Source,
+    /// The middle of the channel's range, in its unit.
+    pub middle: f32,
+    /// Input per unit.
+    pub factor: f32,
 }
 
+/// What of a body a channel shows, each as the method of [`BodyView`] of that name tells it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Source {
+pub enum Source {
+    /// [`BodyView::torso_rotation`].
     TorsoRotation,
+    /// [`BodyView::joint_angle`] of this hinge.
     JointAngle(usize),
+    /// [`BodyView::joint_speed`] of this hinge.
     JointSpeed(usize),
+    /// The first of [`BodyView::torso_velocity`].
     VelocityForward,
+    /// The second of [`BodyView::torso_velocity`].
     VelocityUp,
+    /// [`BodyView::torso_height`].
     TorsoHeight,
+    /// [`BodyView::touches_ground`] of this part, as 0 or 1.
     Contact(usize),
-    Ray { angle: f32, length: f32 },
-    ClockSine { period: f32 },
-    ClockCosine { period: f32 },
+    /// [`BodyView::distance_along_ray`].
+    Ray {
+        /// In the world, rad.
+        angle: f32,
+        /// m.
+        length: f32,
+    },
+    /// The sine of a clock: see [`clock_phase`].
+    ClockSine {
+        /// s.
+        period: f32,
+    },
+    /// The cosine of a clock: see [`clock_phase`].
+    ClockCosine {
+        /// s.
+        period: f32,
+    },
 }
 
 impl Senses {
@@ -133,6 +159,11 @@ impl Senses {
         &self.channels
     }
 
+    /// How each channel is measured, in the order of the net's inputs.
+    pub fn probes(&self) -> &[Probe] {
+        &self.probes
+    }
+
     /// Number of channels: inputs of the net. At least one.
     pub fn len(&self) -> usize {
         self.probes.len()
@@ -176,14 +207,14 @@ impl Source {
             Self::TorsoHeight => body.torso_height(),
             Self::Contact(part) => f32::from(u8::from(body.touches_ground(part))),
             Self::Ray { angle, length } => body.distance_along_ray(angle, length),
-            Self::ClockSine { period } => libm::sinf(phase(body.time(), period)),
-            Self::ClockCosine { period } => libm::cosf(phase(body.time(), period)),
+            Self::ClockSine { period } => libm::sinf(clock_phase(body.time(), period)),
+            Self::ClockCosine { period } => libm::cosf(clock_phase(body.time(), period)),
         }
     }
 }
 
-/// Phase of a clock, rad, 0 to 2π. Whole turns are dropped first: they would cost precision.
-fn phase(time: f32, period: f32) -> f32 {
+/// Phase of a clock of this period, both s, in rad, 0 to 2π. Whole turns are dropped first: they would cost precision.
+pub fn clock_phase(time: f32, period: f32) -> f32 {
     let turns = time / period;
     (turns - turns.floor()) * TAU
 }

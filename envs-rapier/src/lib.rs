@@ -1,14 +1,12 @@
 //! Creatures in rapier2d: the reference physics of Gambol.
 //!
-//! [`RapierEnvironment`] builds a [`Blueprint`](creatures::Blueprint) in a world of its own, lets it settle, and is then
-//! a [`tasks::Environment`]. Three decisions:
+//! [`RapierWorld`] builds a [`Blueprint`](creatures::Blueprint) and its ground in a rapier world of its own; all else,
+//! from settling to measuring, it has from `envs-core`, as every engine. Two decisions:
 //!
-//! - **One creature, one world.** Creatures never meet, so a shared world could only couple them by accident. Threads
-//!   get different creatures, never parts of one.
-//! - **Settle once, copy often.** The settled world is a prototype; an episode begins with a copy of it. So an episode
-//!   never pays for settling, and nothing of an earlier one can be left.
 //! - **Settings with reasons.** rapier's defaults suit piles of crates; creatures with strong motors need others. Each
 //!   field of [`PhysicsSettings`] says what breaks without it, and a test of this crate shows it break.
+//! - **A copy goes on to the bit as the original would.** That is what lets an episode begin with a copy of a settled
+//!   world, and a test of this crate shows it too.
 //!
 //! ```
 //! use creatures::{Blueprint, Sensor};
@@ -26,15 +24,13 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod body;
-mod environment;
-mod settings;
-mod variation;
 mod world;
 
-pub use environment::{EnvironmentError, RapierEnvironment};
-pub use settings::PhysicsSettings;
-pub use variation::Variation;
+pub use envs_core::{EnvironmentError, PhysicsSettings, Variation};
+pub use world::RapierWorld;
+
+/// A creature in rapier2d.
+pub type RapierEnvironment = envs_core::CreatureEnvironment<RapierWorld>;
 
 /// The exact version of rapier2d this crate is built with; another version gives other trajectories.
 pub const RAPIER_VERSION: &str = "0.36.1";

@@ -1,24 +1,28 @@
-use crate::{PhysicsSettings, variation::Factors};
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
+use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, PhysicsSettings};
 use rapier2d::prelude::*;
+use tasks::PartState;
 
 /// rapier's own index of a collider, small and dense in a world where nothing is ever removed.
 type ColliderIndex = usize;
 
-/// A rapier world with flat ground and one creature in it.
-pub(crate) struct World {
+/// A rapier world with ground and one creature in it.
+pub struct RapierWorld {
     /// rapier's sets and settings.
-    pub(crate) physics: PhysicsWorld,
+    physics: PhysicsWorld,
     /// The body of each part.
-    pub(crate) bodies: Vec<RigidBodyHandle>,
+    bodies: Vec<RigidBodyHandle>,
     /// The joint of each hinge.
-    pub(crate) joints: Vec<ImpulseJointHandle>,
-    ground: ColliderHandle,
+    joints: Vec<ImpulseJointHandle>,
+    /// The collider of each shape of the ground.
+    ground: Vec<ColliderHandle>,
     /// The part a collider belongs to, by rapier's index of the collider.
     part_of: Vec<Option<usize>>,
+    /// Of the motors, N·m per rad/s.
+    motor_gain: f32,
 }
 
-impl Clone for World {
+impl Clone for RapierWorld {
     /// A copy that goes on as the original would. rapier's workspaces, which hold nothing between steps, start empty.
     fn clone(&self) -> Self {
         let from = &self.physics;
@@ -37,8 +41,9 @@ impl Clone for World {
             physics,
             bodies: self.bodies.clone(),
             joints: self.joints.clone(),
-            ground: self.ground,
+            ground: self.ground.clone(),
             part_of: self.part_of.clone(),
+            motor_gain: self.motor_gain,
         }
     }
 }
@@ -46,26 +51,19 @@ impl Clone for World {
 const GROUND: Group = Group::GROUP_1;
 const CREATURE: Group = Group::GROUP_2;
 
-impl World {
-    /// Builds ground and creature in its start pose, not yet settled.
-    pub(crate) fn new(blueprint: &Blueprint, settings: &PhysicsSettings, factors: Factors) -> Self {
-        let mut physics = PhysicsWorld::new();
-        physics.gravity = Vector::new(0.0, -settings.gravity);
-        physics.integration_parameters = integration_parameters(settings);
-        let ground = ColliderBuilder::new(SharedShape::halfspace(Vector::Y))
-            .friction(settings.ground_friction * factors.friction)
+impl RapierWorld {
+    fn add_ground(&mut self, shape: &GroundShape, friction: f32) {
+        let collider = match *shape {
+            GroundShape::HalfSpace => ColliderBuilder::new(SharedShape::halfspace(Vector::Y)),
+            GroundShape::Box { x, y, width, height } => {
+                ColliderBuilder::cuboid(width * 0.5, height * 0.5).translation(Vector::new(x, y))
+            }
+        };
+        let collider = collider
+            .friction(friction)
             .friction_combine_rule(CoefficientCombineRule::Multiply)
             .collision_groups(groups(GROUND, CREATURE));
-        let ground = physics.insert_collider(ground, None);
-        let mut world =
-            Self { physics, bodies: Vec::new(), joints: Vec::new(), ground, part_of: vec![None; index_of(ground) + 1] };
-        for part in blueprint.parts() {
-            world.add_part(part, blueprint.self_collision(), factors.mass);
-        }
-        for hinge in blueprint.hinges() {
-            world.add_hinge(blueprint, hinge, settings, factors.torque);
-        }
-        world
+        self.ground.push(self.physics.insert_collider(collider, None));
     }
 
     fn add_part(&mut self, part: &BodyPart, self_collision: bool, mass_factor: f32) {
@@ -107,22 +105,81 @@ impl World {
         self.joints.push(self.physics.insert_impulse_joint(parent, child, joint));
     }
 
-    /// Advances by one time step. `false` if rapier met a body that is not finite and disabled it.
-    pub(crate) fn step(&mut self) -> bool {
+    /// The parts that press on a shape of the ground.
+    fn touching(&self, ground: ColliderHandle) -> impl Iterator<Item = usize> + '_ {
+        self.physics.narrow_phase.contact_pairs_with(ground).filter_map(move |pair| {
+            let other = if pair.collider1 == ground { pair.collider2 } else { pair.collider1 };
+            let presses =
+                || pair.solver_manifolds().iter().any(|m| m.points.iter().any(|point| point.data.impulse > 0.0));
+            self.part_of.get(index_of(other)).copied().flatten().filter(|_| presses())
+        })
+    }
+}
+
+impl Engine for RapierWorld {
+    fn new(
+        blueprint: &Blueprint,
+        settings: &PhysicsSettings,
+        ground: &Ground,
+        conditions: &Conditions,
+    ) -> Result<Self, EnvironmentError> {
+        let mut physics = PhysicsWorld::new();
+        physics.gravity = Vector::new(0.0, -settings.gravity);
+        physics.integration_parameters = integration_parameters(settings);
+        let mut world = Self {
+            physics,
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            ground: Vec::new(),
+            part_of: Vec::new(),
+            motor_gain: settings.motor_gain,
+        };
+        for shape in &ground.shapes {
+            world.add_ground(shape, settings.ground_friction * conditions.friction);
+        }
+        for part in blueprint.parts() {
+            world.add_part(part, blueprint.self_collision(), conditions.mass);
+        }
+        for hinge in blueprint.hinges() {
+            world.add_hinge(blueprint, hinge, settings, conditions.torque);
+        }
+        Ok(world)
+    }
+
+    /// Fetching a joint mutably makes rapier assemble it anew, so ask only when the speed changes.
+    fn set_motor_speed(&mut self, hinge: usize, speed: f32) {
+        if let Some(joint) = self.physics.impulse_joints.get_mut(self.joints[hinge], false) {
+            joint.data.set_motor_velocity(JointAxis::AngX, speed, self.motor_gain);
+        }
+    }
+
+    /// `false` if rapier met a body that is not finite and disabled it.
+    fn step(&mut self) -> bool {
         self.physics.step();
         self.physics.quarantine().is_empty()
     }
 
-    /// Asks a motor for a speed, rad/s. Fetching a joint mutably makes rapier assemble it anew, so ask only when the
-    /// speed changes.
-    pub(crate) fn set_motor_speed(&mut self, hinge: usize, speed: f32, gain: f32) {
-        if let Some(joint) = self.physics.impulse_joints.get_mut(self.joints[hinge], false) {
-            joint.data.set_motor_velocity(JointAxis::AngX, speed, gain);
+    fn look(&self, parts: &mut [PartState]) {
+        for (part, &body) in parts.iter_mut().zip(&self.bodies) {
+            let body = &self.physics.bodies[body];
+            let (position, rotation, velocity) = (body.translation(), body.rotation(), body.linvel());
+            *part = PartState {
+                x: position.x,
+                y: position.y,
+                cos: rotation.re,
+                sin: rotation.im,
+                vx: velocity.x,
+                vy: velocity.y,
+                spin: body.angvel(),
+                touching: false,
+            };
+        }
+        for part in self.ground.iter().flat_map(|&ground| self.touching(ground)) {
+            parts[part].touching = true;
         }
     }
 
-    /// The torque the motor of a hinge gave at the end of the last step, N·m.
-    pub(crate) fn motor_torque(&self, hinge: usize) -> f32 {
+    fn motor_torque(&self, hinge: usize) -> f32 {
         let parameters = &self.physics.integration_parameters;
         let substep = parameters.dt / parameters.num_solver_iterations as f32;
         self.physics
@@ -131,25 +188,10 @@ impl World {
             .map_or(0.0, |joint| joint.data.motors[JointAxis::AngX as usize].impulse / substep)
     }
 
-    /// Calls `touch` with each part that presses on the ground.
-    pub(crate) fn touching(&self, mut touch: impl FnMut(usize)) {
-        for pair in self.physics.narrow_phase.contact_pairs_with(self.ground) {
-            let other = if pair.collider1 == self.ground { pair.collider2 } else { pair.collider1 };
-            let presses =
-                || pair.solver_manifolds().iter().any(|m| m.points.iter().any(|point| point.data.impulse > 0.0));
-            if let Some(&Some(part)) = self.part_of.get(index_of(other))
-                && presses()
-            {
-                touch(part);
-            }
-        }
-    }
-
-    /// The distance from a point to the ground along a ray, m; `length` if it is further.
-    pub(crate) fn distance_to_ground(&self, from: Vector, angle: f32, length: f32) -> f32 {
+    fn distance_to_ground(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
         let direction = Vector::new(libm::cosf(angle), libm::sinf(angle));
         self.physics
-            .cast_ray(&Ray::new(from, direction), length, true, QueryFilter::only_fixed())
+            .cast_ray(&Ray::new(Vector::new(x, y), direction), length, true, QueryFilter::only_fixed())
             .map_or(length, |(_, distance)| distance)
     }
 }
@@ -162,6 +204,9 @@ fn integration_parameters(settings: &PhysicsSettings) -> IntegrationParameters {
         max_ccd_substeps: settings.continuous_collision_substeps as usize,
         normalized_prediction_distance: settings.prediction_distance,
         normalized_max_corrective_velocity: settings.corrective_speed,
+        // A recycled contact keeps its lever arms over several steps, though the foot has moved. On a half-space rapier
+        // recycles none, because its extent is infinite; so boxes are ground like any other.
+        contact_recycling: false,
         ..IntegrationParameters::default()
     }
 }

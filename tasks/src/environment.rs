@@ -19,7 +19,7 @@ pub trait Environment: Clone + Send + Sync {
     /// How many numbers [`act`](Self::act) reads.
     fn outputs(&self) -> usize;
 
-    /// Seconds one step takes.
+    /// Seconds one step takes. Only `reset` may change it: a varied trial can have steps of its own.
     fn time_step(&self) -> f32;
 
     /// Puts the body in its start pose and the clock to zero. Variation between trials comes from the seed.

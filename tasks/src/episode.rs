@@ -1,6 +1,5 @@
-use crate::{Environment, Movement, Snapshot, Verdict};
+use crate::{Environment, Movement, Outcome, Snapshot, Tally, Trials, Verdict};
 use ne_core::{Evaluation, Failure, Phenotype, Seed, SettingError, Task};
-use serde::{Deserialize, Serialize};
 
 /// An environment, a movement and trials: the [`Task`] of a body that learns to move.
 #[derive(Clone)]
@@ -9,44 +8,6 @@ pub struct Episode<E: Environment> {
     movement: Box<dyn Movement>,
     steps: u32,
     trials: Trials,
-}
-
-/// How many trials make an evaluation, and what their values become.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Trials {
-    /// How many, from 1 to 1000; default 1. Trial k gets the seed's trial k, so more trials pay only where the
-    /// environment varies with the seed.
-    pub count: u32,
-    /// How the values of the trials become one fitness; default mean.
-    pub combine: Combine,
-}
-
-/// How the values of several trials become one.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Combine {
-    /// The arithmetic mean.
-    #[default]
-    Mean,
-    /// The lowest: a gait is worth what it is on its worst day.
-    Worst,
-}
-
-impl Default for Trials {
-    fn default() -> Self {
-        Self { count: 1, combine: Combine::Mean }
-    }
-}
-
-impl Trials {
-    /// Checks the ranges.
-    ///
-    /// # Errors
-    /// Names the field and its range.
-    pub fn validate(&self) -> Result<(), SettingError> {
-        SettingError::check_range("count", f64::from(self.count), 1.0, 1000.0)
-    }
 }
 
 /// Watches an episode as it is played: a recorder, a digest, a window.
@@ -198,32 +159,13 @@ impl<E: Environment> Task for Episode<E> {
             return Evaluation::failed(failure);
         }
         let mut stage = Stage::new(self);
-        let count = f64::from(self.trials.count);
-        let (mut total_steps, mut sum, mut worst) = (0, 0.0, f64::INFINITY);
-        let mut evaluation = Evaluation::new(0.0);
-        for trial in 0..self.trials.count {
-            let (steps, failure) = stage.play(phenotype, seed.trial(trial), self.steps, &mut ());
-            total_steps += u64::from(steps);
-            if let Some(failure) = failure {
-                return Evaluation::failed(failure).with_steps(total_steps);
+        let mut tally = Tally::new(self.trials);
+        loop {
+            let (steps, failure) = stage.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
+            let outcome = Outcome { steps, time_step: stage.environment.time_step(), failure };
+            if let Some(evaluation) = tally.add(outcome, &*stage.movement) {
+                return evaluation;
             }
-            let value = stage.movement.value();
-            if !value.is_finite() {
-                return Evaluation::new(value).with_steps(total_steps);
-            }
-            sum += value;
-            worst = worst.min(value);
-            let mut tell = |name: &str, value: f64| match evaluation.measurements.get_mut(name) {
-                Some(mean) => *mean += value / count,
-                None => drop(evaluation.measurements.insert(name.to_owned(), value / count)),
-            };
-            stage.movement.measurements(&mut tell);
-            tell("duration", f64::from(steps) * f64::from(self.environment.time_step()));
         }
-        let fitness = match self.trials.combine {
-            Combine::Mean => sum / count,
-            Combine::Worst => worst,
-        };
-        Evaluation { measurements: evaluation.measurements, ..Evaluation::new(fitness).with_steps(total_steps) }
     }
 }

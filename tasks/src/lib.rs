@@ -37,6 +37,7 @@ mod environment;
 mod episode;
 mod movement;
 mod snapshot;
+mod trials;
 
 pub use catalogue::{MovementCatalogue, MovementEntry, MovementSpec, MovementSpecError, TermSpec};
 pub use classic::{
@@ -44,6 +45,7 @@ pub use classic::{
     Xor, XorSettings,
 };
 pub use environment::Environment;
-pub use episode::{Combine, Episode, Moment, Played, Trials, Watcher};
+pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{Energy, FallEnds, Jumping, Movement, MovementClone, Rollovers, Running, Sum, TimeAloft, Verdict};
 pub use snapshot::{PartState, Snapshot};
+pub use trials::{Combine, Outcome, Tally, Trials};

@@ -10,6 +10,18 @@ pub(crate) fn blueprint(name: &str) -> Blueprint {
     Blueprint::new(creatures::find(name).expect("shipped")).expect("valid")
 }
 
+/// A shipped creature, so much higher above the ground, m.
+pub(crate) fn raised(name: &str, height: f32) -> Blueprint {
+    let mut creature = creatures::find(name).expect("shipped");
+    for part in &mut creature.parts {
+        part.position[1] += height;
+    }
+    for joint in &mut creature.joints {
+        joint.anchor[1] += height;
+    }
+    Blueprint::new(creature).expect("valid")
+}
+
 pub(crate) fn environment(blueprint: Blueprint, settings: PhysicsSettings) -> RapierEnvironment {
     let sensors = blueprint.creature().sensors.clone();
     RapierEnvironment::new(blueprint, &sensors, 3.0, settings, Variation::default()).expect("builds")

@@ -4,3 +4,4 @@
 mod gauge;
 mod promises;
 mod traps;
+mod worlds;

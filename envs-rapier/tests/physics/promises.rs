@@ -51,7 +51,7 @@ fn a_copy_in_the_middle_of_an_episode_goes_on_the_same() {
 fn variation_changes_the_world_by_seed_and_trial_alone() {
     let blueprint = gauge::blueprint("biped-1");
     let sensors = blueprint.creature().sensors.clone();
-    let variation = Variation { friction: 0.3, mass: 0.1, torque: 0.1 };
+    let variation = Variation { friction: 0.3, mass: 0.1, torque: 0.1, ..Variation::default() };
     let mut environment =
         RapierEnvironment::new(blueprint, &sensors, 3.0, PhysicsSettings::default(), variation).expect("builds");
     let mut ends_at = |seed: Seed| {
@@ -120,15 +120,8 @@ fn the_version_is_the_one_in_the_lock_file() {
 
 /// The biped moved up or down, in its file.
 fn raised(height: f32, settings: PhysicsSettings) -> Result<RapierEnvironment, EnvironmentError> {
-    let mut creature = creatures::find("biped-1").expect("shipped");
-    for part in &mut creature.parts {
-        part.position[1] += height;
-    }
-    for joint in &mut creature.joints {
-        joint.anchor[1] += height;
-    }
-    let sensors = creature.sensors.clone();
-    let blueprint = creatures::Blueprint::new(creature).expect("valid");
+    let blueprint = gauge::raised("biped-1", height);
+    let sensors = blueprint.creature().sensors.clone();
     RapierEnvironment::new(blueprint, &sensors, 3.0, settings, Variation::default())
 }
 

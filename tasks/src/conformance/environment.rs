@@ -9,8 +9,10 @@ use ne_core::{
 use std::{panic::resume_unwind, thread};
 
 /// Its shape never changes.
-pub const SHAPE: Promise =
-    Promise::new("environment", "`inputs()`, `outputs()` and `time_step()` never change, and a step takes time");
+pub const SHAPE: Promise = Promise::new(
+    "environment",
+    "`inputs()` and `outputs()` never change, `time_step()` only with `reset`, and a step takes time",
+);
 /// It begins.
 pub const BEGINS: Promise = Promise::new("environment", "`reset` succeeds with the seed of the check");
 /// The same again.
@@ -67,25 +69,31 @@ pub fn check_environment<E: Environment>(environment: &E, seed: Seed) -> Result<
     for script in [Script::Wander, Script::Still, Script::Full, Script::Bang, Script::NotANumber, Script::Infinite] {
         FINITE.check(|| finite(&play(&mut fresh()?, script, 0, STEPS), script))?;
     }
-    CLOCK.check(|| clock(&plain, environment.time_step()))?;
+    CLOCK.check(|| clock(&plain, fresh()?.time_step()))?;
     WORK.check(|| work(&plain))?;
     RESET.check(|| resets(&mut fresh()?, seed, &plain))?;
     CLONES.check(|| clones(fresh()?, &plain))
 }
 
 fn shape_stays<E: Environment>(given: &E, used: &mut E) -> Result<(), String> {
-    let shape = |of: &E| (of.inputs(), of.outputs(), of.time_step());
-    let born = shape(given);
+    let shape = |of: &E| (of.inputs(), of.outputs());
+    let (born, time_step) = (shape(given), used.time_step());
     let stays = |of: &E, when: &str| match shape(of) {
         found if found == born => Ok(()),
-        found => Err(format!("(inputs, outputs, time_step) are {found:?} {when}, {born:?} before")),
+        found => Err(format!("(inputs, outputs) are {found:?} {when}, {born:?} before")),
     };
-    if !(born.2.is_finite() && born.2 > 0.0) {
-        return Err(format!("a time step of {} s", born.2));
+    for step in [given.time_step(), time_step] {
+        if !(step.is_finite() && step > 0.0) {
+            return Err(format!("a time step of {step} s"));
+        }
     }
     stays(used, "after a reset")?;
     play(used, Script::Wander, 0, STEPS);
-    stays(used, "after steps")
+    stays(used, "after steps")?;
+    if used.time_step() != time_step {
+        return Err(format!("time_step is {} s after steps, {time_step} s after the reset", used.time_step()));
+    }
+    Ok(())
 }
 
 /// Senses more often than needed, with slices that held other things before.

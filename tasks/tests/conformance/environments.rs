@@ -27,6 +27,7 @@ enum Flaw {
     None,
     ShapeGrows,
     NoTime,
+    StepsGetLonger,
     CannotBegin,
     BeginsByChance,
     KnowsItsThread,
@@ -105,7 +106,11 @@ impl Environment for Flawed {
     }
 
     fn time_step(&self) -> f32 {
-        if self.is(Flaw::NoTime) { 0.0 } else { self.inner.time_step() }
+        match self.flaw {
+            Flaw::NoTime => 0.0,
+            Flaw::StepsGetLonger if self.steps > 30 => 2.0 * self.inner.time_step(),
+            _ => self.inner.time_step(),
+        }
     }
 
     fn reset(&mut self, seed: Seed) -> Result<(), Failure> {
@@ -181,6 +186,7 @@ fn broken_environments_are_caught() {
     let cases: Cases<'_> = vec![
         (SHAPE, "shape grows", check(Flaw::ShapeGrows)),
         (SHAPE, "steps take no time", check(Flaw::NoTime)),
+        (SHAPE, "steps get longer", check(Flaw::StepsGetLonger)),
         (SHAPE, "panics", check(Flaw::Panics)),
         (BEGINS, "cannot begin", check(Flaw::CannotBegin)),
         (DETERMINISTIC, "begins by chance", check(Flaw::BeginsByChance)),

@@ -1,25 +1,33 @@
-use crate::world::World;
+use crate::Engine;
 use creatures::{Blueprint, BodyView, Hinge};
-use rapier2d::prelude::Vector;
 use tasks::{PartState, Snapshot};
 
 /// What the senses need to know of a creature besides where its parts are now.
-#[derive(Clone, Debug)]
-pub(crate) struct RestPose {
-    /// Cosine and sine of the torso's angle in the settled start pose.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RestPose {
     torso: [f32; 2],
-    /// Height of the torso's centre in the settled start pose, m.
     height: f32,
-    /// For each hinge: parent, child, and cosine and sine of the child's angle against the parent in the start pose.
-    hinges: Vec<(usize, usize, [f32; 2])>,
+    hinges: Vec<RestHinge>,
+}
+
+/// A hinge in the start pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestHinge {
+    /// Index of its parent part.
+    pub parent: usize,
+    /// Index of its child part.
+    pub child: usize,
+    /// Cosine and sine of the child's angle against the parent in the creature's file.
+    pub angle: [f32; 2],
 }
 
 impl RestPose {
+    /// Angles come from the creature's file, the height from the settled creature.
     pub(crate) fn new(blueprint: &Blueprint, settled: &Snapshot) -> Self {
         let parts = blueprint.parts();
         let hinge = |hinge: &Hinge| {
             let angle = parts[hinge.child].angle - parts[hinge.parent].angle;
-            (hinge.parent, hinge.child, [libm::cosf(angle), libm::sinf(angle)])
+            RestHinge { parent: hinge.parent, child: hinge.child, angle: [libm::cosf(angle), libm::sinf(angle)] }
         };
         let start = parts[0].angle;
         Self {
@@ -28,11 +36,26 @@ impl RestPose {
             hinges: blueprint.hinges().iter().map(hinge).collect(),
         }
     }
+
+    /// Cosine and sine of the torso's angle in the creature's file.
+    pub fn torso(&self) -> [f32; 2] {
+        self.torso
+    }
+
+    /// Height of the torso's centre in the settled start pose, m.
+    pub fn height(&self) -> f32 {
+        self.height
+    }
+
+    /// The hinges, in order of [`Blueprint::hinges`].
+    pub fn hinges(&self) -> &[RestHinge] {
+        &self.hinges
+    }
 }
 
 /// A creature as its sensors see it: the last snapshot against the start pose.
-pub(crate) struct Body<'a> {
-    pub(crate) world: &'a World,
+pub(crate) struct Body<'a, E> {
+    pub(crate) engine: &'a E,
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) rest: &'a RestPose,
 }
@@ -51,19 +74,19 @@ fn direction(part: &PartState) -> [f32; 2] {
     [part.cos, part.sin]
 }
 
-impl BodyView for Body<'_> {
+impl<E: Engine> BodyView for Body<'_, E> {
     fn torso_rotation(&self) -> f32 {
         angle_from(self.rest.torso, direction(self.snapshot.torso()))
     }
 
     fn joint_angle(&self, hinge: usize) -> f32 {
-        let (parent, child, rest) = self.rest.hinges[hinge];
+        let RestHinge { parent, child, angle } = self.rest.hinges[hinge];
         let parts = &self.snapshot.parts;
-        angle_from(rest, turned_back(direction(&parts[parent]), direction(&parts[child])))
+        angle_from(angle, turned_back(direction(&parts[parent]), direction(&parts[child])))
     }
 
     fn joint_speed(&self, hinge: usize) -> f32 {
-        let (parent, child, _) = self.rest.hinges[hinge];
+        let RestHinge { parent, child, .. } = self.rest.hinges[hinge];
         self.snapshot.parts[child].spin - self.snapshot.parts[parent].spin
     }
 
@@ -82,7 +105,7 @@ impl BodyView for Body<'_> {
 
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {
         let torso = self.snapshot.torso();
-        self.world.distance_to_ground(Vector::new(torso.x, torso.y), angle, length)
+        self.engine.distance_to_ground([torso.x, torso.y], angle, length)
     }
 
     fn time(&self) -> f32 {

@@ -1,0 +1,240 @@
+use crate::{
+    Conditions, Engine, EnvironmentError, Ground, PhysicsSettings, RestPose, Settled, Variation, body::Body,
+    settled::advance,
+};
+use creatures::{Blueprint, Motors, Senses, Sensor};
+use ne_core::{Failure, Seed};
+use std::sync::Arc;
+use tasks::{Environment, Snapshot};
+
+/// A creature on its ground in a physics engine.
+#[derive(Clone)]
+pub struct CreatureEnvironment<E: Engine> {
+    plan: Arc<Plan<E>>,
+    state: State<E>,
+}
+
+/// A hinge that an output of the controller moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ActuatedHinge {
+    /// Index of the hinge.
+    pub hinge: usize,
+    /// Index of its parent part.
+    pub parent: usize,
+    /// Index of its child part.
+    pub child: usize,
+}
+
+/// What all copies of an environment share.
+struct Plan<E> {
+    blueprint: Blueprint,
+    senses: Senses,
+    motors: Motors,
+    settings: PhysicsSettings,
+    variation: Variation,
+    ground: Ground,
+    /// One for each motor.
+    actuated: Vec<ActuatedHinge>,
+    /// The settled creature in the world without variation.
+    settled: Settled<E>,
+}
+
+/// What changes from step to step, and what changes from trial to trial.
+#[derive(Clone)]
+struct State<E> {
+    engine: E,
+    rest: Arc<RestPose>,
+    snapshot: Snapshot,
+    /// Seconds a step of this trial lasts.
+    time_step: f32,
+    steps: u32,
+    /// What each motor was last asked for, rad/s.
+    speeds: Vec<f32>,
+    wanted: Vec<f32>,
+}
+
+/// The deepest a creature may start in the ground, m.
+const DEEPEST_START: f32 = 0.1;
+
+impl<E: Engine> CreatureEnvironment<E> {
+    /// On flat ground: see [`on_ground`](Self::on_ground).
+    ///
+    /// # Errors
+    /// If a setting or sensor is out of range, the engine cannot simulate the creature, or the creature starts more
+    /// than 0.1 m below the ground, explodes while it settles or is still in the air afterwards. With a settle time of
+    /// 0 it may start in the air.
+    pub fn new(
+        blueprint: Blueprint,
+        sensors: &[Sensor],
+        input_range: f32,
+        settings: PhysicsSettings,
+        variation: Variation,
+    ) -> Result<Self, EnvironmentError> {
+        Self::on_ground(blueprint, sensors, input_range, settings, variation, Ground::flat())
+    }
+
+    /// Builds the creature, and lets it settle for at most [`PhysicsSettings::settle_time`] with its motors holding
+    /// still. `input_range`: sensors are scaled to ± this.
+    ///
+    /// The creature starts where its file says: its lowest point must be near y = 0 or above, and clear of the boxes
+    /// of the ground. Only the former is checked.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), and if the ground is not valid.
+    pub fn on_ground(
+        blueprint: Blueprint,
+        sensors: &[Sensor],
+        input_range: f32,
+        settings: PhysicsSettings,
+        variation: Variation,
+        ground: Ground,
+    ) -> Result<Self, EnvironmentError> {
+        settings.validate().map_err(|error| error.within("physics"))?;
+        variation.validate().map_err(|error| error.within("variation"))?;
+        ground.validate().map_err(|error| error.within("ground"))?;
+        let senses = Senses::new(&blueprint, sensors, input_range)?;
+        let motors = Motors::new(&blueprint);
+        let hinges = blueprint.hinges();
+        let actuated =
+            |&hinge: &usize| ActuatedHinge { hinge, parent: hinges[hinge].parent, child: hinges[hinge].child };
+        let actuated = blueprint.actuated().iter().map(actuated).collect();
+        let depth = -blueprint.bounding_box()[1];
+        if depth > DEEPEST_START {
+            return Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth });
+        }
+        let nominal = Conditions::nominal(motors.len());
+        let engine = E::new(&blueprint, &settings, &ground, &nominal)?;
+        let settled = Settled::new(engine, &blueprint, &settings, &nominal)
+            .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
+        let state = State::new(settled.clone(), motors.len());
+        let plan = Plan { blueprint, senses, motors, settings, variation, ground, actuated, settled };
+        Ok(Self { plan: Arc::new(plan), state })
+    }
+
+    /// The creature.
+    pub fn blueprint(&self) -> &Blueprint {
+        &self.plan.blueprint
+    }
+
+    /// What each input of the controller is.
+    pub fn senses(&self) -> &Senses {
+        &self.plan.senses
+    }
+
+    /// What each output of the controller does.
+    pub fn motors(&self) -> &Motors {
+        &self.plan.motors
+    }
+
+    /// The hinge of each motor, in order of the outputs.
+    pub fn actuated(&self) -> &[ActuatedHinge] {
+        &self.plan.actuated
+    }
+
+    /// The physics settings, before variation.
+    pub fn settings(&self) -> &PhysicsSettings {
+        &self.plan.settings
+    }
+
+    /// How much the world differs from trial to trial.
+    pub fn variation(&self) -> &Variation {
+        &self.plan.variation
+    }
+
+    /// What the creature moves on.
+    pub fn ground(&self) -> &Ground {
+        &self.plan.ground
+    }
+
+    /// The torque each motor gave at the end of the last step, N·m, in order of the outputs.
+    pub fn motor_torques(&self) -> impl Iterator<Item = f32> + '_ {
+        self.plan.actuated.iter().map(|actuated| self.state.engine.motor_torque(actuated.hinge))
+    }
+
+    /// What the trial with this seed begins with, and what `reset` puts in place; for those who step many creatures at
+    /// once by themselves.
+    ///
+    /// # Errors
+    /// If the creature cannot come to rest in the world of this trial.
+    pub fn settled(&self, seed: Seed) -> Result<Settled<E>, Failure> {
+        let Plan { blueprint, motors, settings, variation, ground, settled, .. } = &*self.plan;
+        if variation.is_none() {
+            return Ok(settled.clone());
+        }
+        let conditions = variation.draw(seed, motors.len());
+        let settings = conditions.settings(settings);
+        let engine = E::new(blueprint, &settings, ground, &conditions)
+            .map_err(|error| Failure::Other { what: error.to_string() })?;
+        Settled::new(engine, blueprint, &settings, &conditions)
+    }
+}
+
+impl<E: Engine> Environment for CreatureEnvironment<E> {
+    fn inputs(&self) -> usize {
+        self.plan.senses.len()
+    }
+
+    fn outputs(&self) -> usize {
+        self.plan.motors.len()
+    }
+
+    fn time_step(&self) -> f32 {
+        self.state.time_step
+    }
+
+    fn reset(&mut self, seed: Seed) -> Result<(), Failure> {
+        self.state = State::new(self.settled(seed)?, self.outputs());
+        Ok(())
+    }
+
+    fn sense(&self, inputs: &mut [f32]) {
+        let State { engine, snapshot, rest, .. } = &self.state;
+        self.plan.senses.read(&Body { engine, snapshot, rest }, inputs);
+    }
+
+    fn act(&mut self, outputs: &[f32]) {
+        let State { engine, wanted, speeds, .. } = &mut self.state;
+        self.plan.motors.speeds(outputs, wanted);
+        for ((actuated, &wanted), speed) in self.plan.actuated.iter().zip(&*wanted).zip(speeds) {
+            // A speed that is no number stays out of the engine; `step` reports it.
+            if wanted != *speed && !wanted.is_nan() {
+                engine.set_motor_speed(actuated.hinge, wanted);
+                *speed = wanted;
+            }
+        }
+    }
+
+    fn step(&mut self) -> Result<(), Failure> {
+        if let Some(output) = self.state.wanted.iter().position(|speed| speed.is_nan()) {
+            return Err(Failure::NonFinite { what: format!("output {output} of the controller") });
+        }
+        self.state.advance(&self.plan)
+    }
+
+    fn snapshot(&self) -> &Snapshot {
+        &self.state.snapshot
+    }
+}
+
+impl<E: Engine> State<E> {
+    /// The beginning of a trial.
+    fn new(settled: Settled<E>, motors: usize) -> Self {
+        let Settled { engine, rest, snapshot, time_step } = settled;
+        Self { engine, rest, snapshot, time_step, steps: 0, speeds: vec![0.0; motors], wanted: vec![0.0; motors] }
+    }
+
+    /// One step, with everything that is measured after it.
+    fn advance(&mut self, plan: &Plan<E>) -> Result<(), Failure> {
+        let clock = self.steps as f32 * self.time_step;
+        advance(&mut self.engine, &mut self.snapshot.parts, plan.settings.unstable_speed, clock)?;
+        self.steps += 1;
+        self.snapshot.time = self.steps as f32 * self.time_step;
+        let parts = &self.snapshot.parts;
+        let power = |&ActuatedHinge { hinge, parent, child }: &ActuatedHinge| {
+            (self.engine.motor_torque(hinge) * (parts[child].spin - parts[parent].spin)).abs()
+        };
+        let power: f32 = plan.actuated.iter().map(power).sum();
+        self.snapshot.motor_work += f64::from(power) * f64::from(self.time_step);
+        Ok(())
+    }
+}

@@ -1,0 +1,56 @@
+//! Creatures in a physics engine, whichever it is.
+//!
+//! An engine knows bodies, hinges and contacts. What makes a [`tasks::Environment`] of them is the same for every
+//! engine, and stands here: [`CreatureEnvironment`] lets a [`Blueprint`](creatures::Blueprint) settle, varies the world
+//! from trial to trial, reads the sensors, drives the motors and measures. An engine implements [`Engine`], six small
+//! functions, and nothing else. So two engines can differ in how bodies move, and in nothing that was not meant.
+//!
+//! ```text
+//!  Blueprint, PhysicsSettings, Ground ──┐
+//!  Variation ── seed ── Conditions ─────┴── Engine ── Settled ── CreatureEnvironment: tasks::Environment
+//! ```
+//!
+//! Four decisions:
+//!
+//! - **One creature, one world.** Creatures never meet, so a shared world could only couple them by accident. Threads
+//!   get different creatures, never parts of one.
+//! - **Settle once, copy often.** The settled world is a prototype; an episode begins with a copy of it. So an episode
+//!   never pays for settling, and nothing of an earlier one can be left. Only varied worlds settle for each trial.
+//! - **The ground is data.** A [`Ground`] is a list of shapes that any engine can build.
+//! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
+//!   can be shown and compared; engines draw nothing.
+//!
+//! ```
+//! use envs_core::{Conditions, Ground, GroundShape, Variation};
+//! use ne_core::Seed;
+//!
+//! // A step, 20 cm high, from 3 m on.
+//! let mut ground = Ground::flat();
+//! ground.shapes.push(GroundShape::Box { x: 8.0, y: 0.0, width: 10.0, height: 0.4 });
+//! ground.validate()?;
+//!
+//! // The world of the first trial of a run, for a creature with two motors.
+//! let trial = Variation::light().draw(Seed::of_run(1), 2);
+//! assert!((0.8..=1.2).contains(&trial.friction));
+//! assert!(trial.turns.iter().all(|turn| turn.abs() <= 0.05));
+//! assert_eq!(Variation::default().draw(Seed::of_run(1), 2), Conditions::nominal(2));
+//! # Ok::<(), ne_core::SettingError>(())
+//! ```
+
+mod body;
+mod engine;
+mod environment;
+mod error;
+mod ground;
+mod settings;
+mod settled;
+mod variation;
+
+pub use body::{RestHinge, RestPose};
+pub use engine::Engine;
+pub use environment::{ActuatedHinge, CreatureEnvironment};
+pub use error::EnvironmentError;
+pub use ground::{Ground, GroundShape};
+pub use settings::PhysicsSettings;
+pub use settled::Settled;
+pub use variation::{Conditions, Variation};

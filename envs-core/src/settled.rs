@@ -1,0 +1,98 @@
+use crate::{Conditions, Engine, PhysicsSettings, RestPose};
+use creatures::Blueprint;
+use ne_core::Failure;
+use std::sync::Arc;
+use tasks::{PartState, Snapshot};
+
+/// A creature at rest in its start pose, the clock at zero: what every trial begins with.
+#[derive(Clone)]
+pub struct Settled<E> {
+    /// The engine after settling, its motors asked for speed 0.
+    pub engine: E,
+    /// What the sensors compare with.
+    pub rest: Arc<RestPose>,
+    /// Where every part is; time and motor work are 0.
+    pub snapshot: Snapshot,
+    /// Seconds a step of this trial lasts.
+    pub time_step: f32,
+}
+
+/// At rest: slower than this (m/s, and rad/s)...
+const REST_SPEED: f32 = 0.005;
+/// ...for so many steps.
+const REST_STEPS: u32 = 10;
+
+/// Steps in which the joints are turned into the start pose of the trial.
+const TURNING_STEPS: u32 = 10;
+
+impl<E: Engine> Settled<E> {
+    /// Turns the joints as the conditions say, and lets the creature come to rest. `settings`: those of the trial.
+    pub(crate) fn new(
+        mut engine: E,
+        blueprint: &Blueprint,
+        settings: &PhysicsSettings,
+        conditions: &Conditions,
+    ) -> Result<Self, Failure> {
+        let mut parts = vec![PartState::default(); blueprint.parts().len()];
+        engine.look(&mut parts);
+        turn(&mut engine, &mut parts, blueprint, settings, &conditions.turns)?;
+        let (mut steps, mut still) = (0.0, 0);
+        while steps * settings.time_step < settings.settle_time && still < REST_STEPS {
+            advance(&mut engine, &mut parts, settings.unstable_speed, 0.0)?;
+            let rests = |part: &PartState| part.vx.abs().max(part.vy.abs()).max(part.spin.abs()) < REST_SPEED;
+            still = if parts.iter().all(rests) { still + 1 } else { 0 };
+            steps += 1.0;
+        }
+        let snapshot = Snapshot { parts, ..Snapshot::default() };
+        if settings.settle_time > 0.0 && snapshot.aloft() {
+            let what = format!("it is still in the air after settling for {} s", settings.settle_time);
+            return Err(Failure::Unstable { what });
+        }
+        let rest = Arc::new(RestPose::new(blueprint, &snapshot));
+        Ok(Self { engine, rest, snapshot, time_step: settings.time_step })
+    }
+}
+
+/// Turns each actuated joint by its own motor, as far as motor and ground let it. Without a turn no time passes.
+fn turn<E: Engine>(
+    engine: &mut E,
+    parts: &mut [PartState],
+    blueprint: &Blueprint,
+    settings: &PhysicsSettings,
+    turns: &[f32],
+) -> Result<(), Failure> {
+    if turns.iter().all(|&turn| turn == 0.0) {
+        return Ok(());
+    }
+    let seconds = TURNING_STEPS as f32 * settings.time_step;
+    for (&hinge, turn) in blueprint.actuated().iter().zip(turns) {
+        engine.set_motor_speed(hinge, turn / seconds);
+    }
+    for _ in 0..TURNING_STEPS {
+        advance(engine, parts, settings.unstable_speed, 0.0)?;
+    }
+    for &hinge in blueprint.actuated() {
+        engine.set_motor_speed(hinge, 0.0);
+    }
+    Ok(())
+}
+
+/// One step of the engine, and a look at where every part is. `clock`: the time before the step, s, for the failure's
+/// text.
+pub(crate) fn advance<E: Engine>(
+    engine: &mut E,
+    parts: &mut [PartState],
+    unstable_speed: f32,
+    clock: f32,
+) -> Result<(), Failure> {
+    if !engine.step() {
+        return Err(Failure::NonFinite { what: format!("position or speed of a part after {clock} s") });
+    }
+    engine.look(parts);
+    let speed = |part: &PartState| part.vx.abs().max(part.vy.abs());
+    let fastest = parts.iter().map(speed).fold(0.0, f32::max);
+    if fastest > unstable_speed {
+        return Err(Failure::Unstable { what: format!("a part moves at {fastest} m/s") });
+    }
+    Ok(())
+}

@@ -1,0 +1,113 @@
+use crate::puppet::Puppet;
+use creatures::Blueprint;
+use envs_core::{CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Variation};
+use ne_core::Seed;
+use tasks::{Environment, conformance::check_environment};
+
+fn blueprint(self_collision: bool) -> Blueprint {
+    let mut creature = creatures::find("tetrapod-2").expect("shipped");
+    creature.self_collision = self_collision;
+    Blueprint::new(creature).expect("valid")
+}
+
+fn on_ground(blueprint: Blueprint, ground: Ground) -> Result<CreatureEnvironment<Puppet>, EnvironmentError> {
+    let sensors = blueprint.creature().sensors.clone();
+    let (settings, variation) = (PhysicsSettings::default(), Variation::default());
+    CreatureEnvironment::on_ground(blueprint, &sensors, 3.0, settings, variation, ground)
+}
+
+fn varied(variation: Variation) -> CreatureEnvironment<Puppet> {
+    let blueprint = blueprint(false);
+    let sensors = blueprint.creature().sensors.clone();
+    CreatureEnvironment::new(blueprint, &sensors, 3.0, PhysicsSettings::default(), variation).expect("builds")
+}
+
+#[test]
+fn a_toy_engine_makes_an_environment_that_passes_the_conformance_kit() {
+    for variation in [Variation::default(), Variation::light()] {
+        assert_eq!(check_environment(&varied(variation), Seed::of_run(3)), Ok(()));
+    }
+}
+
+/// The sensors of a tetrapod: rotation of the torso, then its joint angles, 0 in the start pose of its file.
+#[test]
+fn a_varied_start_pose_turns_each_actuated_joint_by_what_was_drawn() {
+    let variation = Variation { start_pose: 0.3, time_step: 0.5, ..Variation::default() };
+    let mut environment = varied(variation);
+    let (seed, motors) = (Seed::of_run(5), environment.outputs());
+    environment.reset(seed).expect("settles");
+    let mut inputs = vec![0.0; environment.inputs()];
+    environment.sense(&mut inputs);
+    let turns = variation.draw(seed, motors).turns;
+    let channels = environment.senses().channels();
+    let hinges = environment.blueprint().hinges();
+    for ((&hinge, turn), (input, channel)) in
+        environment.blueprint().actuated().iter().zip(turns).zip(inputs[1..].iter().zip(&channels[1..]))
+    {
+        let [low, high] = hinges[hinge].limits;
+        let scale = 3.0 / low.abs().max(high.abs());
+        assert!((input / scale - turn).abs() < 1e-4, "{}: {} rad, drawn {turn}", channel.name, input / scale);
+    }
+    assert_eq!(environment.snapshot().time, 0.0, "turning is over when the clock starts");
+    assert!(environment.snapshot().parts.iter().all(|part| part.spin == 0.0), "motors hold still again");
+}
+
+#[test]
+fn motors_are_asked_only_for_what_changes() {
+    let friction_alone = Variation { friction: 0.1, ..Variation::default() };
+    let mut environment = varied(friction_alone);
+    let asked = |environment: &CreatureEnvironment<Puppet>| environment.motor_torques().sum::<f32>();
+    environment.reset(Seed::of_run(1)).expect("settles");
+    assert_eq!(asked(&environment), 0.0, "a start pose that does not vary asks no motor");
+    let mut outputs = vec![0.0; environment.outputs()];
+    environment.act(&outputs);
+    assert_eq!(asked(&environment), 0.0, "motors hold still already");
+    outputs[1] = 0.5;
+    environment.act(&outputs);
+    environment.act(&outputs);
+    assert_eq!(asked(&environment), 1.0);
+}
+
+#[test]
+fn a_varied_time_step_is_that_of_clock_and_work() {
+    let variation = Variation { time_step: 0.5, ..Variation::default() };
+    let (mut environment, seed) = (varied(variation), Seed::of_run(2));
+    assert_eq!(environment.time_step(), 0.02);
+    environment.reset(seed).expect("settles");
+    let time_step = 0.02 * variation.draw(seed, environment.outputs()).time_step;
+    assert_ne!(time_step, 0.02);
+    assert_eq!(environment.time_step(), time_step);
+    assert_eq!(environment.settled(seed).expect("settles").time_step, time_step);
+    let mut outputs = vec![0.0; environment.outputs()];
+    outputs[0] = 1.0;
+    environment.act(&outputs);
+    for step in 1..=10_u8 {
+        environment.step().expect("stable");
+        assert_eq!(environment.snapshot().time, f32::from(step) * time_step);
+    }
+    // The puppet's one motor was asked once, so its torque is 1 N·m, at its top speed.
+    let hinge = environment.actuated()[0].hinge;
+    let top_speed = environment.blueprint().hinges()[hinge].motor.expect("it has one").top_speed;
+    let expected = 10.0 * f64::from(top_speed) * f64::from(time_step);
+    assert!((environment.snapshot().motor_work - expected).abs() < 1e-5 * expected);
+}
+
+#[test]
+fn what_an_engine_cannot_simulate_is_refused_with_the_engines_name() {
+    let refusal = |environment: Result<CreatureEnvironment<Puppet>, EnvironmentError>| {
+        environment.err().expect("must be refused").to_string()
+    };
+    assert_eq!(
+        refusal(on_ground(blueprint(true), Ground::flat())),
+        "puppets cannot simulate this creature: its parts collide with each other"
+    );
+    let step = GroundShape::Box { x: 9.0, y: 0.0, width: 1.0, height: 0.2 };
+    assert_eq!(
+        refusal(on_ground(blueprint(false), Ground { shapes: vec![GroundShape::HalfSpace, step] })),
+        "puppets cannot simulate this creature: the ground is not flat"
+    );
+    assert_eq!(
+        refusal(on_ground(blueprint(false), Ground { shapes: vec![] })),
+        "ground.shapes = []: must be at least one shape"
+    );
+}

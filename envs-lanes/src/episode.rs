@@ -1,0 +1,278 @@
+use crate::{engine::LaneEngine, engine::LaneEnvironment, herd::Herd, instructions::Instructions};
+use envs_core::Settled;
+use ne_core::{Evaluation, Failure, Phenotype, Seed, SettingError, Task};
+use ne_net::{DenseNet, GraphNet, Network, Topology};
+use std::{any::Any, borrow::Cow};
+use tasks::{Environment, Movement, Outcome, Snapshot, Tally, Trials, Verdict};
+
+/// A creature, a movement and trials, for a whole population at once: the task that [`tasks::Episode`] is for one
+/// creature at a time, with the same results.
+///
+/// Each lane plays the trials of one individual, one after the other; when it is done the next individual takes the
+/// lane, so that no lane waits for another whose creature has not fallen yet. Nets of one topology think in lanes as
+/// well; where topologies differ, as in NEAT, and for controllers of other kinds each thinks for itself.
+#[derive(Clone)]
+pub struct LaneEpisode {
+    environment: LaneEnvironment,
+    movement: Box<dyn Movement>,
+    steps: u32,
+    trials: Trials,
+    instructions: Instructions,
+}
+
+/// Creatures side by side: a register of AVX-512, and several of those of smaller processors, which have time for it.
+const LANES: usize = 16;
+
+/// So many individuals that in most of a batch all lanes are busy.
+const BATCH: usize = 256;
+
+impl LaneEpisode {
+    /// Episodes of `steps` steps (at least 1).
+    ///
+    /// # Errors
+    /// If steps or trials are out of range.
+    pub fn new(
+        environment: LaneEnvironment,
+        movement: Box<dyn Movement>,
+        steps: u32,
+        trials: Trials,
+    ) -> Result<Self, SettingError> {
+        SettingError::check_at_least("steps", steps as usize, 1)?;
+        trials.validate().map_err(|error| error.within("trials"))?;
+        Ok(Self { environment, movement, steps, trials, instructions: Instructions::best() })
+    }
+
+    /// The same episodes, stepped with other instructions of the processor: the same results at another speed.
+    #[must_use]
+    pub fn with_instructions(self, instructions: Instructions) -> Self {
+        Self { instructions, ..self }
+    }
+
+    /// The instructions it is stepped with.
+    pub fn instructions(&self) -> Instructions {
+        self.instructions
+    }
+
+    /// The environment episodes start from.
+    pub fn environment(&self) -> &LaneEnvironment {
+        &self.environment
+    }
+
+    /// The longest an episode lasts, in steps.
+    pub fn steps(&self) -> u32 {
+        self.steps
+    }
+
+    /// The same episodes, lasting at most `steps` steps, and at least 1.
+    #[must_use]
+    pub fn shortened(&self, steps: u32) -> Self {
+        Self { steps: self.steps.min(steps).max(1), ..self.clone() }
+    }
+
+    /// Plays all individuals in lanes of this number; with how many changes no bit.
+    fn play<const W: usize>(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
+        let mut evaluations: Vec<Option<Evaluation>> =
+            phenotypes.iter().map(|phenotype| self.check_shape(&**phenotype).err().map(Evaluation::failed)).collect();
+        let waiting = (0..phenotypes.len()).filter(|&individual| evaluations[individual].is_none()).collect();
+        let starts = (0..self.trials.count).map(|trial| self.environment.settled(seed.trial(trial))).collect();
+        let topology = common_topology(phenotypes);
+        let mut stage: Stage<'_, '_, W> = Stage::new(self, phenotypes, topology.as_ref(), starts, waiting);
+        stage.play(|individual, evaluation| evaluations[individual] = Some(evaluation));
+        let unplayed = || Evaluation::failed(Failure::Other { what: "it was never played".into() });
+        evaluations.into_iter().map(|evaluation| evaluation.unwrap_or_else(unplayed)).collect()
+    }
+}
+
+impl Task for LaneEpisode {
+    fn inputs(&self) -> usize {
+        self.environment.inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.environment.outputs()
+    }
+
+    /// As [`tasks::Episode`] does.
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        let mut evaluations = self.play::<1>(&mut [phenotype], seed);
+        evaluations.remove(0)
+    }
+
+    fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
+        self.play::<LANES>(phenotypes, seed)
+    }
+
+    fn batch_size(&self) -> usize {
+        BATCH
+    }
+}
+
+/// A batch being played.
+struct Stage<'a, 'b, const W: usize> {
+    episode: &'a LaneEpisode,
+    phenotypes: &'a mut [&'b mut dyn Phenotype],
+    /// What each trial begins with.
+    starts: Vec<Result<Settled<LaneEngine>, Failure>>,
+    waiting: std::vec::IntoIter<usize>,
+    herd: Option<Herd<W>>,
+    seats: Vec<Option<Seat>>,
+    inputs: Vec<f32>,
+    outputs: Vec<f32>,
+}
+
+/// An individual in a lane.
+struct Seat {
+    individual: usize,
+    tally: Tally,
+    movement: Box<dyn Movement>,
+    snapshot: Snapshot,
+    /// An output in this step that is no finite number: it ends the trial.
+    unusable_output: Option<usize>,
+}
+
+impl<'a, 'b, const W: usize> Stage<'a, 'b, W> {
+    fn new(
+        episode: &'a LaneEpisode,
+        phenotypes: &'a mut [&'b mut dyn Phenotype],
+        topology: Option<&Topology>,
+        starts: Vec<Result<Settled<LaneEngine>, Failure>>,
+        waiting: Vec<usize>,
+    ) -> Self {
+        let anyone = starts.iter().find_map(|start| start.as_ref().ok());
+        let herd = anyone.map(|settled| Herd::new(&episode.environment, settled, topology, episode.instructions));
+        Self {
+            episode,
+            phenotypes,
+            starts,
+            waiting: waiting.into_iter(),
+            herd,
+            seats: (0..W).map(|_| None).collect(),
+            inputs: vec![0.0; episode.inputs()],
+            outputs: vec![0.0; episode.outputs()],
+        }
+    }
+
+    /// Plays until nobody waits and all seats are empty; tells each evaluation with the index of its individual.
+    fn play(&mut self, mut tell: impl FnMut(usize, Evaluation)) {
+        for lane in 0..W {
+            self.seat_next(lane, &mut tell);
+        }
+        while self.seats.iter().any(Option::is_some) {
+            self.think();
+            if let Some(herd) = &mut self.herd {
+                herd.step();
+            }
+            for lane in 0..W {
+                if let Some(outcome) = self.judge(lane) {
+                    self.end_trial(lane, outcome, &mut tell);
+                }
+            }
+        }
+    }
+
+    /// Everyone senses and decides.
+    fn think(&mut self) {
+        let Some(herd) = &mut self.herd else { return };
+        herd.sense();
+        if !herd.thinks() {
+            for (lane, seat) in self.seats.iter().enumerate() {
+                let Some(seat) = seat else { continue };
+                herd.inputs(lane, &mut self.inputs);
+                self.phenotypes[seat.individual].activate(&self.inputs, &mut self.outputs);
+                herd.set_outputs(lane, &self.outputs);
+            }
+        }
+        if herd.any_unusable_output() {
+            for (lane, seat) in self.seats.iter_mut().enumerate() {
+                let Some(seat) = seat else { continue };
+                seat.unusable_output = herd.unusable_output(lane);
+                if seat.unusable_output.is_some() {
+                    herd.set_outputs(lane, &vec![0.0; self.outputs.len()]);
+                }
+            }
+        }
+    }
+
+    /// How a lane's trial has ended, if it has.
+    fn judge(&mut self, lane: usize) -> Option<Outcome> {
+        let (Some(herd), Some(seat)) = (&self.herd, &mut self.seats[lane]) else { return None };
+        let (steps, time_step) = (herd.steps(lane), herd.time_step(lane));
+        if let Some(index) = seat.unusable_output.take() {
+            // The step it could not decide on does not count.
+            let failure = Failure::NonFinite { what: format!("output {index}") };
+            return Some(Outcome { steps: steps - 1, time_step, failure: Some(failure) });
+        }
+        if let Err(failure) = herd.show(lane, &mut seat.snapshot) {
+            return Some(Outcome { steps, time_step, failure: Some(failure) });
+        }
+        let ends = seat.movement.observe(&seat.snapshot) == Verdict::End || steps >= self.episode.steps;
+        ends.then_some(Outcome { steps, time_step, failure: None })
+    }
+
+    /// Counts a trial, and begins the next, or seats the next individual.
+    fn end_trial(&mut self, lane: usize, outcome: Outcome, tell: &mut impl FnMut(usize, Evaluation)) {
+        let Some(seat) = &mut self.seats[lane] else { return };
+        match seat.tally.add(outcome, &*seat.movement) {
+            Some(evaluation) => {
+                tell(seat.individual, evaluation);
+                self.seat_next(lane, tell);
+            }
+            None => self.begin_trial(lane, tell),
+        }
+    }
+
+    fn seat_next(&mut self, lane: usize, tell: &mut impl FnMut(usize, Evaluation)) {
+        self.seats[lane] = None;
+        let Some(individual) = self.waiting.next() else { return };
+        if let Some(herd) = &mut self.herd
+            && herd.thinks()
+            && let Some(network) = network(&*self.phenotypes[individual])
+        {
+            herd.load(lane, &network);
+        }
+        self.seats[lane] = Some(Seat {
+            individual,
+            tally: Tally::new(self.episode.trials),
+            movement: self.episode.movement.clone(),
+            snapshot: Snapshot::default(),
+            unusable_output: None,
+        });
+        self.begin_trial(lane, tell);
+    }
+
+    fn begin_trial(&mut self, lane: usize, tell: &mut impl FnMut(usize, Evaluation)) {
+        let Some(seat) = &mut self.seats[lane] else { return };
+        match &self.starts[seat.tally.next_trial() as usize] {
+            Ok(settled) => {
+                self.phenotypes[seat.individual].reset();
+                if let Some(herd) = &mut self.herd {
+                    herd.begin(lane, settled);
+                }
+                seat.snapshot.clone_from(&settled.snapshot);
+                seat.movement.begin(&seat.snapshot);
+            }
+            Err(failure) => {
+                let time_step = self.episode.environment.settings().time_step;
+                let outcome = Outcome { steps: 0, time_step, failure: Some(failure.clone()) };
+                self.end_trial(lane, outcome, tell);
+            }
+        }
+    }
+}
+
+/// The topology of all these controllers, if they are nets and have one in common.
+fn common_topology(phenotypes: &[&mut dyn Phenotype]) -> Option<Topology> {
+    let (first, rest) = phenotypes.split_first()?;
+    let topology = network(&**first)?.topology();
+    rest.iter().all(|phenotype| network(&**phenotype).is_some_and(|net| net.topology() == topology)).then_some(topology)
+}
+
+/// The net that a controller is, if it is one.
+fn network(phenotype: &dyn Phenotype) -> Option<Cow<'_, Network>> {
+    let phenotype: &dyn Any = phenotype;
+    if let Some(network) = phenotype.downcast_ref::<Network>() {
+        return Some(Cow::Borrowed(network));
+    }
+    let dense = phenotype.downcast_ref::<DenseNet>().map(|net| Network::Dense(net.clone()));
+    dense.or_else(|| phenotype.downcast_ref::<GraphNet>().map(|net| Network::Graph(net.clone()))).map(Cow::Owned)
+}

@@ -1,0 +1,201 @@
+use crate::{
+    engine::LaneEnvironment,
+    instructions::{Instructions, Work},
+    lanes::Lanes,
+    net::LaneNet,
+    senses::{Clocks, LaneSenses},
+    solver::LaneWorld,
+};
+use envs_core::{ActuatedHinge, Settled};
+use ne_core::Failure;
+use ne_net::{Network, Topology};
+use tasks::Snapshot;
+
+/// Creatures of one body, side by side, each in a trial of its own: sensing, thinking, acting and stepping them all takes
+/// hardly longer than one.
+///
+/// A lane is a creature only between [`begin`](Self::begin) and the end of its trial; what is left in it afterwards goes
+/// on moving, and nobody looks.
+#[derive(Clone)]
+pub(crate) struct Herd<const W: usize> {
+    instructions: Instructions,
+    world: LaneWorld<W>,
+    senses: LaneSenses,
+    actuated: Vec<ActuatedHinge>,
+    top_speeds: Vec<f32>,
+    unstable_speed: f32,
+    /// The nets, if they all have one topology.
+    net: Option<LaneNet<W>>,
+    inputs: Vec<Lanes<W>>,
+    outputs: Vec<Lanes<W>>,
+    steps: [u32; W],
+    time_step: Lanes<W>,
+    time: Lanes<W>,
+    rest_height: Lanes<W>,
+    /// Of the last step: the power of all motors, W.
+    power: Lanes<W>,
+    /// Of the last step: the fastest part's larger velocity component, m/s; NaN where a number is not finite.
+    fastest: Lanes<W>,
+}
+
+impl<const W: usize> Herd<W> {
+    /// A herd of the creature of this environment. `topology`: that of the nets that think in lanes, if any do.
+    pub(crate) fn new(
+        environment: &LaneEnvironment,
+        settled: &Settled<crate::LaneEngine>,
+        topology: Option<&Topology>,
+        instructions: Instructions,
+    ) -> Self {
+        let mut world = settled.engine.widened();
+        // No lane is ever without a body: an empty world is full of divisions by zero.
+        for lane in 0..W {
+            world.copy_lane(lane, settled.engine.world());
+        }
+        let zeros = |count| vec![Lanes::ZERO; count];
+        Self {
+            instructions,
+            world,
+            senses: LaneSenses::new(environment.senses(), &settled.rest),
+            actuated: environment.actuated().to_vec(),
+            top_speeds: environment.motors().channels().iter().map(|channel| channel.range[1]).collect(),
+            unstable_speed: environment.settings().unstable_speed,
+            net: topology.and_then(LaneNet::new),
+            inputs: zeros(environment.senses().len()),
+            outputs: zeros(environment.motors().len()),
+            steps: [0; W],
+            time_step: Lanes::ZERO,
+            time: Lanes::ZERO,
+            rest_height: Lanes::ZERO,
+            power: Lanes::ZERO,
+            fastest: Lanes::ZERO,
+        }
+    }
+
+    /// Puts a settled creature into a lane, its clock at zero.
+    pub(crate) fn begin(&mut self, lane: usize, settled: &Settled<crate::LaneEngine>) {
+        self.world.copy_lane(lane, settled.engine.world());
+        self.steps[lane] = 0;
+        self.time_step.0[lane] = settled.time_step;
+        self.time.0[lane] = 0.0;
+        self.rest_height.0[lane] = settled.rest.height();
+        if let Some(net) = &mut self.net {
+            net.forget(lane);
+        }
+    }
+
+    /// Whether the nets think in lanes; else whoever drives the herd thinks for them.
+    pub(crate) fn thinks(&self) -> bool {
+        self.net.is_some()
+    }
+
+    /// Gives a lane its net, if nets think in lanes.
+    pub(crate) fn load(&mut self, lane: usize, network: &Network) {
+        if let Some(net) = &mut self.net {
+            net.load(lane, network);
+        }
+    }
+
+    /// What each lane senses; with nets in lanes also what they want.
+    pub(crate) fn sense(&mut self) {
+        self.instructions.run(Sense(self));
+    }
+
+    /// What a lane senses.
+    pub(crate) fn inputs(&self, lane: usize, inputs: &mut [f32]) {
+        for (input, lanes) in inputs.iter_mut().zip(&self.inputs) {
+            *input = lanes.0[lane];
+        }
+    }
+
+    /// What a lane's controller wants.
+    pub(crate) fn set_outputs(&mut self, lane: usize, outputs: &[f32]) {
+        for (lanes, output) in self.outputs.iter_mut().zip(outputs) {
+            lanes.0[lane] = *output;
+        }
+    }
+
+    /// The first output of a lane that is no finite number.
+    pub(crate) fn unusable_output(&self, lane: usize) -> Option<usize> {
+        self.outputs.iter().position(|output| !output.0[lane].is_finite())
+    }
+
+    /// Whether any lane has an output that is no finite number.
+    pub(crate) fn any_unusable_output(&self) -> bool {
+        self.outputs.iter().any(|output| output.0.iter().any(|value| !value.is_finite()))
+    }
+
+    /// One time step of all lanes.
+    pub(crate) fn step(&mut self) {
+        self.instructions.run(Step(self));
+        for ((steps, time), time_step) in self.steps.iter_mut().zip(&mut self.time.0).zip(self.time_step.0) {
+            *steps += 1;
+            *time = *steps as f32 * time_step;
+        }
+    }
+
+    /// Seconds a step of a lane's trial lasts.
+    pub(crate) fn time_step(&self, lane: usize) -> f32 {
+        self.time_step.0[lane]
+    }
+
+    /// Steps of a lane's trial so far.
+    pub(crate) fn steps(&self, lane: usize) -> u32 {
+        self.steps[lane]
+    }
+
+    /// Shows where a lane's creature is after a step.
+    ///
+    /// # Errors
+    /// If the step ended with a number that is not finite, or with a part that is too fast to be true.
+    pub(crate) fn show(&self, lane: usize, snapshot: &mut Snapshot) -> Result<(), Failure> {
+        let fastest = self.fastest.0[lane];
+        if fastest.is_nan() {
+            let clock = (self.steps[lane] - 1) as f32 * self.time_step.0[lane];
+            return Err(Failure::NonFinite { what: format!("position or speed of a part after {clock} s") });
+        }
+        if fastest > self.unstable_speed {
+            return Err(Failure::Unstable { what: format!("a part moves at {fastest} m/s") });
+        }
+        self.world.look(lane, &mut snapshot.parts);
+        snapshot.time = self.time.0[lane];
+        snapshot.motor_work += f64::from(self.power.0[lane]) * f64::from(self.time_step.0[lane]);
+        Ok(())
+    }
+}
+
+struct Sense<'a, const W: usize>(&'a mut Herd<W>);
+
+impl<const W: usize> Work for Sense<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Herd { world, senses, net, inputs, outputs, time, rest_height, .. } = self.0;
+        senses.read(world, &Clocks { time, rest_height }, inputs);
+        if let Some(net) = net {
+            net.activate(inputs, outputs);
+        }
+    }
+}
+
+struct Step<'a, const W: usize>(&'a mut Herd<W>);
+
+impl<const W: usize> Work for Step<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let Herd { world, actuated, top_speeds, outputs, power, fastest, .. } = self.0;
+        for ((actuated, output), &top) in actuated.iter().zip(outputs).zip(top_speeds.iter()) {
+            let wanted = output.clamp(-Lanes::ONE, Lanes::ONE) * Lanes::splat(top);
+            world.set_motor_speeds(actuated.hinge, wanted);
+        }
+        world.step();
+        *fastest = world.fastest();
+        *power = Lanes::ZERO;
+        for &ActuatedHinge { hinge, parent, child } in actuated.iter() {
+            let speed = world.body(child).spin - world.body(parent).spin;
+            *power += (world.motor_torques(hinge) * speed).abs();
+        }
+    }
+}

@@ -1,0 +1,86 @@
+use pulp::{Simd, WithSimd};
+use std::fmt;
+
+/// The instructions a population is stepped with. Chosen when the program runs; the bits are the same with all of them,
+/// only the time is not.
+#[derive(Clone, Copy, Debug)]
+pub struct Instructions(Kind);
+
+#[derive(Clone, Copy, Debug)]
+enum Kind {
+    /// What every processor of this kind has: SSE2, or NEON.
+    Baseline,
+    #[cfg(target_arch = "x86_64")]
+    Avx2(pulp::x86::V3),
+    #[cfg(target_arch = "x86_64")]
+    Avx512(pulp::x86::V4),
+}
+
+/// Something to be done with one of the instruction sets. `run` must be `#[inline(always)]`, and so must all it calls
+/// that is to profit.
+pub(crate) trait Work {
+    type Output;
+
+    fn run(self) -> Self::Output;
+}
+
+/// Hands [`Work`] to pulp, which compiles it for an instruction set.
+struct Compiled<T>(T);
+
+impl<T: Work> WithSimd for Compiled<T> {
+    type Output = T::Output;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> T::Output {
+        self.0.run()
+    }
+}
+
+impl Instructions {
+    /// What every processor of this kind has.
+    pub const BASELINE: Self = Self(Kind::Baseline);
+
+    /// The fastest this processor has.
+    pub fn best() -> Self {
+        Self::available().pop().unwrap_or(Self::BASELINE)
+    }
+
+    /// All that this processor has, the fastest last.
+    pub fn available() -> Vec<Self> {
+        let mut available = vec![Self::BASELINE];
+        #[cfg(target_arch = "x86_64")]
+        {
+            available.extend(pulp::x86::V3::try_new().map(|simd| Self(Kind::Avx2(simd))));
+            available.extend(pulp::x86::V4::try_new().map(|simd| Self(Kind::Avx512(simd))));
+        }
+        available
+    }
+
+    /// Its name: `baseline`, `avx2` or `avx-512`.
+    pub fn name(self) -> &'static str {
+        match self.0 {
+            Kind::Baseline => "baseline",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2(_) => "avx2",
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512(_) => "avx-512",
+        }
+    }
+
+    #[inline]
+    pub(crate) fn run<T: Work>(self, work: T) -> T::Output {
+        match self.0 {
+            Kind::Baseline => work.run(),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx2(simd) => Simd::vectorize(simd, Compiled(work)),
+            #[cfg(target_arch = "x86_64")]
+            Kind::Avx512(simd) => Simd::vectorize(simd, Compiled(work)),
+        }
+    }
+}
+
+impl fmt::Display for Instructions {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}

@@ -1,0 +1,79 @@
+use crate::{
+    lanes::{Lanes, angle_of},
+    solver::LaneWorld,
+};
+use creatures::{Probe, Senses, Source, clock_phase};
+use envs_core::RestPose;
+
+/// The senses of a creature, for all lanes at once; a lane's inputs have the bits of [`Senses::read`].
+#[derive(Clone, Debug)]
+pub(crate) struct LaneSenses {
+    probes: Vec<Probe>,
+    range: f32,
+    /// The start pose; its height is one lane's, and not used.
+    rest: RestPose,
+}
+
+/// What the senses need to know of each lane besides where its parts are.
+pub(crate) struct Clocks<'a, const W: usize> {
+    /// Seconds since the trial began.
+    pub(crate) time: &'a Lanes<W>,
+    /// Height of the torso's centre as the trial began, m.
+    pub(crate) rest_height: &'a Lanes<W>,
+}
+
+impl LaneSenses {
+    pub(crate) fn new(senses: &Senses, rest: &RestPose) -> Self {
+        Self { probes: senses.probes().to_vec(), range: senses.input_range(), rest: rest.clone() }
+    }
+
+    #[inline(always)]
+    pub(crate) fn read<const W: usize>(&self, world: &LaneWorld<W>, clocks: &Clocks<'_, W>, inputs: &mut [Lanes<W>]) {
+        let range = Lanes::splat(self.range);
+        for (input, probe) in inputs.iter_mut().zip(&self.probes) {
+            let value = self.measure(probe.source, world, clocks);
+            let scaled = (value - Lanes::splat(probe.middle)) * Lanes::splat(probe.factor);
+            *input = scaled.clamp(-range, range);
+        }
+    }
+
+    #[inline(always)]
+    fn measure<const W: usize>(&self, source: Source, world: &LaneWorld<W>, clocks: &Clocks<'_, W>) -> Lanes<W> {
+        let torso = world.body(0);
+        match source {
+            Source::TorsoRotation => {
+                let (cos, sin) = turned_back(self.rest.torso(), torso.cos, torso.sin);
+                angle_of(cos, sin)
+            }
+            Source::JointAngle(hinge) => {
+                let hinge = &self.rest.hinges()[hinge];
+                let (parent, child) = (world.body(hinge.parent), world.body(hinge.child));
+                let cos = parent.cos * child.cos + parent.sin * child.sin;
+                let sin = parent.cos * child.sin - parent.sin * child.cos;
+                let (cos, sin) = turned_back(hinge.angle, cos, sin);
+                angle_of(cos, sin)
+            }
+            Source::JointSpeed(hinge) => {
+                let hinge = &self.rest.hinges()[hinge];
+                world.body(hinge.child).spin - world.body(hinge.parent).spin
+            }
+            Source::VelocityForward => torso.velocity_x,
+            Source::VelocityUp => torso.velocity_y,
+            Source::TorsoHeight => torso.y - *clocks.rest_height,
+            Source::Contact(part) => world.pressing(part).select(Lanes::ONE, Lanes::ZERO),
+            Source::Ray { angle, length } => world.distance_to_ground((torso.x, torso.y), angle, length),
+            Source::ClockSine { period } => clocks.time.map(|time| libm::sinf(clock_phase(time, period))),
+            Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
+        }
+    }
+}
+
+/// A direction seen from a fixed one. Most creatures start with level parts, whose direction changes nothing.
+#[inline(always)]
+fn turned_back<const W: usize>([c, s]: [f32; 2], cos: Lanes<W>, sin: Lanes<W>) -> (Lanes<W>, Lanes<W>) {
+    if [c, s] == [1.0, 0.0] {
+        return (cos, sin);
+    }
+    let (c, s) = (Lanes::splat(c), Lanes::splat(s));
+    (c * cos + s * sin, c * sin - s * cos)
+}

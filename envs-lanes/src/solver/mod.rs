@@ -1,0 +1,28 @@
+//! rapier's solver for one kind of creature, with a lane for each creature.
+//!
+//! A time step is [`LaneWorld::step`](world::LaneWorld::step); its parts, in order:
+//!
+//! | part | file | what it does |
+//! |---|---|---|
+//! | find contacts | `contact.rs` | which points of which shapes are near the ground, and their effective masses |
+//! | for each substep: fall | `body.rs` | gravity changes the velocities |
+//! | prepare joints | `joint.rs` | rows of the hinges from where the bodies are now |
+//! | prepare contacts | `contact.rs` | how far each point is from the ground now; last impulses are applied again |
+//! | solve | `joint.rs`, `contact.rs` | Gauss–Seidel sweeps over all rows, joints first, contacts last |
+//! | move | `body.rs` | velocities change the positions |
+//! | relax | `joint.rs`, `contact.rs` | one sweep without the terms that push bodies back into place |
+//!
+//! This is the "soft step" of Catto's Solver2D (*Solver2D*, box2d.org, 2024): small substeps (Macklin et al., *Small
+//! Steps in Physics Simulation*, 2019), constraints as damped springs (Catto, *Soft Constraints*, GDC 2011), and a
+//! relaxing sweep, as rapier2d has it (Apache-2.0, dimforge). **The arithmetic is rapier's, operation by operation and in
+//! its order**: 32-bit sums are not associative, and a solver that is as good but rounds otherwise is another world to a
+//! gait. What is left out is what is exactly zero for a creature on fixed ground: its velocity, its inverse mass.
+
+mod body;
+mod contact;
+mod joint;
+mod mass;
+mod softness;
+mod world;
+
+pub(crate) use world::LaneWorld;

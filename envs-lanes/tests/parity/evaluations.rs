@@ -1,0 +1,71 @@
+//! Whole evaluations: batches in lanes against one creature at a time in rapier.
+
+use crate::stage::{SHIPPED, both, shipped};
+use envs_core::{PhysicsSettings, Variation};
+use envs_lanes::{Instructions, LaneEpisode};
+use ne_core::{Evaluation, Phenotype, Purpose, Seed, Task};
+use ne_net::{DenseNet, DenseShape};
+use rand::RngExt;
+use tasks::{Combine, Energy, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials};
+
+fn movement() -> Box<dyn Movement> {
+    let all = Sum::of(Running::default()).plus(-1e-4, Energy::default()).plus(0.5, Jumping::default());
+    Box::new(all.plus(-0.1, Rollovers::default()).plus(0.2, TimeAloft::default()))
+}
+
+fn nets(inputs: usize, outputs: usize, count: usize) -> Vec<DenseNet> {
+    let shape = DenseShape::new(inputs, vec![10], outputs);
+    let mut stream = Seed::of_run(5).stream(Purpose::new("weights"));
+    let weights = |_| {
+        let weights: Vec<f32> = (0..shape.weight_count()).map(|_| stream.random::<f32>() * 4.0 - 2.0).collect();
+        DenseNet::new(shape.clone(), &weights).expect("valid")
+    };
+    (0..count).map(weights).collect()
+}
+
+fn batch(task: &LaneEpisode, nets: &mut [DenseNet], seed: Seed) -> Vec<Evaluation> {
+    let mut phenotypes: Vec<&mut dyn Phenotype> = nets.iter_mut().map(|net| net as &mut dyn Phenotype).collect();
+    task.evaluate_batch(&mut phenotypes, seed)
+}
+
+#[test]
+fn a_batch_gives_what_rapier_gives() {
+    for name in SHIPPED {
+        let blueprint = shipped(name);
+        let sensors = blueprint.creature().sensors.clone();
+        let trials = Trials { count: 2, combine: Combine::Mean };
+        for variation in [Variation::default(), Variation::light()] {
+            let (rapier, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), variation);
+            let rapier = Episode::new(rapier, movement(), 150, trials).expect("valid");
+            let lanes = LaneEpisode::new(lanes, movement(), 150, trials).expect("valid");
+            let mut nets = nets(rapier.inputs(), rapier.outputs(), 20);
+            let found = batch(&lanes, &mut nets, Seed::of_run(3));
+            for (net, found) in nets.iter_mut().zip(found) {
+                assert_eq!(found, rapier.evaluate(net, Seed::of_run(3)), "{name}, {variation:?}");
+            }
+        }
+    }
+}
+
+/// Falls end episodes at different times, so that lanes are refilled all the time.
+#[test]
+fn neither_neighbours_nor_instructions_change_a_bit() {
+    let blueprint = shipped("biped-1");
+    let sensors = blueprint.creature().sensors.clone();
+    let (_, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), Variation::light());
+    let falls = || Box::new(Sum::of(Running::default()).plus(-1.0, FallEnds::default()));
+    let trials = Trials { count: 3, combine: Combine::Worst };
+    let task = LaneEpisode::new(lanes, falls(), 200, trials).expect("valid");
+    let seed = Seed::of_run(8);
+    let mut nets = nets(task.inputs(), task.outputs(), 70);
+    let alone: Vec<Evaluation> = nets.iter_mut().map(|net| task.evaluate(net, seed)).collect();
+    assert!(alone.iter().any(|evaluation| evaluation.steps < 600), "nobody falls");
+    for instructions in Instructions::available() {
+        let task = task.clone().with_instructions(instructions);
+        assert_eq!(batch(&task, &mut nets, seed), alone, "{instructions}");
+        for size in [1, 2, 15, 16, 17, 33] {
+            let found: Vec<Evaluation> = nets.chunks_mut(size).flat_map(|nets| batch(&task, nets, seed)).collect();
+            assert_eq!(found, alone, "batches of {size}, {instructions}");
+        }
+    }
+}

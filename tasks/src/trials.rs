@@ -1,0 +1,109 @@
+use crate::Movement;
+use ne_core::{Evaluation, Failure, SettingError};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// How many trials make an evaluation, and what their values become.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Trials {
+    /// How many, from 1 to 1000; default 1. Trial k gets the seed's trial k, so more trials pay only where the
+    /// environment varies with the seed.
+    pub count: u32,
+    /// How the values of the trials become one fitness; default mean.
+    pub combine: Combine,
+}
+
+/// How the values of several trials become one.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Combine {
+    /// The arithmetic mean.
+    #[default]
+    Mean,
+    /// The lowest: a gait is worth what it is on its worst day.
+    Worst,
+}
+
+impl Default for Trials {
+    fn default() -> Self {
+        Self { count: 1, combine: Combine::Mean }
+    }
+}
+
+impl Trials {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        SettingError::check_range("count", f64::from(self.count), 1.0, 1000.0)
+    }
+}
+
+/// How a trial ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Steps done.
+    pub steps: u32,
+    /// Seconds each of them lasted.
+    pub time_step: f32,
+    /// What went wrong, if anything did.
+    pub failure: Option<Failure>,
+}
+
+/// Makes an evaluation of trials, one after the other. What an [`Episode`](crate::Episode) uses, and whoever plays many
+/// at once.
+#[derive(Clone, Debug)]
+pub struct Tally {
+    trials: Trials,
+    done: u32,
+    steps: u64,
+    sum: f64,
+    worst: f64,
+    measurements: BTreeMap<String, f64>,
+}
+
+impl Tally {
+    /// Of no trials yet.
+    pub fn new(trials: Trials) -> Self {
+        Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, measurements: BTreeMap::new() }
+    }
+
+    /// The number of the trial that comes next, from 0.
+    pub fn next_trial(&self) -> u32 {
+        self.done
+    }
+
+    /// Adds a trial, watched by this movement; gives the evaluation once it is complete: after the last trial, and after
+    /// one that failed or has no finite value.
+    pub fn add(&mut self, outcome: Outcome, movement: &dyn Movement) -> Option<Evaluation> {
+        self.done += 1;
+        self.steps += u64::from(outcome.steps);
+        if let Some(failure) = outcome.failure {
+            return Some(Evaluation::failed(failure).with_steps(self.steps));
+        }
+        let value = movement.value();
+        if !value.is_finite() {
+            return Some(Evaluation::new(value).with_steps(self.steps));
+        }
+        self.sum += value;
+        self.worst = self.worst.min(value);
+        let count = f64::from(self.trials.count);
+        let mut tell = |name: &str, value: f64| match self.measurements.get_mut(name) {
+            Some(mean) => *mean += value / count,
+            None => drop(self.measurements.insert(name.to_owned(), value / count)),
+        };
+        movement.measurements(&mut tell);
+        tell("duration", f64::from(outcome.steps) * f64::from(outcome.time_step));
+        if self.done < self.trials.count {
+            return None;
+        }
+        let fitness = match self.trials.combine {
+            Combine::Mean => self.sum / count,
+            Combine::Worst => self.worst,
+        };
+        let measurements = std::mem::take(&mut self.measurements);
+        Some(Evaluation { measurements, ..Evaluation::new(fitness).with_steps(self.steps) })
+    }
+}
