@@ -24,7 +24,9 @@ fn main() {
         print!(" {:>9}", instructions.name());
     }
     println!(" {:>9}", "faster");
-    for name in CREATURES {
+    // Cargo passes options of its own; whatever is no option chooses creatures.
+    let chosen: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    for name in CREATURES.into_iter().filter(|name| chosen.is_empty() || chosen.iter().any(|chosen| chosen == name)) {
         let blueprint = Blueprint::new(creatures::find(name).expect("shipped")).expect("valid");
         let sensors = blueprint.creature().sensors.clone();
         let (settings, variation) = (PhysicsSettings::default(), Variation::default());

@@ -1,4 +1,4 @@
-use crate::{Champion, Progress, Seed, Strategy, archive, archive::ArchiveError};
+use crate::{Champion, Finalist, Progress, Seed, Strategy, archive, archive::ArchiveError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -18,6 +18,9 @@ pub struct Checkpoint<S: Strategy> {
     pub progress: Progress,
     /// The best so far.
     pub champion: Option<Champion<S::Genome>>,
+    /// Those who wait for the next hearing, if a jury chooses the champion.
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    pub finalists: Vec<Finalist<S::Genome>>,
     /// The strategy with all its state.
     pub strategy: S,
 }
@@ -47,6 +50,8 @@ pub(crate) struct CheckpointRef<'a, S: Strategy> {
     pub(crate) seed: Seed,
     pub(crate) progress: Progress,
     pub(crate) champion: Option<&'a Champion<S::Genome>>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    pub(crate) finalists: &'a [Finalist<S::Genome>],
     pub(crate) strategy: &'a S,
 }
 

@@ -1,6 +1,9 @@
 use crate::{
-    Checkpoint, Evaluation, Evaluator, Fitness, Generation, GenerationReport, Observer, ObserverError, Quantiles, Seed,
-    StopConditions, StopReason, StopSignal, Strategy, Task, archive::ArchiveError, checkpoint,
+    Checkpoint, Evaluation, Evaluator, Finalist, Fitness, Generation, GenerationReport, HearingReport, Hearings, Jury,
+    Observer, ObserverError, Quantiles, Seed, StopConditions, StopReason, StopSignal, Strategy, Task,
+    archive::ArchiveError,
+    checkpoint,
+    jury::{Court, ranking},
 };
 use serde::{Deserialize, Serialize};
 use std::{path::Path, time::Instant};
@@ -18,6 +21,8 @@ pub struct Evolution<S: Strategy> {
     signal: StopSignal,
     progress: Progress,
     champion: Option<Champion<S::Genome>>,
+    finalists: Vec<Finalist<S::Genome>>,
+    court: Option<Court<S::Genome>>,
 }
 
 /// What a run has used up.
@@ -30,11 +35,12 @@ pub struct Progress {
     pub evaluations: u64,
     /// Steps of work done.
     pub steps: u64,
-    /// Generations since the champion was found.
+    /// Generations since the champion was found; with a [`Jury`], as of the last hearing.
     pub stagnation: u64,
 }
 
-/// The best individual of a run: the one with the highest fitness, of equals the first.
+/// The best individual of a run: the one with the highest fitness, of equals the first. With a [`Jury`] the fitness that
+/// counts is the one before the jury.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Champion<G> {
@@ -44,8 +50,11 @@ pub struct Champion<G> {
     pub fitness: Fitness,
     /// The generation it was evaluated in, from 1.
     pub generation: u64,
-    /// The seed it was evaluated with: with it the task gives the fitness again.
+    /// The seed it was evaluated with: with it the task, or the jury, gives the fitness again.
     pub seed: Seed,
+    /// The fitness it had in its generation, if a jury has judged it since.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trained: Option<Fitness>,
 }
 
 /// Why a run could not go on.
@@ -79,13 +88,21 @@ impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {
         let (signal, progress) = (StopSignal::default(), Progress::default());
-        Self { strategy, seed, stop, signal, progress, champion: None }
+        Self { strategy, seed, stop, signal, progress, champion: None, finalists: Vec::new(), court: None }
     }
 
-    /// Goes on where a checkpoint was written.
+    /// Goes on where a checkpoint was written. A run with a jury needs it [again](Self::with_jury).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
-        let Checkpoint { seed, progress, champion, strategy } = checkpoint;
-        Self { strategy, seed, stop, signal: StopSignal::default(), progress, champion }
+        let Checkpoint { seed, progress, champion, finalists, strategy } = checkpoint;
+        Self { strategy, seed, stop, signal: StopSignal::default(), progress, champion, finalists, court: None }
+    }
+
+    /// Lets a jury choose the champion. The best of each generation becomes a finalist; after every so many generations
+    /// the jury judges them and the best of that generation, and the best of them becomes champion if its fitness before
+    /// the jury is above the champion's. Hearings are used as they are; see [`Hearings::validate`].
+    #[must_use]
+    pub fn with_jury(self, hearings: Hearings, jury: impl Jury<S::Genome> + 'static) -> Self {
+        Self { court: Some(Court { hearings, jury: Box::new(jury) }), ..self }
     }
 
     /// Uses this switch to end the run early.
@@ -143,7 +160,14 @@ impl<S: Strategy> Evolution<S> {
         self.progress.generations = generation;
         self.progress.evaluations += evaluations.len() as u64;
         self.progress.steps += evaluations.iter().map(|evaluation| evaluation.steps).sum::<u64>();
-        let improved = self.crown(&genomes, &evaluations, seed);
+        let (improved, hearing) = match self.court.take() {
+            None => (self.crown(best_of(&genomes, &evaluations, seed), 1), None),
+            Some(court) => {
+                let outcome = self.nominate(&court, &genomes, &evaluations);
+                self.court = Some(court);
+                outcome
+            }
+        };
         let report = GenerationReport {
             generation,
             evaluations: self.progress.evaluations,
@@ -154,6 +178,7 @@ impl<S: Strategy> Evolution<S> {
             population: genomes.len() as u64,
             strategy: self.strategy.statistics(),
             species: self.strategy.species(),
+            hearing,
         };
         tracing::debug!(generation, best = ?report.best_so_far, failures = report.failures, "generation done");
         let event = Generation {
@@ -162,6 +187,7 @@ impl<S: Strategy> Evolution<S> {
             evaluations: &evaluations,
             champion: self.champion.as_ref(),
             improved,
+            finalists: &self.finalists,
             strategy: &self.strategy,
             progress: self.progress,
             seed: self.seed,
@@ -173,30 +199,61 @@ impl<S: Strategy> Evolution<S> {
         Ok(report)
     }
 
-    /// Makes the best of this generation champion if it beats the old one.
-    fn crown(&mut self, genomes: &[S::Genome], evaluations: &[Evaluation], seed: Seed) -> bool {
-        let fitnesses =
-            evaluations.iter().enumerate().filter_map(|(index, evaluation)| Some((index, evaluation.fitness()?)));
-        // `max_by_key` keeps the last of equals; reversed, the first.
-        let best = fitnesses.rev().max_by_key(|&(_, fitness)| fitness);
+    /// Makes the candidate champion if it beats the old one; otherwise so many more generations have passed without.
+    fn crown(&mut self, candidate: Option<Champion<S::Genome>>, generations: u64) -> bool {
         let reigning = self.champion.as_ref().map(|champion| champion.fitness);
-        match best {
-            Some((index, fitness)) if Some(fitness) > reigning => {
-                let genome = genomes[index].clone();
-                self.champion = Some(Champion { genome, fitness, generation: self.progress.generations, seed });
-                self.progress.stagnation = 0;
-                true
-            }
-            _ => {
-                self.progress.stagnation += 1;
-                false
-            }
+        let improved = candidate.as_ref().is_some_and(|candidate| Some(candidate.fitness) > reigning);
+        if improved {
+            self.champion = candidate;
+            self.progress.stagnation = 0;
+        } else {
+            self.progress.stagnation += generations;
         }
+        improved
+    }
+
+    /// Makes the best of this generation a finalist; if it is time for a hearing, holds it.
+    fn nominate(
+        &mut self,
+        court: &Court<S::Genome>,
+        genomes: &[S::Genome],
+        evaluations: &[Evaluation],
+    ) -> (bool, Option<HearingReport>) {
+        let generation = self.progress.generations;
+        let Hearings { every, finalists } = court.hearings;
+        let is_hearing = generation.is_multiple_of(every);
+        let count = if is_hearing { finalists.max(1) } else { 1 };
+        let best = ranking(evaluations).into_iter().take(count);
+        self.finalists.extend(best.map(|(index, fitness)| Finalist {
+            genome: genomes[index].clone(),
+            fitness,
+            generation,
+        }));
+        if !is_hearing {
+            return (false, None);
+        }
+        let (report, best) = court.hear(&std::mem::take(&mut self.finalists));
+        (self.crown(best, every), Some(report))
     }
 
     /// The best so far, if any evaluation succeeded.
     pub fn champion(&self) -> Option<&Champion<S::Genome>> {
         self.champion.as_ref()
+    }
+
+    /// The champion there would be if a hearing were held now: the best so far, and of those who wait for one. Changes
+    /// nothing. Without a jury, or with nobody waiting, the [champion](Self::champion).
+    pub fn champion_if_heard(&self) -> Option<Champion<S::Genome>> {
+        let standing = self.champion.clone();
+        let Some(court) = self.court.as_ref().filter(|_| !self.finalists.is_empty()) else { return standing };
+        let (_, best) = court.hear(&self.finalists);
+        let fitness = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(|champion| champion.fitness);
+        if fitness(&best) > fitness(&standing) { best } else { standing }
+    }
+
+    /// Those who wait for the next hearing, in the order in which they were evaluated.
+    pub fn finalists(&self) -> &[Finalist<S::Genome>] {
+        &self.finalists
     }
 
     /// What has been used up.
@@ -220,8 +277,8 @@ impl<S: Strategy> Evolution<S> {
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
         let (seed, progress, strategy) = (self.seed, self.progress, &self.strategy);
-        let champion = self.champion.as_ref();
-        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, strategy })
+        let (champion, finalists) = (self.champion.as_ref(), self.finalists.as_slice());
+        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, finalists, strategy })
     }
 }
 
@@ -231,7 +288,14 @@ impl<S: Strategy> Generation<'_, S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
-        let (seed, progress, champion, strategy) = (self.seed, self.progress, self.champion, self.strategy);
-        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, strategy })
+        let Self { seed, progress, champion, finalists, strategy, .. } = *self;
+        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, finalists, strategy })
     }
+}
+
+/// The best of a generation, of equals the first, as the champion it would make.
+fn best_of<G: Clone>(genomes: &[G], evaluations: &[Evaluation], seed: Seed) -> Option<Champion<G>> {
+    let &(index, fitness) = ranking(evaluations).first()?;
+    let genome = genomes[index].clone();
+    Some(Champion { genome, fitness, generation: seed.generation_index(), seed, trained: None })
 }

@@ -11,6 +11,7 @@
 //! | [`Strategy`] | asks for evaluations of genomes, is told their results |
 //! | `Evaluator` | spreads evaluations over threads |
 //! | `Observer` | is told of each generation |
+//! | `Jury` | judges the best of all generations in one world |
 //!
 //! The one decision behind all of them: **a run is a function of its settings and one seed.** No contract hands out a
 //! shared random generator. Whoever needs chance derives a [`RandomStream`] of its own from a [`Seed`], which says where
@@ -107,6 +108,8 @@ mod evaluator;
 #[cfg(feature = "evolution")]
 mod evolution;
 #[cfg(feature = "evolution")]
+mod jury;
+#[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
 mod statistics;
@@ -133,6 +136,8 @@ pub use evaluator::{Evaluator, Serial};
 pub use evaluator::{Parallel, ThreadsError};
 #[cfg(feature = "evolution")]
 pub use evolution::{Champion, Evolution, EvolutionError, Progress};
+#[cfg(feature = "evolution")]
+pub use jury::{Finalist, HearingReport, Hearings, Judgement, Jury};
 #[cfg(feature = "evolution")]
 pub use observer::{Generation, Observer, ObserverError};
 #[cfg(feature = "evolution")]

@@ -1,4 +1,4 @@
-use crate::{Champion, Evaluation, GenerationReport, Progress, Seed, StopConditions, Strategy};
+use crate::{Champion, Evaluation, Finalist, GenerationReport, Progress, Seed, StopConditions, Strategy};
 
 /// What an observer reports when it cannot do its work (a disk is full): the run ends with this error, nothing lost.
 pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
@@ -26,8 +26,10 @@ pub struct Generation<'a, S: Strategy> {
     pub evaluations: &'a [Evaluation],
     /// The best of the run so far, if any evaluation succeeded.
     pub champion: Option<&'a Champion<S::Genome>>,
-    /// Whether the champion is of this generation.
+    /// Whether the champion is new: of this generation or, with a jury, of this hearing.
     pub improved: bool,
+    /// Those who wait for the next hearing; none without a jury.
+    pub finalists: &'a [Finalist<S::Genome>],
     /// The strategy after `tell`.
     pub strategy: &'a S,
     /// Budgets used.

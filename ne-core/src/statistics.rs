@@ -1,4 +1,4 @@
-use crate::{Evaluation, Fitness, SpeciesReport, Statistic};
+use crate::{Evaluation, Fitness, HearingReport, SpeciesReport, Statistic};
 use serde::{Deserialize, Serialize};
 
 /// What happened in one generation: plain data, a line of a log.
@@ -11,7 +11,7 @@ pub struct GenerationReport {
     pub evaluations: u64,
     /// Steps of work since the run began.
     pub steps: u64,
-    /// The best fitness since the run began; `None` while all failed.
+    /// The best fitness since the run began, with a jury the best at a hearing; `None` while there was none.
     pub best_so_far: Option<Fitness>,
     /// The fitnesses of this generation; `None` if all failed.
     pub fitness: Option<Quantiles>,
@@ -24,6 +24,9 @@ pub struct GenerationReport {
     /// The species, if the strategy has species.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub species: Vec<SpeciesReport>,
+    /// What came of the hearing, if there is a jury and it sat after this generation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hearing: Option<HearingReport>,
 }
 
 /// The distribution of a generation's fitnesses, failures left out.

@@ -57,6 +57,13 @@ impl<const W: usize> Body<W> {
         (self.cos * x - self.sin * y, self.sin * x + self.cos * y)
     }
 
+    /// Where a point of the body's own frame is in the world.
+    #[inline(always)]
+    pub(super) fn place(&self, [x, y]: [f32; 2]) -> (Lanes<W>, Lanes<W>) {
+        let (x, y) = self.turn(Lanes::splat(x), Lanes::splat(y));
+        (self.x + x, self.y + y)
+    }
+
     /// Where a vector of the world points in the body's own frame.
     #[inline(always)]
     pub(super) fn turn_back(&self, x: Lanes<W>, y: Lanes<W>) -> (Lanes<W>, Lanes<W>) {

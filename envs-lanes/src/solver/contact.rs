@@ -286,8 +286,8 @@ impl<const W: usize> Contact<W> {
             return;
         }
         let [first, second] = &self.points;
-        let soft = |point: &Point<W>| point.normal_mass * point.impulse_factor.inverse();
-        let (first, second) = (soft(first), soft(second));
+        let first = first.normal_mass * first.impulse_factor.inverse();
+        let second = second.normal_mass * second.impulse_factor.inverse();
         let determinant = first * second - self.coupling * self.coupling;
         self.pair_terms = PairTerms {
             first,
@@ -405,12 +405,8 @@ impl<const W: usize> PairTerms<W> {
         let first = zero.at_most(only_a).and(zero.at_most(b2 + coupling * only_a));
         let second = zero.at_most(only_b).and(zero.at_most(b1 + coupling * only_b));
         let none = zero.at_most(b1).and(zero.at_most(b2));
-        let choose = |both_here, first_here, second_here, before| {
-            let chosen = none.select(zero, before);
-            let chosen = second.select(second_here, chosen);
-            let chosen = first.select(first_here, chosen);
-            both.select(both_here, chosen)
-        };
-        (choose(both_a, only_a, zero, before.0), choose(both_b, zero, only_b, before.1))
+        let a = second.select(zero, none.select(zero, before.0));
+        let b = second.select(only_b, none.select(zero, before.1));
+        (both.select(both_a, first.select(only_a, a)), both.select(both_b, first.select(zero, b)))
     }
 }

@@ -78,6 +78,33 @@ struct Pair<const W: usize> {
     child: (Lanes<W>, Lanes<W>, Lanes<W>),
 }
 
+/// From the centres of parent and child to the hinge, in the world.
+struct Levers<const W: usize> {
+    parent: (Lanes<W>, Lanes<W>),
+    child: (Lanes<W>, Lanes<W>),
+}
+
+impl<const W: usize> Levers<W> {
+    /// The row that keeps the anchors together along an axis.
+    #[inline(always)]
+    fn row(&self, (x, y): (Lanes<W>, Lanes<W>), bias: Lanes<W>, parent: &Body<W>, child: &Body<W>) -> Row<W> {
+        let of_parent = self.parent.0 * y - self.parent.1 * x;
+        let of_child = self.child.0 * y - self.child.1 * x;
+        Row {
+            x,
+            y,
+            parent: of_parent,
+            child: of_child,
+            parent_spin: parent.inverse_inertia * of_parent,
+            child_spin: child.inverse_inertia * of_child,
+            inverse: Lanes::ZERO,
+            gain: Lanes::ZERO,
+            bias,
+            impulse: Lanes::ZERO,
+        }
+    }
+}
+
 impl<const W: usize> Row<W> {
     const NONE: Self = Self {
         x: Lanes::ZERO,
@@ -220,37 +247,19 @@ impl<const W: usize> Joint<W> {
     #[inline(always)]
     pub(super) fn prepare(&mut self, bodies: &[Body<W>], pace: &Pace<W>) {
         let (parent, child) = (&bodies[self.parent], &bodies[self.child]);
-        let at = |body: &Body<W>, [x, y]: [f32; 2]| {
-            let (x, y) = body.turn(Lanes::splat(x), Lanes::splat(y));
-            (body.x + x, body.y + y)
-        };
-        let (parent_x, parent_y) = at(parent, self.parent_anchor);
-        let (child_x, child_y) = at(child, self.child_anchor);
+        let (parent_x, parent_y) = parent.place(self.parent_anchor);
+        let (child_x, child_y) = child.place(self.child_anchor);
         let (gap_x, gap_y) = (child_x - parent_x, child_y - parent_y);
         // The axes are the parent's own. Both levers reach to the child's anchor, the parent's up to rounding.
-        let axes = [(parent.cos, parent.sin), (-parent.sin, parent.cos)];
-        let gaps = axes.map(|(x, y)| gap_x * x + gap_y * y);
-        let [(x, y), (across_x, across_y)] = axes;
-        let lever_x = child_x - x * gaps[0] - across_x * gaps[1] - parent.x;
-        let lever_y = child_y - y * gaps[0] - across_y * gaps[1] - parent.y;
-        let (arm_x, arm_y) = (child_x - child.x, child_y - child.y);
+        let (along, across) = ((parent.cos, parent.sin), (-parent.sin, parent.cos));
+        let gap_along = gap_x * along.0 + gap_y * along.1;
+        let gap_across = gap_x * across.0 + gap_y * across.1;
+        let lever_x = child_x - along.0 * gap_along - across.0 * gap_across - parent.x;
+        let lever_y = child_y - along.1 * gap_along - across.1 * gap_across - parent.y;
+        let levers = Levers { parent: (lever_x, lever_y), child: (child_x - child.x, child_y - child.y) };
         let mass = parent.inverse_mass + child.inverse_mass;
-        let [mut first, mut second] = [0, 1].map(|axis| {
-            let (x, y) = axes[axis];
-            let (of_parent, of_child) = (lever_x * y - lever_y * x, arm_x * y - arm_y * x);
-            Row {
-                x,
-                y,
-                parent: of_parent,
-                child: of_child,
-                parent_spin: parent.inverse_inertia * of_parent,
-                child_spin: child.inverse_inertia * of_child,
-                inverse: Lanes::ZERO,
-                gain: Lanes::ZERO,
-                bias: gaps[axis] * pace.joint_correction,
-                impulse: Lanes::ZERO,
-            }
-        });
+        let mut first = levers.row(along, gap_along * pace.joint_correction, parent, child);
+        let mut second = levers.row(across, gap_across * pace.joint_correction, parent, child);
         let first_inverse = first.finish(mass, pace.joint_compliance);
         second.make_independent_of(&first, mass, first_inverse);
         let second_inverse = second.finish(mass, pace.joint_compliance);
@@ -267,14 +276,10 @@ impl<const W: usize> Joint<W> {
         self.limit.any = false;
         let Some(limits) = self.limits else { return };
         let (parent, child) = (&bodies[self.parent], &bodies[self.child]);
-        let turned = |cos: Lanes<W>, sin: Lanes<W>, by: Option<[f32; 2]>| match by {
-            None => (cos, sin),
-            Some([c, s]) => {
-                let (c, s) = (Lanes::splat(c), Lanes::splat(s));
-                (cos * c - sin * s, cos * s + sin * c)
-            }
+        let (child_cos, child_sin) = match self.frame {
+            None => (child.cos, child.sin),
+            Some([c, s]) => child.turn(Lanes::splat(c), Lanes::splat(s)),
         };
-        let (child_cos, child_sin) = turned(child.cos, child.sin, self.frame);
         let cos = parent.cos * child_cos + parent.sin * child_sin;
         let sin = parent.cos * child_sin - parent.sin * child_cos;
         let (cos, sin) = match limits.middle {

@@ -1,12 +1,12 @@
 //! The same creature in both engines.
 
 use creatures::{Blueprint, Sensor};
-use envs_core::{PhysicsSettings, Variation};
+use envs_core::{CreatureEnvironment, Engine, EnvironmentError, PhysicsSettings, Variation};
 use envs_lanes::LaneEnvironment;
 use envs_rapier::RapierEnvironment;
-use ne_core::{Purpose, Seed};
+use ne_core::{Failure, Purpose, Seed};
 use rand::RngExt;
-use tasks::Environment;
+use tasks::{Environment, Snapshot};
 
 pub(crate) const SHIPPED: [&str; 7] =
     ["apod", "biped-1", "biped-2", "tetrapod-1", "tetrapod-2", "decapod-1", "decapod-2"];
@@ -15,36 +15,139 @@ pub(crate) fn shipped(name: &str) -> Blueprint {
     Blueprint::new(creatures::find(name).expect("shipped")).expect("valid")
 }
 
+/// Every sensor there is that the creature can have.
+pub(crate) fn all_sensors(blueprint: &Blueprint) -> Vec<Sensor> {
+    let mut sensors = vec![
+        Sensor::TorsoRotation,
+        Sensor::JointAngles,
+        Sensor::JointSpeeds,
+        Sensor::TorsoVelocity,
+        Sensor::TorsoHeight,
+        Sensor::Rangefinder { angles: vec![-90.0, -80.0, -45.0, -10.0, 0.0, 30.0, -135.0, 180.0], length: 2.0 },
+        Sensor::Clock { period: 0.7 },
+    ];
+    if !blueprint.feet().is_empty() {
+        sensors.push(Sensor::FootContacts);
+    }
+    sensors
+}
+
+type Both = (Result<RapierEnvironment, EnvironmentError>, Result<LaneEnvironment, EnvironmentError>);
+
+/// What both engines say to a creature.
+pub(crate) fn try_both(
+    blueprint: &Blueprint,
+    sensors: &[Sensor],
+    settings: PhysicsSettings,
+    variation: Variation,
+) -> Both {
+    let rapier = RapierEnvironment::new(blueprint.clone(), sensors, 3.0, settings, variation);
+    let lanes = LaneEnvironment::new(blueprint.clone(), sensors, 3.0, settings, variation);
+    (rapier, lanes)
+}
+
 pub(crate) fn both(
     blueprint: &Blueprint,
     sensors: &[Sensor],
     settings: PhysicsSettings,
     variation: Variation,
 ) -> (RapierEnvironment, LaneEnvironment) {
-    let rapier = RapierEnvironment::new(blueprint.clone(), sensors, 3.0, settings, variation);
-    let lanes = LaneEnvironment::new(blueprint.clone(), sensors, 3.0, settings, variation);
+    let (rapier, lanes) = try_both(blueprint, sensors, settings, variation);
     (rapier.expect("rapier takes it"), lanes.expect("lanes take it"))
 }
 
-/// Drives both with the same random outputs, each held for `hold` steps, and compares what they sense and where every
-/// part is after each step.
-pub(crate) fn drive(rapier: &mut RapierEnvironment, lanes: &mut LaneEnvironment, seed: u64, steps: u32, hold: u32) {
+/// Drives both with the same random outputs, each held for `hold` steps, and compares to the bit after each step: where
+/// every part is, what it senses, what its motors give, and what is wrong if something is. Gives the failure that ended
+/// it early, if one did.
+pub(crate) fn drive(
+    rapier: &mut RapierEnvironment,
+    lanes: &mut LaneEnvironment,
+    seed: u64,
+    steps: u32,
+    hold: u32,
+) -> Option<Failure> {
     let seed = Seed::of_run(seed);
-    assert_eq!(rapier.reset(seed), lanes.reset(seed));
     let mut stream = seed.stream(Purpose::new("motor program"));
-    let mut outputs = vec![0.0; rapier.outputs()];
-    let mut inputs = [vec![0.0; rapier.inputs()], vec![0.0; rapier.inputs()]];
-    let name = rapier.blueprint().name().to_owned();
-    for step in 0..=steps {
-        assert_eq!(rapier.snapshot(), lanes.snapshot(), "{name}, seed {seed:?}: step {step}");
-        rapier.sense(&mut inputs[0]);
-        lanes.sense(&mut inputs[1]);
-        assert_eq!(inputs[0], inputs[1], "{name}, seed {seed:?}: inputs after step {step}");
-        if step % hold == 0 {
+    let motors = rapier.outputs();
+    let program = |step: u32, outputs: &mut [f32]| {
+        if step.is_multiple_of(hold) {
             outputs.fill_with(|| stream.random::<f32>() * 2.4 - 1.2);
         }
+    };
+    follow(rapier, lanes, seed, steps, program, vec![0.0; motors], |_| ())
+}
+
+/// As [`drive`], with a motor program of one's own; shows rapier's creature, which is that of the lanes, at the start and
+/// after each step.
+pub(crate) fn follow(
+    rapier: &mut RapierEnvironment,
+    lanes: &mut LaneEnvironment,
+    seed: Seed,
+    steps: u32,
+    mut program: impl FnMut(u32, &mut [f32]),
+    mut outputs: Vec<f32>,
+    mut look: impl FnMut(&RapierEnvironment),
+) -> Option<Failure> {
+    let name = rapier.blueprint().name().to_owned();
+    let begun = rapier.reset(seed);
+    assert_eq!(begun, lanes.reset(seed), "{name}, {seed:?}: reset");
+    if let Err(failure) = begun {
+        return Some(failure);
+    }
+    assert_same(rapier, lanes, &|| format!("{name}, {seed:?}: start"));
+    look(rapier);
+    for step in 0..steps {
+        program(step, &mut outputs);
         rapier.act(&outputs);
         lanes.act(&outputs);
-        assert_eq!(rapier.step(), lanes.step(), "{name}, seed {seed:?}: step {step}");
+        let stepped = rapier.step();
+        assert_eq!(stepped, lanes.step(), "{name}, {seed:?}: step {step}");
+        if let Err(failure) = stepped {
+            return Some(failure);
+        }
+        assert_same(rapier, lanes, &|| format!("{name}, {seed:?}: after step {step}"));
+        look(rapier);
     }
+    None
+}
+
+/// The numbers of one moment of a creature, told apart by their bits: −0 is not 0.
+#[derive(Debug, PartialEq)]
+struct Bits {
+    parts: Vec<[u32; 7]>,
+    touching: Vec<bool>,
+    time: u32,
+    motor_work: u64,
+    inputs: Vec<u32>,
+    torques: Vec<u32>,
+}
+
+fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
+    let Snapshot { time, parts, motor_work } = environment.snapshot();
+    let mut inputs = vec![0.0; environment.inputs()];
+    // Before its first step rapier has not sorted the ground into its search tree yet, and rays see nothing.
+    if *time > 0.0 || environment.settings().settle_time > 0.0 {
+        environment.sense(&mut inputs);
+    }
+    Bits {
+        parts: parts
+            .iter()
+            .map(|part| [part.x, part.y, part.cos, part.sin, part.vx, part.vy, part.spin].map(f32::to_bits))
+            .collect(),
+        touching: parts.iter().map(|part| part.touching).collect(),
+        time: time.to_bits(),
+        motor_work: motor_work.to_bits(),
+        inputs: inputs.into_iter().map(f32::to_bits).collect(),
+        torques: environment.motor_torques().map(f32::to_bits).collect(),
+    }
+}
+
+/// Compares one moment of both, to the bit.
+fn assert_same(rapier: &RapierEnvironment, lanes: &LaneEnvironment, place: &dyn Fn() -> String) {
+    if bits(rapier) == bits(lanes) {
+        return;
+    }
+    // As numbers first: they are easier to read.
+    assert_eq!(rapier.snapshot(), lanes.snapshot(), "{}", place());
+    assert_eq!(bits(rapier), bits(lanes), "{}", place());
 }

@@ -1,0 +1,131 @@
+use crate::{Champion, Evaluation, Fitness, Genome, Seed, SettingError};
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeSet, fmt};
+
+/// Judges individuals, all of them in one and the same world.
+///
+/// Where each generation is evaluated in a world of its own, the best fitness ever is that of the luckiest world. With a
+/// jury ([`Evolution::with_jury`](crate::Evolution::with_jury)) the best of each generation become [`Finalist`]s
+/// instead, and at every [hearing](Hearings) the best of them before the jury takes on the champion.
+///
+/// An implementor owes: one evaluation for each finalist, in order, and the same ones whenever it is asked again. What a
+/// jury spends counts towards no budget: it changes nothing in what is searched.
+pub trait Jury<G: Genome>: Send + Sync {
+    /// The seed of the jury's world: with it a champion's fitness can be had again.
+    fn seed(&self) -> Seed;
+
+    /// Evaluates the finalists.
+    fn judge(&self, finalists: &[G]) -> Judgement;
+}
+
+/// What a jury found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Judgement {
+    /// An evaluation for each finalist, in order.
+    pub evaluations: Vec<Evaluation>,
+    /// Whether two ways of evaluating that should agree did not, for a jury that has two. The evaluations are then those
+    /// of the one that is to be trusted.
+    pub parted: bool,
+}
+
+/// How often a jury sits, and how many it hears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Hearings {
+    /// After every so many generations; at least 1.
+    pub every: u64,
+    /// So many of the best of the generation just evaluated are heard, with the best of each generation since the last
+    /// hearing; at least 1.
+    pub finalists: usize,
+}
+
+impl Hearings {
+    /// Checks the ranges.
+    ///
+    /// # Errors
+    /// Names the field and its range.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        if self.every == 0 {
+            return Err(SettingError::new("every", 0, "at least 1"));
+        }
+        SettingError::check_at_least("finalists", self.finalists, 1)
+    }
+}
+
+/// An individual that waits for the next hearing.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Finalist<G> {
+    /// The genome.
+    pub genome: G,
+    /// The fitness it had in its generation.
+    pub fitness: Fitness,
+    /// The generation it was evaluated in, from 1.
+    pub generation: u64,
+}
+
+/// What came of a hearing.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HearingReport {
+    /// How many were judged; an individual that was a finalist twice counts once.
+    pub finalists: u64,
+    /// The highest fitness before the jury; `None` if all failed. If it is above the champion's, its owner is champion.
+    pub judged: Option<Fitness>,
+    /// The fitness that the same individual had in its generation.
+    pub trained: Option<Fitness>,
+    /// Whether the jury's two ways of evaluating [parted](Judgement::parted).
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub parted: bool,
+}
+
+/// A jury with its rules.
+pub(crate) struct Court<G> {
+    pub(crate) hearings: Hearings,
+    pub(crate) jury: Box<dyn Jury<G>>,
+}
+
+impl<G> fmt::Debug for Court<G> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Court").field("hearings", &self.hearings).finish_non_exhaustive()
+    }
+}
+
+impl<G: Genome> Court<G> {
+    /// Hears each finalist once; gives the best as the champion it would make.
+    pub(crate) fn hear(&self, finalists: &[Finalist<G>]) -> (HearingReport, Option<Champion<G>>) {
+        let finalists = distinct(finalists);
+        let genomes: Vec<G> = finalists.iter().map(|finalist| finalist.genome.clone()).collect();
+        let Judgement { evaluations, parted } = self.jury.judge(&genomes);
+        if evaluations.len() != genomes.len() {
+            // Nobody can say which belongs to whom.
+            tracing::error!("the jury gave {} evaluations for {} finalists", evaluations.len(), genomes.len());
+        }
+        let best = ranking(&evaluations).first().copied().filter(|_| evaluations.len() == genomes.len());
+        let champion = best.map(|(index, fitness)| Champion {
+            genome: finalists[index].genome.clone(),
+            fitness,
+            generation: finalists[index].generation,
+            seed: self.jury.seed(),
+            trained: Some(finalists[index].fitness),
+        });
+        let (judged, trained) = (best.map(|(_, fitness)| fitness), champion.as_ref().and_then(|best| best.trained));
+        (HearingReport { finalists: genomes.len() as u64, judged, trained, parted }, champion)
+    }
+}
+
+/// The finalists without those whose genome is the same, to the byte, as that of an earlier one.
+fn distinct<G: Genome>(finalists: &[Finalist<G>]) -> Vec<&Finalist<G>> {
+    let mut seen = BTreeSet::new();
+    let is_new = |finalist: &&Finalist<G>| serde_json::to_vec(&finalist.genome).is_ok_and(|bytes| seen.insert(bytes));
+    finalists.iter().filter(is_new).collect()
+}
+
+/// Index and fitness of those that did not fail, the best first, of equals the first.
+pub(crate) fn ranking(evaluations: &[Evaluation]) -> Vec<(usize, Fitness)> {
+    let fitnesses = evaluations.iter().enumerate();
+    let mut ranking: Vec<_> =
+        fitnesses.filter_map(|(index, evaluation)| Some((index, evaluation.fitness()?))).collect();
+    // A stable sort leaves equals in their order.
+    ranking.sort_by_key(|&(_, fitness)| std::cmp::Reverse(fitness));
+    ranking
+}

@@ -1,0 +1,309 @@
+//! Champions chosen by a jury.
+
+use crate::{
+    TASK,
+    common::{Climber, Weights},
+    scripted::{Prompter, Script, Unused},
+    state,
+};
+use ne_core::{
+    Champion, Checkpoint, Evaluation, Evaluator, Evolution, Finalist, Fitness, HearingReport, Hearings, Judgement,
+    Jury, Parallel, Progress, Seed, Serial, StopConditions, StopReason, conformance::Puppet,
+};
+use proptest::prelude::*;
+use std::sync::{Arc, Mutex};
+
+const FAILED: f64 = f64::NAN;
+const WORLD: Seed = Seed::of_run(99);
+
+/// Knows beforehand what each genome of a script is worth, and keeps who came before it.
+#[derive(Clone, Default)]
+struct Known {
+    /// The same shape as the script.
+    worth: Vec<Vec<f64>>,
+    heard: Arc<Mutex<Vec<Vec<Puppet>>>>,
+    parted: bool,
+}
+
+fn genome(generation: u64, index: u64) -> Puppet {
+    Puppet::new(0, 1, 100 * generation + index)
+}
+
+impl Jury<Puppet> for Known {
+    fn seed(&self) -> Seed {
+        WORLD
+    }
+
+    fn judge(&self, finalists: &[Puppet]) -> Judgement {
+        self.heard.lock().expect("no test panics here").push(finalists.to_vec());
+        let worth = |finalist: &Puppet| {
+            let lines = (1..).zip(&self.worth);
+            let all = lines.flat_map(|(line, worth)| (0..).zip(worth).map(move |(index, worth)| (line, index, worth)));
+            let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *finalist);
+            Evaluation::new(mine.next().map_or(FAILED, |(_, _, &worth)| worth))
+        };
+        Judgement { evaluations: finalists.iter().map(worth).collect(), parted: self.parted }
+    }
+}
+
+/// A run of these fitnesses in training before a jury to which they are worth `worth`.
+fn scripted(lines: &[&[f64]], worth: &[&[f64]], hearings: Hearings) -> (Evolution<Script>, Known) {
+    let known = Known { worth: worth.iter().map(|line| line.to_vec()).collect(), ..Known::default() };
+    let stop = StopConditions { generations: Some(lines.len() as u64), ..Default::default() };
+    (Script::evolution(lines, stop).with_jury(hearings, known.clone()), known)
+}
+
+fn fitness(value: f64) -> Fitness {
+    Fitness::new(value).expect("finite")
+}
+
+#[test]
+fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
+    let lines: &[&[f64]] = &[&[1.0, 3.0, 2.0], &[FAILED, FAILED, FAILED], &[5.0, 7.0, 6.0], &[9.0, 9.0, 1.0]];
+    let worth: &[&[f64]] = &[&[0.0, 4.0, 9.0], &[9.0, 9.0, 9.0], &[8.0, 2.0, 3.0], &[5.0, 6.0, 7.0]];
+    let (mut evolution, known) = scripted(lines, worth, Hearings { every: 3, finalists: 2 });
+    let prompter = Prompter::of(&evolution);
+    let mut next = || {
+        let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        (
+            report.best_so_far.map(Fitness::get),
+            report.hearing,
+            evolution.finalists().len(),
+            evolution.progress().stagnation,
+        )
+    };
+    assert_eq!(next(), (None, None, 1, 0));
+    assert_eq!(next(), (None, None, 1, 0), "a generation that failed has nobody");
+    let (judged, trained) = (Some(fitness(4.0)), Some(fitness(3.0)));
+    let report = HearingReport { finalists: 3, judged, trained, parted: false };
+    assert_eq!(next(), (Some(4.0), Some(report), 0, 0));
+    assert_eq!(next(), (Some(4.0), None, 1, 0));
+    let heard = known.heard.lock().expect("no test panics here").clone();
+    assert_eq!(heard, [vec![genome(1, 1), genome(3, 1), genome(3, 2)]], "in the order of their generations and ranks");
+    let champion = Champion { genome: genome(1, 1), fitness: fitness(4.0), generation: 1, seed: WORLD, trained };
+    assert_eq!(evolution.champion(), Some(&champion));
+    // Of the equals in training the first is finalist; worth 5, it would take over.
+    let next = evolution.champion_if_heard().expect("somebody");
+    assert_eq!((next.genome, next.fitness, next.trained), (genome(4, 0), fitness(5.0), Some(fitness(9.0))));
+    assert_eq!(evolution.champion(), Some(&champion), "it was only asked");
+    assert_eq!(evolution.finalists().len(), 1);
+}
+
+#[test]
+fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_jury() {
+    let lines: &[&[f64]] = &[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]];
+    let (mut evolution, _) =
+        scripted(lines, &[&[6.0], &[6.0], &[7.0], &[FAILED], &[1.0]], Hearings { every: 1, finalists: 9 });
+    let prompter = Prompter::of(&evolution);
+    let mut next = || {
+        let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        let champion = evolution.champion().expect("somebody");
+        let judged = report.hearing.and_then(|hearing| hearing.judged).map(Fitness::get);
+        (champion.generation, champion.fitness.get(), judged, evolution.progress().stagnation)
+    };
+    assert_eq!(next(), (1, 6.0, Some(6.0), 0));
+    assert_eq!(next(), (1, 6.0, Some(6.0), 1));
+    assert_eq!(next(), (3, 7.0, Some(7.0), 0));
+    assert_eq!(next(), (3, 7.0, None, 1));
+    assert_eq!(next(), (3, 7.0, Some(1.0), 2));
+}
+
+/// Between hearings nobody can know whether there is progress.
+#[test]
+fn stop_conditions_look_at_the_champion() {
+    let run = |stop: StopConditions| {
+        let worth: Vec<Vec<f64>> = (1..=20).map(|generation| vec![f64::from(generation.min(7))]).collect();
+        let known = Known { worth, ..Known::default() };
+        let hearings = Hearings { every: 4, finalists: 1 };
+        let mut evolution = Script::evolution(&[&[100.0]], stop).with_jury(hearings, known);
+        let prompter = Prompter::of(&evolution);
+        let reason = evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
+        (reason, evolution.progress().generations)
+    };
+    let none = StopConditions::default();
+    assert_eq!(run(StopConditions { stagnation: Some(1), ..none }), (StopReason::Stagnation, 12));
+    assert_eq!(run(StopConditions { stagnation: Some(5), ..none }), (StopReason::Stagnation, 16));
+    assert_eq!(run(StopConditions { target: Some(4.5), ..none }), (StopReason::Target, 8));
+}
+
+#[test]
+fn a_finalist_is_heard_once_however_often_it_was_best() {
+    let finalist = |genome, fitness: f64, generation| Finalist { genome, fitness: self::fitness(fitness), generation };
+    let finalists =
+        vec![finalist(genome(1, 1), 5.0, 1), finalist(genome(1, 0), 6.0, 2), finalist(genome(1, 1), 9.0, 3)];
+    let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], Hearings { every: 1, finalists: 1 });
+    let strategy = Script::evolution(&[&[1.0]], StopConditions::default());
+    let folder = tempfile::tempdir().expect("a folder");
+    strategy.write_checkpoint(&folder.path().join("checkpoint")).expect("it is written");
+    let checkpoint: Checkpoint<Script> = Checkpoint::read(&folder.path().join("checkpoint")).expect("it is whole");
+    let resumed = Evolution::resume(Checkpoint { finalists, ..checkpoint }, StopConditions::default())
+        .with_jury(Hearings { every: 1, finalists: 1 }, known.clone());
+    let champion = resumed.champion_if_heard().expect("somebody");
+    assert_eq!((champion.generation, champion.trained), (1, Some(fitness(5.0))), "as it was first");
+    assert_eq!(*known.heard.lock().expect("no test panics here"), [vec![genome(1, 1), genome(1, 0)]]);
+    assert_eq!(evolution.champion_if_heard(), None);
+}
+
+/// A jury that loses everybody.
+struct Asleep;
+
+impl Jury<Puppet> for Asleep {
+    fn seed(&self) -> Seed {
+        WORLD
+    }
+
+    fn judge(&self, _: &[Puppet]) -> Judgement {
+        Judgement { evaluations: Vec::new(), parted: false }
+    }
+}
+
+#[test]
+fn a_jury_that_loses_evaluations_makes_no_champion() {
+    let stop = StopConditions { generations: Some(2), ..Default::default() };
+    let mut evolution = Script::evolution(&[&[1.0]], stop).with_jury(Hearings { every: 1, finalists: 1 }, Asleep);
+    let prompter = Prompter::of(&evolution);
+    evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
+    assert_eq!((evolution.champion(), evolution.progress().stagnation), (None, 2));
+}
+
+#[test]
+fn a_jury_whose_two_ways_part_is_reported() {
+    let known = Known { worth: vec![vec![1.0]], parted: true, ..Known::default() };
+    let mut evolution = Script::evolution(&[&[1.0]], StopConditions::default());
+    evolution = evolution.with_jury(Hearings { every: 1, finalists: 1 }, known);
+    let prompter = Prompter::of(&evolution);
+    let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+    assert!(report.hearing.is_some_and(|hearing| hearing.parted));
+    let text = serde_json::to_string(&report).expect("plain data");
+    assert!(text.ends_with(r#""hearing":{"finalists":1,"judged":1.0,"trained":1.0,"parted":true}}"#), "{text}");
+}
+
+#[test]
+fn hearings_name_the_field() {
+    let message = |hearings: Hearings| hearings.validate().expect_err("out of range").to_string();
+    assert_eq!(message(Hearings { every: 0, finalists: 1 }), "every = 0: must be at least 1");
+    assert_eq!(message(Hearings { every: 1, finalists: 0 }), "finalists = 0: must be at least 1");
+    assert_eq!(Hearings { every: 1, finalists: 1 }.validate(), Ok(()));
+}
+
+/// Judges climbers in the world of one seed.
+struct Panel;
+
+impl Jury<Weights> for Panel {
+    fn seed(&self) -> Seed {
+        WORLD
+    }
+
+    fn judge(&self, finalists: &[Weights]) -> Judgement {
+        Judgement { evaluations: Serial.evaluate(&TASK, finalists, WORLD), parted: false }
+    }
+}
+
+fn judged(evolution: Evolution<Climber>) -> Evolution<Climber> {
+    evolution.with_jury(Hearings { every: 4, finalists: 5 }, Panel)
+}
+
+#[test]
+fn a_run_with_a_jury_resumed_at_any_generation_ends_the_same() -> Result<(), Box<dyn std::error::Error>> {
+    const GENERATIONS: u64 = 14;
+    let mut whole = judged(crate::evolution(GENERATIONS));
+    whole.run(&TASK, &Serial, &mut [])?;
+    assert!(whole.champion().is_some_and(|champion| champion.seed == WORLD && champion.trained.is_some()));
+    assert_eq!(whole.finalists().len(), 2, "of generations 13 and 14");
+    let (folder, threads) = (tempfile::tempdir()?, Parallel::new(3)?);
+    let (path, end) = (folder.path().join("checkpoint"), folder.path().join("end"));
+    whole.write_checkpoint(&end)?;
+    let last = std::fs::read(&end)?;
+    for until in 1..GENERATIONS {
+        let mut first = judged(crate::evolution(until));
+        first.run(&TASK, &Serial, &mut [])?;
+        // As at the end of a run: asked for, and not kept.
+        first.champion_if_heard();
+        first.write_checkpoint(&path)?;
+        let stop = StopConditions { generations: Some(GENERATIONS), ..Default::default() };
+        let mut second = judged(Evolution::resume(Checkpoint::<Climber>::read(&path)?, stop));
+        second.run(&TASK, &threads, &mut [])?;
+        assert_eq!(state(&second), state(&whole), "resumed after generation {until}");
+        assert_eq!(second.champion_if_heard(), whole.champion_if_heard());
+        second.write_checkpoint(&path)?;
+        assert_eq!(std::fs::read(&path)?, last, "resumed after generation {until}");
+    }
+    Ok(())
+}
+
+/// A jury changes who is champion, and nothing of the search.
+#[test]
+fn a_jury_does_not_steer() {
+    let (mut with, mut without) = (judged(crate::evolution(9)), crate::evolution(9));
+    for evolution in [&mut with, &mut without] {
+        evolution.run(&TASK, &Serial, &mut []).expect("the run ends in peace");
+    }
+    let search = |evolution: &Evolution<Climber>| {
+        let progress = Progress { stagnation: 0, ..evolution.progress() };
+        (progress, serde_json::to_string(evolution.strategy()).expect("plain data"))
+    };
+    assert_eq!(search(&with), search(&without));
+    assert_eq!(without.champion_if_heard().as_ref(), without.champion());
+}
+
+#[test]
+fn without_a_jury_no_file_speaks_of_one() -> Result<(), Box<dyn std::error::Error>> {
+    let mut evolution = crate::evolution(3);
+    let report = evolution.generation(&TASK, &Serial, &mut [])?;
+    let folder = tempfile::tempdir()?;
+    evolution.write_checkpoint(&folder.path().join("checkpoint"))?;
+    let checkpoint = std::fs::read_to_string(folder.path().join("checkpoint"))?;
+    let text = checkpoint + &serde_json::to_string(&report)?;
+    for word in ["finalists", "trained", "hearing"] {
+        assert!(!text.contains(word), "{word}: {text}");
+    }
+    Ok(())
+}
+
+fn borrowed(lines: &[Vec<f64>]) -> Vec<&[f64]> {
+    lines.iter().map(Vec::as_slice).collect()
+}
+
+proptest! {
+    /// Against the rule, written down naively: of all who were heard the first with the highest worth.
+    #[test]
+    fn the_champion_is_the_best_of_all_who_were_heard(
+        run in prop::collection::vec(prop::collection::vec((-3..4_i8, -3..4_i8), 1..5), 1..12),
+        every in 1..5_u64,
+        finalists in 1..4_usize,
+    ) {
+        // −3 stands for a failure.
+        let value = |number: i8| if number == -3 { FAILED } else { f64::from(number) };
+        let column = |of: fn(&(i8, i8)) -> i8| -> Vec<Vec<f64>> {
+            run.iter().map(|line| line.iter().map(|pair| value(of(pair))).collect()).collect()
+        };
+        let (lines, worth) = (column(|pair| pair.0), column(|pair| pair.1));
+        let (mut evolution, _) = scripted(&borrowed(&lines), &borrowed(&worth), Hearings { every, finalists });
+        let prompter = Prompter::of(&evolution);
+        evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
+
+        let mut heard = Vec::new();
+        for (generation, line) in (1..).zip(&lines) {
+            let mut ranks: Vec<usize> = (0..line.len()).filter(|&index| line[index].is_finite()).collect();
+            ranks.sort_by(|&a, &b| line[b].total_cmp(&line[a]).then(a.cmp(&b)));
+            ranks.truncate(if generation % every == 0 { finalists } else { 1 });
+            heard.extend(ranks.into_iter().map(|index| (generation, index)));
+        }
+        let best = |until: u64| {
+            let mut best: Option<(u64, usize, f64)> = None;
+            for &(generation, index) in heard.iter().filter(|(generation, _)| *generation <= until) {
+                let worth = worth[generation as usize - 1][index];
+                if worth.is_finite() && best.is_none_or(|(_, _, best)| worth > best) {
+                    best = Some((generation, index, worth));
+                }
+            }
+            best.map(|(generation, index, worth)| (genome(generation, index as u64), generation, worth))
+        };
+        let seen = |champion: Option<Champion<Puppet>>| {
+            champion.map(|champion| (champion.genome, champion.generation, champion.fitness.get()))
+        };
+        let last_hearing = lines.len() as u64 / every * every;
+        prop_assert_eq!(seen(evolution.champion().cloned()), best(last_hearing));
+        prop_assert_eq!(seen(evolution.champion_if_heard()), best(lines.len() as u64));
+    }
+}
