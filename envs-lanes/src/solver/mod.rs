@@ -4,13 +4,13 @@
 //!
 //! | part | file | what it does |
 //! |---|---|---|
-//! | find contacts | `contact.rs` | which points of which shapes are near the ground, and their effective masses |
+//! | find contacts | `level.rs`, `uneven.rs` | which points of which shapes are near the ground, and their effective masses |
 //! | for each substep: fall | `body.rs` | gravity changes the velocities |
 //! | prepare joints | `joint.rs` | rows of the hinges from where the bodies are now |
-//! | prepare contacts | `contact.rs` | how far each point is from the ground now; last impulses are applied again |
-//! | solve | `joint.rs`, `contact.rs` | Gauss–Seidel sweeps over all rows, joints first, contacts last |
+//! | prepare contacts | `rows.rs` | how far each point is from the ground now; last impulses are applied again |
+//! | solve | `joint.rs`, `rows.rs` | Gauss–Seidel sweeps over all rows, joints first, contacts last |
 //! | move | `body.rs` | velocities change the positions |
-//! | relax | `joint.rs`, `contact.rs` | one sweep without the terms that push bodies back into place |
+//! | relax | `joint.rs`, `rows.rs` | one sweep without the terms that push bodies back into place |
 //!
 //! This is the "soft step" of Catto's Solver2D (*Solver2D*, box2d.org, 2024): small substeps (Macklin et al., *Small
 //! Steps in Physics Simulation*, 2019), constraints as damped springs (Catto, *Soft Constraints*, GDC 2011), and a
@@ -19,10 +19,12 @@
 //! gait. What is left out is what is exactly zero for a creature on fixed ground: its velocity, its inverse mass.
 
 mod body;
-mod contact;
 mod joint;
+mod level;
 mod mass;
+mod rows;
 mod softness;
+mod uneven;
 mod world;
 
 pub(crate) use world::LaneWorld;

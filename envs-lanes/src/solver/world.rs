@@ -1,4 +1,11 @@
-use super::{body::Body, contact::Contact, joint::Joint, mass::InverseMass, softness::Softness};
+use super::{
+    body::Body,
+    joint::Joint,
+    level::LevelContact,
+    mass::InverseMass,
+    softness::Softness,
+    uneven::{self, UnevenContact},
+};
 use crate::{
     engine::ENGINE,
     lanes::{Lanes, Mask},
@@ -16,10 +23,19 @@ pub(crate) struct LaneWorld<const W: usize> {
     bodies: Vec<Body<W>>,
     /// In the order they are solved in.
     joints: Vec<Joint<W>>,
-    contacts: Vec<Contact<W>>,
+    contacts: Contacts<W>,
     pace: Pace<W>,
     /// For each hinge of the blueprint, its place among the joints.
     joint_of: Vec<usize>,
+}
+
+/// The contacts of each part with the ground.
+#[derive(Clone, Debug)]
+enum Contacts<const W: usize> {
+    /// A single half-space.
+    Level(Vec<LevelContact<W>>),
+    /// Anything else.
+    Uneven(Vec<UnevenContact<W>>),
 }
 
 /// What all lanes share.
@@ -36,6 +52,7 @@ struct Plan {
 #[derive(Clone, Debug)]
 pub(super) struct Pace<const W: usize> {
     /// s.
+    pub(super) time_step: Lanes<W>,
     pub(super) substep: Lanes<W>,
     pub(super) substeps_per_second: Lanes<W>,
     pub(super) joint_correction: Lanes<W>,
@@ -58,7 +75,7 @@ impl<const W: usize> LaneWorld<W> {
         settings: &PhysicsSettings,
         ground: &Ground,
     ) -> Result<Self, EnvironmentError> {
-        refuse_what_lanes_cannot_do(blueprint, settings, ground)?;
+        refuse_what_lanes_cannot_do(blueprint, settings)?;
         Ok(Self::empty(Arc::new(Plan {
             blueprint: blueprint.clone(),
             settings: *settings,
@@ -73,13 +90,14 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     fn empty(plan: Arc<Plan>) -> Self {
-        let Plan { blueprint, settings, order, .. } = &*plan;
+        let Plan { blueprint, settings, ground, order } = &*plan;
         let mut joint_of = vec![0; order.len()];
         for (place, &hinge) in order.iter().enumerate() {
             joint_of[hinge] = place;
         }
         let zero = Lanes::ZERO;
         let pace = Pace {
+            time_step: zero,
             substep: zero,
             substeps_per_second: zero,
             joint_correction: zero,
@@ -92,7 +110,7 @@ impl<const W: usize> LaneWorld<W> {
         Self {
             bodies: vec![Body::at_rest(); blueprint.parts().len()],
             joints: order.iter().map(|&hinge| Joint::new(blueprint, &blueprint.hinges()[hinge])).collect(),
-            contacts: blueprint.parts().iter().map(|part| Contact::new(part.shape)).collect(),
+            contacts: Contacts::new(blueprint, ground),
             pace,
             joint_of,
             plan,
@@ -105,6 +123,7 @@ impl<const W: usize> LaneWorld<W> {
         let substep = time_step / settings.solver_iterations as f32;
         let joint = Softness::new(settings.joint_frequency, settings.joint_damping_ratio, substep);
         let contact = Softness::of_ground_contacts(substep);
+        self.pace.time_step.0[lane] = time_step;
         self.pace.substep.0[lane] = substep;
         self.pace.substeps_per_second.0[lane] = 1.0 / substep;
         self.pace.joint_correction.0[lane] = joint.correction_rate;
@@ -112,7 +131,7 @@ impl<const W: usize> LaneWorld<W> {
         self.pace.contact_correction.0[lane] = contact.correction_rate;
         self.pace.contact_factor.0[lane] = contact.impulse_factor;
         self.pace.top_spin.0[lane] = FRAC_PI_4 * (1.0 / time_step);
-        for ((part, body), contact) in blueprint.parts().iter().zip(&mut self.bodies).zip(&mut self.contacts) {
+        for (index, (part, body)) in blueprint.parts().iter().zip(&mut self.bodies).enumerate() {
             let mass = InverseMass::of(part, conditions.mass);
             let weight = -settings.gravity * (1.0 / mass.linear);
             let (sin, cos) = libm::sincosf(part.angle);
@@ -126,7 +145,8 @@ impl<const W: usize> LaneWorld<W> {
             body.inverse_mass.0[lane] = mass.linear;
             body.inverse_inertia.0[lane] = mass.angular;
             body.fall.0[lane] = weight * mass.linear * substep;
-            contact.reset(lane, part.friction * (settings.ground_friction * conditions.friction));
+            let friction = part.friction * (settings.ground_friction * conditions.friction);
+            self.contacts.reset(index, lane, friction);
         }
         for (hinge, &place) in blueprint.hinges().iter().zip(&self.joint_of) {
             let torque = hinge.motor.map_or(0.0, |motor| motor.top_torque * conditions.torque);
@@ -143,9 +163,7 @@ impl<const W: usize> LaneWorld<W> {
         for (mine, theirs) in self.joints.iter_mut().zip(&from.joints) {
             mine.copy_lane(lane, theirs);
         }
-        for (mine, theirs) in self.contacts.iter_mut().zip(&from.contacts) {
-            mine.copy_lane(lane, theirs);
-        }
+        self.contacts.copy_lane(lane, &from.contacts);
     }
 
     /// A part of all creatures.
@@ -157,7 +175,7 @@ impl<const W: usize> LaneWorld<W> {
     /// Which creatures press on the ground with a part.
     #[inline(always)]
     pub(crate) fn pressing(&self, part: usize) -> Mask<W> {
-        self.contacts[part].pressing()
+        self.contacts.pressing(part)
     }
 
     /// The torque the motor of a hinge gave at the end of the last step, N·m.
@@ -181,7 +199,12 @@ impl<const W: usize> LaneWorld<W> {
 
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
     #[inline(always)]
-    pub(crate) fn distance_to_ground(&self, (_, y): (Lanes<W>, Lanes<W>), angle: f32, length: f32) -> Lanes<W> {
+    pub(crate) fn distance_to_ground(&self, (x, y): (Lanes<W>, Lanes<W>), angle: f32, length: f32) -> Lanes<W> {
+        if matches!(self.contacts, Contacts::Uneven(_)) {
+            let ground = &self.plan.ground;
+            let from = |lane: usize| [x.0[lane], y.0[lane]];
+            return Lanes(std::array::from_fn(|lane| uneven::distance_along_ray(ground, from(lane), angle, length)));
+        }
         let down = libm::sinf(angle);
         y.map(|y| {
             let distance = -y / down;
@@ -213,7 +236,7 @@ impl<const W: usize> LaneWorld<W> {
 
     /// Writes where the parts of a lane are.
     pub(crate) fn look(&self, lane: usize, parts: &mut [PartState]) {
-        for ((part, body), contact) in parts.iter_mut().zip(&self.bodies).zip(&self.contacts) {
+        for (index, (part, body)) in parts.iter_mut().zip(&self.bodies).enumerate() {
             *part = PartState {
                 x: body.x.0[lane],
                 y: body.y.0[lane],
@@ -222,7 +245,7 @@ impl<const W: usize> LaneWorld<W> {
                 vx: body.velocity_x.0[lane],
                 vy: body.velocity_y.0[lane],
                 spin: body.spin.0[lane],
-                touching: contact.pressing().lane(lane),
+                touching: self.contacts.pressing(index).lane(lane),
             };
         }
     }
@@ -231,9 +254,7 @@ impl<const W: usize> LaneWorld<W> {
     #[inline(always)]
     pub(crate) fn step(&mut self) {
         let Self { plan, bodies, joints, contacts, pace, .. } = self;
-        for (body, contact) in bodies.iter().zip(contacts.iter_mut()) {
-            contact.find(body, plan.settings.prediction_distance);
-        }
+        contacts.find(bodies, plan.settings.prediction_distance, pace);
         for _ in 0..plan.settings.solver_iterations {
             for body in bodies.iter_mut() {
                 body.velocity_y += body.fall;
@@ -241,16 +262,12 @@ impl<const W: usize> LaneWorld<W> {
             for joint in joints.iter_mut() {
                 joint.prepare(bodies, pace);
             }
-            for (body, contact) in bodies.iter_mut().zip(contacts.iter_mut()) {
-                contact.prepare(body, pace);
-            }
+            contacts.prepare(bodies, pace);
             for _ in 0..plan.settings.internal_iterations {
                 for joint in joints.iter_mut() {
                     joint.solve::<false>(bodies);
                 }
-                for (body, contact) in bodies.iter_mut().zip(contacts.iter_mut()) {
-                    contact.solve(body);
-                }
+                contacts.solve(bodies);
             }
             for body in bodies.iter_mut() {
                 body.advance(pace.substep, pace.top_spin);
@@ -258,10 +275,115 @@ impl<const W: usize> LaneWorld<W> {
             for joint in joints.iter_mut() {
                 joint.solve::<true>(bodies);
             }
-            for (body, contact) in bodies.iter_mut().zip(contacts.iter_mut()) {
-                contact.prepare_relaxation(body, pace);
-                contact.solve(body);
-                contact.solve_friction(body);
+            contacts.relax(bodies, pace);
+        }
+    }
+}
+
+impl<const W: usize> Contacts<W> {
+    fn new(blueprint: &Blueprint, ground: &Ground) -> Self {
+        let shapes = blueprint.parts().iter().map(|part| part.shape);
+        if ground.shapes == [GroundShape::HalfSpace] {
+            Self::Level(shapes.map(LevelContact::new).collect())
+        } else {
+            Self::Uneven(shapes.map(|shape| UnevenContact::new(shape, ground)).collect())
+        }
+    }
+
+    fn reset(&mut self, part: usize, lane: usize, friction: f32) {
+        match self {
+            Self::Level(contacts) => contacts[part].rows.reset(lane, friction),
+            Self::Uneven(contacts) => contacts[part].reset(lane, friction),
+        }
+    }
+
+    fn copy_lane(&mut self, lane: usize, from: &Contacts<1>) {
+        match (self, from) {
+            (Self::Level(mine), Contacts::Level(theirs)) => {
+                mine.iter_mut().zip(theirs).for_each(|(mine, theirs)| mine.copy_lane(lane, theirs));
+            }
+            (Self::Uneven(mine), Contacts::Uneven(theirs)) => {
+                mine.iter_mut().zip(theirs).for_each(|(mine, theirs)| mine.copy_lane(lane, theirs));
+            }
+            // Worlds of one kind have one ground.
+            (Self::Level(_), Contacts::Uneven(_)) | (Self::Uneven(_), Contacts::Level(_)) => {}
+        }
+    }
+
+    #[inline(always)]
+    fn pressing(&self, part: usize) -> Mask<W> {
+        match self {
+            Self::Level(contacts) => contacts[part].rows.pressing,
+            Self::Uneven(contacts) => contacts[part].pressing(),
+        }
+    }
+
+    #[inline(always)]
+    fn find(&mut self, bodies: &[Body<W>], reach: f32, pace: &Pace<W>) {
+        match self {
+            Self::Level(contacts) => {
+                for (body, contact) in bodies.iter().zip(contacts) {
+                    contact.find(body, reach);
+                }
+            }
+            Self::Uneven(contacts) => {
+                for (body, contact) in bodies.iter().zip(contacts) {
+                    contact.find(body, reach, &pace.time_step);
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn prepare(&mut self, bodies: &mut [Body<W>], pace: &Pace<W>) {
+        match self {
+            Self::Level(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    contact.rows.prepare(body, pace);
+                }
+            }
+            Self::Uneven(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    for rows in &mut contact.rows {
+                        rows.prepare(body, pace);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn solve(&mut self, bodies: &mut [Body<W>]) {
+        match self {
+            Self::Level(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    contact.rows.solve(body);
+                }
+            }
+            Self::Uneven(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    for rows in &mut contact.rows {
+                        rows.solve(body);
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn relax(&mut self, bodies: &mut [Body<W>], pace: &Pace<W>) {
+        match self {
+            Self::Level(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    contact.rows.relax(body, pace);
+                }
+            }
+            Self::Uneven(contacts) => {
+                for (body, contact) in bodies.iter_mut().zip(contacts) {
+                    for rows in &mut contact.rows {
+                        rows.relax(body, pace);
+                    }
+                }
             }
         }
     }
@@ -269,6 +391,7 @@ impl<const W: usize> LaneWorld<W> {
 
 impl<const W: usize> Pace<W> {
     fn copy_lane(&mut self, lane: usize, from: &Pace<1>) {
+        self.time_step.0[lane] = from.time_step.0[0];
         self.substep.0[lane] = from.substep.0[0];
         self.substeps_per_second.0[lane] = from.substeps_per_second.0[0];
         self.joint_correction.0[lane] = from.joint_correction.0[0];
@@ -280,22 +403,15 @@ impl<const W: usize> Pace<W> {
 }
 
 fn refuse(what: impl Into<String>) -> EnvironmentError {
-    EnvironmentError::Unsupported { engine: ENGINE, what: format!("{}; use --engine rapier", what.into()) }
+    EnvironmentError::Unsupported { engine: ENGINE, what: what.into() }
 }
 
-fn refuse_what_lanes_cannot_do(
-    blueprint: &Blueprint,
-    settings: &PhysicsSettings,
-    ground: &Ground,
-) -> Result<(), EnvironmentError> {
+fn refuse_what_lanes_cannot_do(blueprint: &Blueprint, settings: &PhysicsSettings) -> Result<(), EnvironmentError> {
     if blueprint.self_collision() {
         return Err(refuse("its parts collide with each other (self_collision)"));
     }
     if settings.continuous_collision_substeps > 0 {
         return Err(refuse("it is to have continuous collision detection (physics.continuous_collision_substeps)"));
-    }
-    if ground.shapes != [GroundShape::HalfSpace] {
-        return Err(refuse("it stands on ground that is not flat"));
     }
     Ok(())
 }
