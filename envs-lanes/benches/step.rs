@@ -8,7 +8,7 @@ use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::{Instructions, LaneEnvironment, LaneEpisode};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Phenotype, Purpose, Seed, Task};
-use ne_net::{DenseNet, DenseShape};
+use ne_net::{DenseNet, DenseShape, Network};
 use rand::RngExt;
 use std::time::Instant;
 use tasks::{Environment, Episode, Running, Trials};
@@ -45,6 +45,11 @@ fn main() {
             print!(" {time:>9.3}");
         }
         println!(" {:>8.1}×", reference / best);
+        let network = Network::Dense(nets.swap_remove(0));
+        let profile = lanes.profile(&network, 2000, Instructions::best()).expect("it stands");
+        let shares: Vec<String> =
+            profile.shares().map(|(part, share)| format!("{part} {:.0} %", 100.0 * share)).collect();
+        println!("             {}", shares.join(", "));
     }
 }
 

@@ -21,7 +21,7 @@ pub struct LaneEpisode {
 }
 
 /// Creatures side by side: a register of AVX-512, and several of those of smaller processors, which have time for it.
-const LANES: usize = 16;
+pub(crate) const LANES: usize = 16;
 
 /// So many individuals that in most of a batch all lanes are busy.
 const BATCH: usize = 256;

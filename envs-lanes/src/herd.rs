@@ -3,6 +3,7 @@ use crate::{
     instructions::{Instructions, Work},
     lanes::Lanes,
     net::LaneNet,
+    profile::{Part, Stopwatch},
     senses::{Clocks, LaneSenses},
     solver::LaneWorld,
 };
@@ -126,7 +127,12 @@ impl<const W: usize> Herd<W> {
 
     /// One time step of all lanes.
     pub(crate) fn step(&mut self) {
-        self.instructions.run(Step(self));
+        self.step_timed(&mut ());
+    }
+
+    /// The same, with an eye on the clock.
+    pub(crate) fn step_timed(&mut self, stopwatch: &mut impl Stopwatch) {
+        self.instructions.run(Step(self, stopwatch));
         for ((steps, time), time_step) in self.steps.iter_mut().zip(&mut self.time.0).zip(self.time_step.0) {
             *steps += 1;
             *time = *steps as f32 * time_step;
@@ -178,9 +184,9 @@ impl<const W: usize> Work for Sense<'_, W> {
     }
 }
 
-struct Step<'a, const W: usize>(&'a mut Herd<W>);
+struct Step<'a, S, const W: usize>(&'a mut Herd<W>, &'a mut S);
 
-impl<const W: usize> Work for Step<'_, W> {
+impl<S: Stopwatch, const W: usize> Work for Step<'_, S, W> {
     type Output = ();
 
     #[inline(always)]
@@ -190,12 +196,13 @@ impl<const W: usize> Work for Step<'_, W> {
             let wanted = output.clamp(-Lanes::ONE, Lanes::ONE) * Lanes::splat(top);
             world.set_motor_speeds(actuated.hinge, wanted);
         }
-        world.step();
+        world.step(self.1);
         *fastest = world.fastest();
         *power = Lanes::ZERO;
         for &ActuatedHinge { hinge, parent, child } in actuated.iter() {
             let speed = world.body(child).spin - world.body(parent).spin;
             *power += (world.motor_torques(hinge) * speed).abs();
         }
+        self.1.lap(Part::Measure);
     }
 }

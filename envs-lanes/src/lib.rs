@@ -47,9 +47,11 @@ mod herd;
 mod instructions;
 mod lanes;
 mod net;
+mod profile;
 mod senses;
 mod solver;
 
 pub use engine::{ENGINE, LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;
 pub use instructions::Instructions;
+pub use profile::Profile;

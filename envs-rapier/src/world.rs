@@ -87,13 +87,16 @@ impl RapierWorld {
 
     fn add_hinge(&mut self, blueprint: &Blueprint, hinge: &Hinge, settings: &PhysicsSettings, torque_factor: f32) {
         let (parent, child) = (&blueprint.parts()[hinge.parent], &blueprint.parts()[hinge.child]);
-        // The child's frame is turned so that the joint's angle is zero in the start pose.
+        // The child's frame is turned so that the joint's angle is zero in the middle of its range. rapier would take the
+        // sine of another middle from the standard library, whose bits depend on the platform.
+        let [low, high] = hinge.limits;
+        let (middle, half_range) = ((low + high) * 0.5, (high - low) * 0.5);
         let at = |[x, y]: [f32; 2], angle| Pose::new(Vector::new(x, y), angle);
         let mut joint = GenericJointBuilder::new(JointAxesMask::LOCKED_REVOLUTE_AXES)
             .local_frame1(at(hinge.parent_anchor, 0.0))
-            .local_frame2(at(hinge.child_anchor, parent.angle - child.angle))
+            .local_frame2(at(hinge.child_anchor, parent.angle - child.angle - middle))
             .contacts_enabled(false)
-            .limits(JointAxis::AngX, hinge.limits)
+            .limits(JointAxis::AngX, [-half_range, half_range])
             .softness(SpringCoefficients::new(settings.joint_frequency, settings.joint_damping_ratio));
         if let Some(motor) = hinge.motor.filter(|_| hinge.actuated) {
             joint = joint

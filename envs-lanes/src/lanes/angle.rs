@@ -4,6 +4,10 @@ use std::f32::consts::{FRAC_PI_2, PI};
 /// What is lost when π becomes an `f32`, negative.
 const PI_REST: f32 = -8.742_278e-8;
 
+/// π/4 and π/2, rounded down; what is missing is added where it counts.
+const QUARTER_PI_BELOW: f32 = f32::from_bits(0x3f49_0fda);
+const HALF_PI_BELOW: f32 = f32::from_bits(0x3fc9_0fda);
+
 /// How far the bits of x and of 2²⁶ x are apart.
 const TWENTY_SIX_OCTAVES: i32 = 26 << 23;
 
@@ -52,9 +56,9 @@ fn arctangent(x: f32) -> f32 {
     // Each line replaces the choice of the one before it.
     let steps = [
         (0.4375, 2.0 * x - 1.0, 2.0 + x, 0.463_647_6, 5.012_158_2e-9),
-        (0.6875, x - 1.0, x + 1.0, 0.785_398_1, 3.774_894_7e-8),
+        (0.6875, x - 1.0, x + 1.0, QUARTER_PI_BELOW, 3.774_894_7e-8),
         (1.1875, x - 1.5, 1.0 + 1.5 * x, 0.982_793_7, 3.447_321_7e-8),
-        (2.4375, -1.0, x, 1.570_796_3, 7.549_789_4e-8),
+        (2.4375, -1.0, x, HALF_PI_BELOW, 7.549_789_4e-8),
     ];
     for (from, its_top, its_bottom, its_upper, its_lower) in steps {
         let here = x >= from;
@@ -72,7 +76,7 @@ fn arctangent(x: f32) -> f32 {
     let small = x_reduced - correction;
     let large = upper - ((correction - lower) - x_reduced);
     let angle = if x < 0.4375 { small } else { large };
-    if x >= 67_108_864.0 { 1.570_796_3 } else { angle }
+    if x >= 67_108_864.0 { HALF_PI_BELOW } else { angle }
 }
 
 #[cfg(test)]

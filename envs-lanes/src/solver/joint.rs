@@ -13,8 +13,8 @@ pub(super) struct Joint<const W: usize> {
     pub(super) child: usize,
     parent_anchor: [f32; 2],
     child_anchor: [f32; 2],
-    /// Cosine and sine by which the child's frame is turned so that the angle is zero in the start pose; none if it is
-    /// not turned.
+    /// Cosine and sine by which the child's frame is turned so that the angle is zero in the middle of its range; none if
+    /// it is not turned.
     frame: Option<[f32; 2]>,
     limits: Option<Limits>,
     motor: Option<Motor<W>>,
@@ -35,11 +35,10 @@ struct Motor<const W: usize> {
     impulse: Lanes<W>,
 }
 
-/// The range a joint may move in, seen from its middle.
+/// How far a joint may move from the middle of its range.
 #[derive(Clone, Copy, Debug)]
 struct Limits {
-    /// Cosine and sine of the middle; none if the middle is the start pose.
-    middle: Option<[f32; 2]>,
+    /// rad.
     half_range: f32,
     /// A cosine at or below which the angle may be out of range; a little too large, to be on the safe side.
     near: f32,
@@ -175,19 +174,15 @@ impl Limits {
     /// None for a range of a whole turn, which rapier does not limit.
     fn new([low, high]: [f32; 2]) -> Option<Self> {
         let half_range = (high - low) * 0.5;
-        if half_range >= PI {
-            return None;
-        }
-        let middle = (low + high) * 0.5;
-        let (sin, cos) = libm::sincosf(middle);
-        let middle = if middle == 0.0 { None } else { Some([cos, sin]) };
-        Some(Self { middle, half_range, near: libm::cosf(half_range) + 1e-4 })
+        (half_range < PI).then(|| Self { half_range, near: libm::cosf(half_range) + 1e-4 })
     }
 }
 
 impl<const W: usize> Joint<W> {
     pub(super) fn new(blueprint: &Blueprint, hinge: &Hinge) -> Self {
-        let turned = blueprint.parts()[hinge.parent].angle - blueprint.parts()[hinge.child].angle;
+        let [low, high] = hinge.limits;
+        let middle = (low + high) * 0.5;
+        let turned = blueprint.parts()[hinge.parent].angle - blueprint.parts()[hinge.child].angle - middle;
         let (sin, cos) = libm::sincosf(turned);
         let motor = Motor {
             wanted: Lanes::ZERO,
@@ -282,13 +277,6 @@ impl<const W: usize> Joint<W> {
         };
         let cos = parent.cos * child_cos + parent.sin * child_sin;
         let sin = parent.cos * child_sin - parent.sin * child_cos;
-        let (cos, sin) = match limits.middle {
-            None => (cos, sin),
-            Some([c, s]) => {
-                let (c, s) = (Lanes::splat(c), Lanes::splat(s));
-                (c * cos + s * sin, c * sin - s * cos)
-            }
-        };
         if !cos.at_most(Lanes::splat(limits.near)).any() {
             return;
         }

@@ -9,6 +9,7 @@ use super::{
 use crate::{
     engine::ENGINE,
     lanes::{Lanes, Mask},
+    profile::{Part, Stopwatch},
 };
 use creatures::Blueprint;
 use envs_core::{Conditions, EnvironmentError, Ground, GroundShape, PhysicsSettings};
@@ -190,9 +191,9 @@ impl<const W: usize> LaneWorld<W> {
         let (mut fastest, mut zero) = (Lanes::ZERO, Lanes::ZERO);
         for body in &self.bodies {
             fastest = fastest.max(body.velocity_x.abs()).max(body.velocity_y.abs());
-            // Stays zero as long as all is finite.
+            // Zero as long as all is finite.
             let sum = body.x + body.y + body.cos + body.sin + body.velocity_x + body.velocity_y + body.spin;
-            zero += sum - sum;
+            zero += sum * Lanes::ZERO;
         }
         fastest + zero
     }
@@ -252,30 +253,39 @@ impl<const W: usize> LaneWorld<W> {
 
     /// One time step of all lanes.
     #[inline(always)]
-    pub(crate) fn step(&mut self) {
+    pub(crate) fn step(&mut self, stopwatch: &mut impl Stopwatch) {
         let Self { plan, bodies, joints, contacts, pace, .. } = self;
         contacts.find(bodies, plan.settings.prediction_distance, pace);
+        stopwatch.lap(Part::FindContacts);
         for _ in 0..plan.settings.solver_iterations {
             for body in bodies.iter_mut() {
                 body.velocity_y += body.fall;
             }
+            stopwatch.lap(Part::Fall);
             for joint in joints.iter_mut() {
                 joint.prepare(bodies, pace);
             }
+            stopwatch.lap(Part::PrepareJoints);
             contacts.prepare(bodies, pace);
+            stopwatch.lap(Part::PrepareContacts);
             for _ in 0..plan.settings.internal_iterations {
                 for joint in joints.iter_mut() {
                     joint.solve::<false>(bodies);
                 }
+                stopwatch.lap(Part::SolveJoints);
                 contacts.solve(bodies);
+                stopwatch.lap(Part::SolveContacts);
             }
             for body in bodies.iter_mut() {
                 body.advance(pace.substep, pace.top_spin);
             }
+            stopwatch.lap(Part::Move);
             for joint in joints.iter_mut() {
                 joint.solve::<true>(bodies);
             }
+            stopwatch.lap(Part::RelaxJoints);
             contacts.relax(bodies, pace);
+            stopwatch.lap(Part::RelaxContacts);
         }
     }
 }

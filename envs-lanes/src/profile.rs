@@ -1,0 +1,128 @@
+use crate::{Instructions, LaneEpisode, episode::LANES, herd::Herd};
+use ne_core::{Failure, Seed};
+use ne_net::Network;
+use std::time::Instant;
+use tasks::Snapshot;
+
+/// Where the time of a step goes: the seconds each of its parts took.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Profile {
+    seconds: [f64; Part::ALL.len()],
+}
+
+/// A part of a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Part {
+    SenseAndThink,
+    FindContacts,
+    Fall,
+    PrepareJoints,
+    PrepareContacts,
+    SolveJoints,
+    SolveContacts,
+    Move,
+    RelaxJoints,
+    RelaxContacts,
+    Measure,
+}
+
+impl Part {
+    const ALL: [(Self, &'static str); 11] = [
+        (Self::SenseAndThink, "sense and think"),
+        (Self::FindContacts, "find contacts"),
+        (Self::Fall, "fall"),
+        (Self::PrepareJoints, "prepare joints"),
+        (Self::PrepareContacts, "prepare contacts"),
+        (Self::SolveJoints, "solve joints"),
+        (Self::SolveContacts, "solve contacts"),
+        (Self::Move, "move"),
+        (Self::RelaxJoints, "relax joints"),
+        (Self::RelaxContacts, "relax contacts"),
+        (Self::Measure, "measure"),
+    ];
+}
+
+/// Of so many rounds the fastest counts, for each part: the operating system interrupts the others.
+const ROUNDS: u32 = 20;
+
+/// Is told when a part of a step is done.
+pub(crate) trait Stopwatch {
+    fn lap(&mut self, part: Part);
+}
+
+/// Training does not look at the clock.
+impl Stopwatch for () {
+    #[inline(always)]
+    fn lap(&mut self, _: Part) {}
+}
+
+pub(crate) struct Laps {
+    profile: Profile,
+    last: Instant,
+    /// What looking at the clock takes, s.
+    look: f64,
+}
+
+impl Laps {
+    fn start() -> Self {
+        const LOOKS: u32 = 10_000;
+        let mut laps = Self { profile: Profile::default(), last: Instant::now(), look: 0.0 };
+        for _ in 0..LOOKS {
+            laps.lap(Part::Fall);
+        }
+        laps.look = laps.profile.seconds.iter().sum::<f64>() / f64::from(LOOKS);
+        Self { profile: Profile::default(), last: Instant::now(), ..laps }
+    }
+}
+
+impl Stopwatch for Laps {
+    #[inline(always)]
+    fn lap(&mut self, part: Part) {
+        let now = Instant::now();
+        self.profile.seconds[part as usize] += now.duration_since(self.last).as_secs_f64() - self.look;
+        self.last = now;
+    }
+}
+
+impl Profile {
+    /// The name of each part and its share of the whole, from 0 to 1.
+    pub fn shares(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let whole: f64 = self.seconds.iter().sum();
+        Part::ALL.iter().map(move |&(part, name)| (name, self.seconds[part as usize] / whole))
+    }
+}
+
+impl LaneEpisode {
+    /// Times the parts of `steps` steps of a full herd in which every creature has this controller. The clock is read
+    /// between the parts, which slows them down a little; what reading takes is subtracted.
+    ///
+    /// # Errors
+    /// If the creature cannot come to rest.
+    pub fn profile(&self, network: &Network, steps: u32, instructions: Instructions) -> Result<Profile, Failure> {
+        let settled = self.environment().settled(Seed::of_run(1))?;
+        let topology = network.topology();
+        let mut herd: Herd<LANES> = Herd::new(self.environment(), &settled, Some(&topology), instructions);
+        for lane in 0..LANES {
+            herd.load(lane, network);
+            herd.begin(lane, &settled);
+        }
+        let mut snapshots: Vec<Snapshot> = vec![settled.snapshot.clone(); LANES];
+        let mut profile = Profile { seconds: [f64::INFINITY; Part::ALL.len()] };
+        for _ in 0..ROUNDS {
+            let mut laps = Laps::start();
+            for _ in 0..steps.div_ceil(ROUNDS) {
+                herd.sense();
+                laps.lap(Part::SenseAndThink);
+                herd.step_timed(&mut laps);
+                for (lane, snapshot) in snapshots.iter_mut().enumerate() {
+                    herd.show(lane, snapshot)?;
+                }
+                laps.lap(Part::Measure);
+            }
+            for (best, seconds) in profile.seconds.iter_mut().zip(laps.profile.seconds) {
+                *best = best.min(seconds);
+            }
+        }
+        Ok(profile)
+    }
+}
