@@ -1,8 +1,9 @@
 //! Runs come out as they always did, to the bit.
 //!
-//! For each preset and strategy, shipped creature and movement a tiny run is trained, and what came out is compared with what is
-//! written in the folder `golden`. Where a number differs, every run anybody has recorded comes out differently too, and
-//! every saved champion may fail to verify. If that is wanted, say so in the changelog, and write the numbers anew:
+//! For each preset and strategy, shipped creature and movement a tiny run is trained, in lanes and in rapier, and what
+//! came out is compared with what is written in the folder `golden`. Where a number differs, every run anybody has
+//! recorded comes out differently too, and every saved champion may fail to verify. If that is wanted, say so in the
+//! changelog, and write the numbers anew:
 //!
 //! ```text
 //! GAMBOL_GOLDEN=write cargo test -p gambol-tests golden
@@ -10,7 +11,7 @@
 
 use crate::root;
 use gambol::{
-    config::{preset, strategy},
+    config::{EngineChoice, preset, strategy},
     training::{TrainOptions, train},
 };
 use ne_core::digest::Digest;
@@ -30,23 +31,25 @@ struct Golden {
     log: String,
 }
 
-/// What a run starts from: a preset, or a strategy with its default settings.
+/// What a run starts from: a preset, or a strategy with its default settings, without variation.
 #[derive(Clone, Copy)]
 enum From {
     Preset(&'static str),
     Strategy(&'static str),
 }
 
-fn tiny_run(from: From, creature: &str, movement: &str) -> Result<Golden, Box<dyn Error>> {
+fn tiny_run(from: From, creature: &str, movement: &str, engine: EngineChoice) -> Result<Golden, Box<dyn Error>> {
     let base = |name| preset(name).ok_or("there is no such preset");
     let mut config = match from {
         From::Preset(name) => base(name)?.config(creatures::find(creature)?, movement),
         From::Strategy(name) => {
             let mut config = base("default")?.config(creatures::find(creature)?, movement);
             config.strategy = (strategy(name).ok_or("there is no such strategy")?.settings)();
+            config.variation = Default::default();
             config
         }
     };
+    config.engine = engine;
     config.seed = 1;
     config.strategy.set_population(if matches!(from, From::Preset(_)) { 6 } else { 12 });
     config.stop.generations = Some(3);
@@ -71,7 +74,10 @@ fn check(from: From) -> Result<(), Box<dyn Error>> {
     let mut found = BTreeMap::new();
     for creature in creatures::shipped() {
         for movement in ["running", "jumping"] {
-            found.insert(format!("{} {movement}", creature.name), tiny_run(from, creature.name, movement)?);
+            let [lanes, rapier] = EngineChoice::ALL.map(|engine| tiny_run(from, creature.name, movement, engine));
+            let run = lanes?;
+            assert_eq!(run, rapier?, "{} {movement} in lanes and in rapier", creature.name);
+            found.insert(format!("{} {movement}", creature.name), run);
         }
     }
     if env::var("GAMBOL_GOLDEN").is_ok_and(|wish| wish == "write") {

@@ -3,6 +3,7 @@
 
 mod arrows;
 mod documents;
+mod engines;
 mod golden;
 
 use std::path::Path;

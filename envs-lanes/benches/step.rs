@@ -3,6 +3,8 @@
 //!
 //! `cargo bench -p envs-lanes` prints a table and, for each creature, where the time goes.
 
+#![allow(clippy::print_stdout, reason = "a bench prints its table")]
+
 use creatures::Blueprint;
 use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::{Instructions, LaneEnvironment, LaneEpisode};

@@ -45,7 +45,7 @@ impl Engine for LaneEngine {
     }
 
     fn step(&mut self) -> bool {
-        self.world.step(&mut ());
+        self.world.step(None);
         !self.world.fastest().0[0].is_nan()
     }
 

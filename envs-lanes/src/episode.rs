@@ -68,19 +68,6 @@ impl LaneEpisode {
     pub fn shortened(&self, steps: u32) -> Self {
         Self { steps: self.steps.min(steps).max(1), ..self.clone() }
     }
-
-    /// Plays all individuals in lanes of this number; with how many changes no bit.
-    fn play<const W: usize>(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
-        let mut evaluations: Vec<Option<Evaluation>> =
-            phenotypes.iter().map(|phenotype| self.check_shape(&**phenotype).err().map(Evaluation::failed)).collect();
-        let waiting = (0..phenotypes.len()).filter(|&individual| evaluations[individual].is_none()).collect();
-        let starts = (0..self.trials.count).map(|trial| self.environment.settled(seed.trial(trial))).collect();
-        let topology = common_topology(phenotypes);
-        let mut stage: Stage<'_, '_, W> = Stage::new(self, phenotypes, topology.as_ref(), starts, waiting);
-        stage.play(|individual, evaluation| evaluations[individual] = Some(evaluation));
-        let unplayed = || Evaluation::failed(Failure::Other { what: "it was never played".into() });
-        evaluations.into_iter().map(|evaluation| evaluation.unwrap_or_else(unplayed)).collect()
-    }
 }
 
 impl Task for LaneEpisode {
@@ -94,12 +81,20 @@ impl Task for LaneEpisode {
 
     /// As [`tasks::Episode`] does.
     fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-        let mut evaluations = self.play::<1>(&mut [phenotype], seed);
+        let mut evaluations = self.evaluate_batch(&mut [phenotype], seed);
         evaluations.remove(0)
     }
 
     fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
-        self.play::<LANES>(phenotypes, seed)
+        let mut evaluations: Vec<Option<Evaluation>> =
+            phenotypes.iter().map(|phenotype| self.check_shape(&**phenotype).err().map(Evaluation::failed)).collect();
+        let waiting = (0..phenotypes.len()).filter(|&individual| evaluations[individual].is_none()).collect();
+        let starts = (0..self.trials.count).map(|trial| self.environment.settled(seed.trial(trial))).collect();
+        let topology = common_topology(phenotypes);
+        let mut stage = Stage::new(self, phenotypes, topology.as_ref(), starts, waiting);
+        stage.play(|individual, evaluation| evaluations[individual] = Some(evaluation));
+        let unplayed = || Evaluation::failed(Failure::Other { what: "it was never played".into() });
+        evaluations.into_iter().map(|evaluation| evaluation.unwrap_or_else(unplayed)).collect()
     }
 
     fn batch_size(&self) -> usize {
@@ -108,13 +103,13 @@ impl Task for LaneEpisode {
 }
 
 /// A batch being played.
-struct Stage<'a, 'b, const W: usize> {
+struct Stage<'a, 'b> {
     episode: &'a LaneEpisode,
     phenotypes: &'a mut [&'b mut dyn Phenotype],
     /// What each trial begins with.
     starts: Vec<Result<Settled<LaneEngine>, Failure>>,
     waiting: std::vec::IntoIter<usize>,
-    herd: Option<Herd<W>>,
+    herd: Option<Herd<LANES>>,
     seats: Vec<Option<Seat>>,
     inputs: Vec<f32>,
     outputs: Vec<f32>,
@@ -130,7 +125,7 @@ struct Seat {
     unusable_output: Option<usize>,
 }
 
-impl<'a, 'b, const W: usize> Stage<'a, 'b, W> {
+impl<'a, 'b> Stage<'a, 'b> {
     fn new(
         episode: &'a LaneEpisode,
         phenotypes: &'a mut [&'b mut dyn Phenotype],
@@ -146,7 +141,7 @@ impl<'a, 'b, const W: usize> Stage<'a, 'b, W> {
             starts,
             waiting: waiting.into_iter(),
             herd,
-            seats: (0..W).map(|_| None).collect(),
+            seats: (0..LANES).map(|_| None).collect(),
             inputs: vec![0.0; episode.inputs()],
             outputs: vec![0.0; episode.outputs()],
         }
@@ -154,7 +149,7 @@ impl<'a, 'b, const W: usize> Stage<'a, 'b, W> {
 
     /// Plays until nobody waits and all seats are empty; tells each evaluation with the index of its individual.
     fn play(&mut self, mut tell: impl FnMut(usize, Evaluation)) {
-        for lane in 0..W {
+        for lane in 0..LANES {
             self.seat_next(lane, &mut tell);
         }
         while self.seats.iter().any(Option::is_some) {
@@ -162,7 +157,7 @@ impl<'a, 'b, const W: usize> Stage<'a, 'b, W> {
             if let Some(herd) = &mut self.herd {
                 herd.step();
             }
-            for lane in 0..W {
+            for lane in 0..LANES {
                 if let Some(outcome) = self.judge(lane) {
                     self.end_trial(lane, outcome, &mut tell);
                 }

@@ -45,17 +45,7 @@ impl Part {
 /// Of so many rounds the fastest counts, for each part: the operating system interrupts the others.
 const ROUNDS: u32 = 20;
 
-/// Is told when a part of a step is done.
-pub(crate) trait Stopwatch {
-    fn lap(&mut self, part: Part);
-}
-
-/// Training does not look at the clock.
-impl Stopwatch for () {
-    #[inline(always)]
-    fn lap(&mut self, _: Part) {}
-}
-
+/// A stopwatch that is told when a part of a step is done.
 pub(crate) struct Laps {
     profile: Profile,
     last: Instant,
@@ -73,11 +63,10 @@ impl Laps {
         laps.look = laps.profile.seconds.iter().sum::<f64>() / f64::from(LOOKS);
         Self { profile: Profile::default(), last: Instant::now(), ..laps }
     }
-}
 
-impl Stopwatch for Laps {
-    #[inline(always)]
-    fn lap(&mut self, part: Part) {
+    /// Not inlined: who steps for training has no stopwatch, and no code for one in the middle of the solver.
+    #[inline(never)]
+    pub(crate) fn lap(&mut self, part: Part) {
         let now = Instant::now();
         self.profile.seconds[part as usize] += now.duration_since(self.last).as_secs_f64() - self.look;
         self.last = now;
@@ -113,7 +102,7 @@ impl LaneEpisode {
             for _ in 0..steps.div_ceil(ROUNDS) {
                 herd.sense();
                 laps.lap(Part::SenseAndThink);
-                herd.step_timed(&mut laps);
+                herd.step_timed(Some(&mut laps));
                 for (lane, snapshot) in snapshots.iter_mut().enumerate() {
                     herd.show(lane, snapshot)?;
                 }

@@ -191,11 +191,14 @@ impl Engine for RapierWorld {
             .map_or(0.0, |joint| joint.data.motors[JointAxis::AngX as usize].impulse / substep)
     }
 
+    /// Asks the shapes themselves: rapier's own search knows of none before the first step.
     fn distance_to_ground(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
-        let direction = Vector::new(libm::cosf(angle), libm::sinf(angle));
-        self.physics
-            .cast_ray(&Ray::new(Vector::new(x, y), direction), length, true, QueryFilter::only_fixed())
-            .map_or(length, |(_, distance)| distance)
+        let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
+        let distance = |&ground: &ColliderHandle| {
+            let ground = &self.physics.colliders[ground];
+            ground.shape().cast_ray(ground.position(), &ray, length, true)
+        };
+        self.ground.iter().filter_map(distance).fold(length, f32::min)
     }
 }
 

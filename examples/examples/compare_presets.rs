@@ -11,6 +11,7 @@
 
 use creatures::Blueprint;
 use gambol::{
+    champion::Champion,
     config::preset,
     run_folder::RunFolder,
     training::{TrainOptions, resume, train},
@@ -86,8 +87,8 @@ fn best(
         }
         Err(_) => train(&config, &path, options)?.folder,
     };
-    let report = log(&folder).into_iter().nth(generations as usize - 1).ok_or("a log without its last line")?;
-    Ok(report.best_so_far.map_or(f64::NEG_INFINITY, f64::from))
+    // What counts is what the champion is worth in rapier, whatever world it was trained in.
+    Ok(Champion::read(&folder.champion()).map_or(f64::NEG_INFINITY, |champion| champion.fitness.get()))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

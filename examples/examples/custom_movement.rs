@@ -58,8 +58,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         catalogue: catalogue.clone(),
         signal: Default::default(),
         on_generation: &mut |report| {
-            if let Some(best) = report.best_so_far {
-                println!("generation {:2}: {best:.2} m", report.generation);
+            if let Some(fitness) = report.fitness {
+                println!("generation {:2}: {:.2} m", report.generation, fitness.best);
             }
         },
     };

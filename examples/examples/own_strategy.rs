@@ -75,6 +75,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         seeds: vec![1, 2, 3],
         budget: StopConditions { evaluations: Some(400), ..Default::default() },
         set: vec!["movement.steps=200".into()],
+        ..PlanRequest::default()
     };
     let mut plan = request.plan(&catalogue)?;
     plan.add_foreign("annealing")?;

@@ -1,14 +1,14 @@
 //! The champion file: a controller with all it needs to move its creature again, and the proof that it does.
 
 use crate::{
-    config::RunConfig,
+    config::{EngineChoice, RunConfig},
     setup::{EpisodeParts, Setup, SetupError},
     trajectory::{TrajectoryDigest, TrajectoryDigester},
 };
 use creatures::{Channel, Creature, Sensor};
 use envs_rapier::{PhysicsSettings, RAPIER_VERSION, RapierEnvironment, Variation};
 use ne_core::{
-    Evaluation, Fitness, Phenotype, Seed, Task,
+    Evaluation, Fitness, Genome, Seed, Task,
     archive::{self, ArchiveError, Layout},
 };
 use ne_net::Network;
@@ -47,7 +47,7 @@ pub struct Champion {
     pub variation: Variation,
     /// The physics it learned in.
     pub physics: PhysicsSettings,
-    /// The engine it learned in, and its version.
+    /// The engine that gives its fitness and its trajectory, and its version.
     pub engine: Engine,
     /// The seed it was evaluated with.
     pub seed: Seed,
@@ -59,6 +59,26 @@ pub struct Champion {
     pub fitness: Fitness,
     /// What it did in the first trial.
     pub trajectory: TrajectoryDigest,
+    /// What it was in training, if that was in another engine or in varied worlds.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub trained: Option<Training>,
+}
+
+/// What a champion was in training.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Training {
+    /// The engine it was trained in.
+    pub engine: EngineChoice,
+    /// Its fitness there, in the worlds of its generation.
+    pub fitness: Fitness,
+    /// Trials that fitness is made of.
+    pub trials: Trials,
+    /// How those trials differed.
+    pub variation: Variation,
+    /// Whether the engine of training gives it, in the champion's world, another fitness than rapier.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub parted: bool,
 }
 
 /// One number between body and network.
@@ -97,17 +117,31 @@ impl From<&Channel> for ChannelRecord {
 }
 
 impl Champion {
-    /// Evaluates a controller once more, records what it does, and makes a champion of it.
-    pub fn new(
+    /// Plays a champion once more, in rapier, and records what it does.
+    pub fn new<G: Genome<Phenotype: Into<Network>>>(
         config: &RunConfig,
         setup: &Setup,
         strategy: &str,
-        network: Network,
-        seed: Seed,
-        generation: u64,
-        fitness: Fitness,
+        champion: &ne_core::Champion<G>,
     ) -> Self {
-        let trajectory = digest(&setup.episode, &mut network.clone(), seed);
+        let ne_core::Champion { seed, generation, fitness, trained, .. } = *champion;
+        let network: Network = champion.genome.express().into();
+        let (episode, trials, variation) = match &setup.nominal {
+            Some(nominal) => (&nominal.episode, Trials::default(), Variation::default()),
+            None => (&setup.episode, config.trials, config.variation),
+        };
+        let (trajectory, evaluation) = replay(episode, trials, &network, seed);
+        let in_training = || match &setup.nominal {
+            Some(nominal) => nominal.task.evaluate(&mut network.clone(), seed).fitness(),
+            None => Some(fitness),
+        };
+        let training = (config.engine != EngineChoice::Rapier || setup.nominal.is_some()).then(|| Training {
+            engine: config.engine,
+            fitness: trained.unwrap_or(fitness),
+            trials: config.trials,
+            variation: config.variation,
+            parted: in_training() != evaluation.fitness(),
+        });
         Self {
             creature: config.creature.clone(),
             movement: MovementSpec { steps: Some(setup.episode.steps()), ..config.movement.clone() },
@@ -116,16 +150,27 @@ impl Champion {
             inputs: setup.inputs().iter().map(Into::into).collect(),
             outputs: setup.outputs().iter().map(Into::into).collect(),
             network,
-            trials: config.trials,
-            variation: config.variation,
+            trials,
+            variation,
             physics: config.physics,
             engine: Engine::current(),
             seed,
             generation,
             strategy: strategy.into(),
-            fitness,
+            fitness: evaluation.fitness().unwrap_or(fitness),
             trajectory,
+            trained: training,
         }
+    }
+
+    /// Its fitness in training, if that is another than the champion's own.
+    pub fn fitness_in_training(&self) -> Option<Fitness> {
+        self.trained.map(|trained| trained.fitness).filter(|&fitness| fitness != self.fitness)
+    }
+
+    /// Whether the engine of training and rapier disagree about it.
+    pub fn parted(&self) -> bool {
+        self.trained.is_some_and(|trained| trained.parted)
     }
 
     /// Reads a champion file.
@@ -171,21 +216,32 @@ impl Champion {
     /// If the task cannot be built.
     pub fn verify(&self, catalogue: &MovementCatalogue) -> Result<Verification, SetupError> {
         let episode = self.episode(catalogue)?;
-        let mut network = self.network.clone();
-        let evaluation = episode.evaluate(&mut network, self.seed);
-        let shape_fits = episode.check_shape(&network).is_ok();
-        let trajectory =
-            if shape_fits { digest(&episode, &mut network, self.seed) } else { TrajectoryDigest::default() };
+        let (trajectory, evaluation) = replay(&episode, self.trials, &self.network, self.seed);
         let diverges_at = self.trajectory.first_difference(&trajectory);
         Ok(Verification { evaluation, recorded: self.fitness, diverges_at })
     }
 }
 
-/// Plays the first trial and digests it.
-fn digest(episode: &Episode<RapierEnvironment>, phenotype: &mut dyn Phenotype, seed: Seed) -> TrajectoryDigest {
+/// Plays a controller: what it does in the first trial, and what it is worth. One of another shape does nothing.
+fn replay(
+    episode: &Episode<RapierEnvironment>,
+    trials: Trials,
+    network: &Network,
+    seed: Seed,
+) -> (TrajectoryDigest, Evaluation) {
+    let mut network = network.clone();
+    if let Err(failure) = episode.check_shape(&network) {
+        return (TrajectoryDigest::default(), Evaluation::failed(failure));
+    }
     let mut digester = TrajectoryDigester::default();
-    episode.play(phenotype, seed.trial(0), &mut digester);
-    digester.finish()
+    let played = episode.play(&mut network, seed.trial(0), &mut digester);
+    // Of a single trial nothing more can be learned.
+    let evaluation = match played.failure {
+        _ if trials.count > 1 => episode.evaluate(&mut network, seed),
+        Some(failure) => Evaluation::failed(failure),
+        None => Evaluation::new(played.movement.value()),
+    };
+    (digester.finish(), evaluation)
 }
 
 /// What a replay of a champion showed.

@@ -46,6 +46,7 @@ pub mod champion;
 pub mod compare;
 pub mod config;
 pub mod dot;
+mod jury;
 mod lines;
 mod recorder;
 pub mod report;
@@ -55,6 +56,7 @@ pub mod setup;
 pub mod source;
 pub mod suggest;
 pub mod training;
+mod training_task;
 pub mod trajectory;
 pub mod yardsticks;
 

@@ -69,13 +69,21 @@ impl<'a> Recorder<'a> {
     }
 
     /// Brings everything to the disk: lines first, then champion, then checkpoint.
+    ///
+    /// Between two hearings of a jury the champion file has whoever would be champion now. The checkpoint does not know of
+    /// it, so that the run goes on as if nobody had asked.
     pub(crate) fn save<S: Strategy>(&mut self, evolution: &Evolution<S>) -> Result<(), FolderError>
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
         self.sync()?;
-        self.write_champion(evolution.strategy().name(), evolution.champion())?;
+        self.write_champion(evolution.strategy().name(), evolution.champion_if_heard().as_ref())?;
         Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
+    }
+
+    /// Whether there is a champion, and its file is up to date.
+    pub(crate) fn has_champion(&self) -> bool {
+        self.written.is_some()
     }
 
     fn sync(&mut self) -> Result<(), FolderError> {
@@ -95,11 +103,8 @@ impl<'a> Recorder<'a> {
         let Some(champion) = champion.filter(|champion| self.written != Some(champion.generation)) else {
             return Ok(());
         };
-        let network = champion.genome.express().into();
-        let ne_core::Champion { seed, generation, fitness, .. } = *champion;
-        let champion = Champion::new(self.config, self.setup, strategy, network, seed, generation, fitness);
-        champion.write(&self.folder.champion())?;
-        self.written = Some(generation);
+        Champion::new(self.config, self.setup, strategy, champion).write(&self.folder.champion())?;
+        self.written = Some(champion.generation);
         Ok(())
     }
 

@@ -1,24 +1,42 @@
 //! From a configuration to the things a run is made of.
 
 use crate::{
-    config::{ControllerSettings, FrozenTopology, RunConfig, StrategySettings},
+    config::{ControllerSettings, EngineChoice, FrozenTopology, RunConfig, StrategySettings},
     suggest,
 };
 use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
+use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
-use ne_core::SettingError;
+use ne_core::{Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use tasks::{Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
+
+pub use crate::training_task::TrainingTask;
 
 /// The task and the topology of the controller a configuration describes: checked, built, ready.
 #[derive(Clone)]
 pub struct Setup {
-    /// The task.
+    /// The task of training.
+    pub task: TrainingTask,
+    /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
+    /// Where the champion is chosen, if training varies the world.
+    pub nominal: Option<Nominal>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,
     /// The unit of the fitness.
     pub unit: String,
+}
+
+/// One trial in the world as the configuration has it, where training varies it.
+#[derive(Clone)]
+pub struct Nominal {
+    /// In the engine of training.
+    pub task: TrainingTask,
+    /// In rapier.
+    pub episode: Episode<RapierEnvironment>,
+    /// The seed of its one trial.
+    pub seed: Seed,
 }
 
 /// Why a configuration cannot be built. Each says which field.
@@ -43,6 +61,9 @@ pub enum SetupError {
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
+    /// The engine of training cannot do what rapier can.
+    #[error("engine: {0}; train it with --engine rapier")]
+    Engine(EnvironmentError),
 }
 
 fn with_nearest(error: &MovementSpecError) -> String {
@@ -85,6 +106,41 @@ impl EpisodeParts<'_> {
         let environment = RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
+
+    /// Builds the task for many creatures at once.
+    ///
+    /// # Errors
+    /// Names the field that is wrong, or what only rapier can do.
+    pub fn build_lanes(&self, catalogue: &MovementCatalogue) -> Result<LaneEpisode, SetupError> {
+        let movement = catalogue.build(self.movement)?;
+        let steps = catalogue.steps(self.movement)?;
+        let blueprint = Blueprint::new(self.creature.clone())?;
+        let sensors = self.sensors.unwrap_or(&self.creature.sensors);
+        let environment = LaneEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)
+            .map_err(SetupError::Engine)?;
+        Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)
+    }
+
+    /// The same without variation, and with one trial: more would all be alike.
+    #[must_use]
+    pub fn nominal(self) -> Self {
+        Self { trials: Trials::default(), variation: Variation::default(), ..self }
+    }
+
+    /// Builds the task in rapier, and in the engine of training.
+    fn build_both(
+        &self,
+        engine: EngineChoice,
+        catalogue: &MovementCatalogue,
+    ) -> Result<(Episode<RapierEnvironment>, TrainingTask), SetupError> {
+        // In rapier first: whatever is wrong with the settings is then not blamed on the engine.
+        let episode = self.build(catalogue)?;
+        let task = match engine {
+            EngineChoice::Rapier => TrainingTask::Rapier(Box::new(episode.clone())),
+            EngineChoice::Lanes => TrainingTask::Lanes(Box::new(self.build_lanes(catalogue)?)),
+        };
+        Ok((episode, task))
+    }
 }
 
 impl Setup {
@@ -98,7 +154,8 @@ impl Setup {
         let input_range = f64::from(config.controller.input_range);
         SettingError::check_range("input_range", input_range, 0.001, 1000.0)
             .map_err(|error| error.within("controller"))?;
-        let episode = config.episode_parts().build(catalogue)?;
+        let parts = config.episode_parts();
+        let (episode, task) = parts.build_both(config.engine, catalogue)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
         let topology = match &config.topology {
@@ -109,7 +166,14 @@ impl Setup {
         config.strategy.validate(&topology)?;
         check_size(&config.strategy, &topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
-        Ok(Self { episode, topology, unit })
+        let nominal = match config.variation.is_none() {
+            true => None,
+            false => {
+                let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
+                Some(Nominal { task, episode, seed: Seed::of_run(config.seed) })
+            }
+        };
+        Ok(Self { task, episode, nominal, topology, unit })
     }
 
     /// What each input of the controller is.

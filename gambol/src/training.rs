@@ -3,6 +3,7 @@
 use crate::{
     champion::Champion,
     config::{RunConfig, StrategySettings},
+    jury::NominalJury,
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
     search::{Search, SearchVisitor},
@@ -13,7 +14,7 @@ use ne_core::{
     StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
 use ne_net::Network;
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 use tasks::MovementCatalogue;
 
 /// How a run is to be carried out; none of it changes what the run finds.
@@ -147,7 +148,7 @@ pub fn train_with<S: Strategy>(
 where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
-    let evaluator = Parallel::new(options.threads)?;
+    let evaluator = Arc::new(Parallel::new(options.threads)?);
     let mut config = config.clone();
     if strategy.name() != config.strategy.name() {
         config.strategy = StrategySettings::Custom(strategy.name().into());
@@ -156,7 +157,7 @@ where
     let (folder, _lock) = RunFolder::create(folder, config)?;
     let earlier = EarlierLines::check(&folder, config, 0)?;
     let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
-    drive(evolution, config, setup, folder, earlier, &evaluator, options)
+    drive(evolution, config, setup, folder, earlier, evaluator, options)
 }
 
 /// Goes on with a run from its last checkpoint. Other stop conditions, if given, take the place of the planned ones; they
@@ -222,7 +223,7 @@ where
     let planned = config.stop;
     config.stop = stop.unwrap_or(planned);
     let setup = Setup::new(&config, &options.catalogue)?;
-    let evaluator = Parallel::new(options.threads)?;
+    let evaluator = Arc::new(Parallel::new(options.threads)?);
     if !folder.checkpoint().is_file() {
         return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
     }
@@ -250,7 +251,7 @@ where
         folder.write_config(&config)?;
     }
     let evolution = Evolution::resume(checkpoint, config.stop);
-    drive(evolution, &config, &setup, folder, earlier, &evaluator, options)
+    drive(evolution, &config, &setup, folder, earlier, evaluator, options)
 }
 
 fn drive<S: Strategy>(
@@ -259,13 +260,16 @@ fn drive<S: Strategy>(
     setup: &Setup,
     folder: RunFolder,
     earlier: EarlierLines,
-    evaluator: &Parallel,
+    evaluator: Arc<Parallel>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError>
 where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
     let mut evolution = evolution.with_signal(options.signal);
+    if let Some(nominal) = &setup.nominal {
+        evolution = evolution.with_jury(config.record.hearings(), NominalJury::new(nominal, evaluator.clone()));
+    }
     let generations = evolution.progress().generations;
     let mut recorder = Recorder::new(&folder, config, setup, earlier, options.on_generation)?;
     if generations == 0 {
@@ -274,7 +278,7 @@ where
     }
     let ended = {
         let mut observers: [Box<dyn Observer<S> + '_>; 1] = [Box::new(&mut recorder)];
-        evolution.run(&setup.episode, evaluator, &mut observers)
+        evolution.run(&setup.task, &*evaluator, &mut observers)
     };
     let progress = evolution.progress();
     let reason = ended.map_err(|source| TrainError::BrokeOff {
@@ -283,9 +287,9 @@ where
         source,
     })?;
     recorder.save(&evolution)?;
-    let champion = match evolution.champion() {
-        Some(_) => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
-        None => None,
+    let champion = match recorder.has_champion() {
+        true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
+        false => None,
     };
     Ok(Outcome { folder, reason, progress, champion })
 }

@@ -1,6 +1,7 @@
 use super::{
     body::Body,
     rows::{Point, Rows, Slanted},
+    world::Pace,
 };
 use crate::lanes::{Lanes, Mask};
 use creatures::Shape;
@@ -22,7 +23,7 @@ pub(super) struct UnevenContact<const W: usize> {
     /// For each lane and each shape of the ground, what is known of it from the last step.
     footings: Vec<Vec<Footing>>,
     /// In the order rapier solves them in. In a lane, each holds the contact with one shape at most.
-    pub(super) rows: Vec<Rows<Slanted<W>, W>>,
+    rows: Vec<Rows<Slanted<W>, W>>,
 }
 
 /// What all lanes share.
@@ -115,6 +116,7 @@ impl<const W: usize> UnevenContact<W> {
     }
 
     /// Finds the points that are within `reach` m of the ground, or will be after a step of this many seconds.
+    #[inline(never)]
     pub(super) fn find(&mut self, body: &Body<W>, reach: f32, time_step: &Lanes<W>) {
         self.remember();
         let mut active = vec![[Mask::NONE; 2]; self.rows.len()];
@@ -139,6 +141,29 @@ impl<const W: usize> UnevenContact<W> {
         }
         for (rows, active) in self.rows.iter_mut().zip(active) {
             rows.begin(body, active);
+        }
+    }
+
+    // Not inlined, unlike all else in a step: finding contacts one by one is what takes the time here.
+
+    #[inline(never)]
+    pub(super) fn prepare(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
+        for rows in &mut self.rows {
+            rows.prepare(body, pace);
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn solve(&mut self, body: &mut Body<W>) {
+        for rows in &mut self.rows {
+            rows.solve(body);
+        }
+    }
+
+    #[inline(never)]
+    pub(super) fn relax(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
+        for rows in &mut self.rows {
+            rows.relax(body, pace);
         }
     }
 

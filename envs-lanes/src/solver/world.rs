@@ -9,7 +9,7 @@ use super::{
 use crate::{
     engine::ENGINE,
     lanes::{Lanes, Mask},
-    profile::{Part, Stopwatch},
+    profile::{Laps, Part},
 };
 use creatures::Blueprint;
 use envs_core::{Conditions, EnvironmentError, Ground, GroundShape, PhysicsSettings};
@@ -253,40 +253,47 @@ impl<const W: usize> LaneWorld<W> {
 
     /// One time step of all lanes.
     #[inline(always)]
-    pub(crate) fn step(&mut self, stopwatch: &mut impl Stopwatch) {
+    pub(crate) fn step(&mut self, mut stopwatch: Option<&mut Laps>) {
         let Self { plan, bodies, joints, contacts, pace, .. } = self;
         contacts.find(bodies, plan.settings.prediction_distance, pace);
-        stopwatch.lap(Part::FindContacts);
+        lap(&mut stopwatch, Part::FindContacts);
         for _ in 0..plan.settings.solver_iterations {
             for body in bodies.iter_mut() {
                 body.velocity_y += body.fall;
             }
-            stopwatch.lap(Part::Fall);
+            lap(&mut stopwatch, Part::Fall);
             for joint in joints.iter_mut() {
                 joint.prepare(bodies, pace);
             }
-            stopwatch.lap(Part::PrepareJoints);
+            lap(&mut stopwatch, Part::PrepareJoints);
             contacts.prepare(bodies, pace);
-            stopwatch.lap(Part::PrepareContacts);
+            lap(&mut stopwatch, Part::PrepareContacts);
             for _ in 0..plan.settings.internal_iterations {
                 for joint in joints.iter_mut() {
                     joint.solve::<false>(bodies);
                 }
-                stopwatch.lap(Part::SolveJoints);
+                lap(&mut stopwatch, Part::SolveJoints);
                 contacts.solve(bodies);
-                stopwatch.lap(Part::SolveContacts);
+                lap(&mut stopwatch, Part::SolveContacts);
             }
             for body in bodies.iter_mut() {
                 body.advance(pace.substep, pace.top_spin);
             }
-            stopwatch.lap(Part::Move);
+            lap(&mut stopwatch, Part::Move);
             for joint in joints.iter_mut() {
                 joint.solve::<true>(bodies);
             }
-            stopwatch.lap(Part::RelaxJoints);
+            lap(&mut stopwatch, Part::RelaxJoints);
             contacts.relax(bodies, pace);
-            stopwatch.lap(Part::RelaxContacts);
+            lap(&mut stopwatch, Part::RelaxContacts);
         }
+    }
+}
+
+#[inline(always)]
+fn lap(stopwatch: &mut Option<&mut Laps>, part: Part) {
+    if let Some(stopwatch) = stopwatch {
+        stopwatch.lap(part);
     }
 }
 
@@ -354,9 +361,7 @@ impl<const W: usize> Contacts<W> {
             }
             Self::Uneven(contacts) => {
                 for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    for rows in &mut contact.rows {
-                        rows.prepare(body, pace);
-                    }
+                    contact.prepare(body, pace);
                 }
             }
         }
@@ -372,9 +377,7 @@ impl<const W: usize> Contacts<W> {
             }
             Self::Uneven(contacts) => {
                 for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    for rows in &mut contact.rows {
-                        rows.solve(body);
-                    }
+                    contact.solve(body);
                 }
             }
         }
@@ -390,9 +393,7 @@ impl<const W: usize> Contacts<W> {
             }
             Self::Uneven(contacts) => {
                 for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    for rows in &mut contact.rows {
-                        rows.relax(body, pace);
-                    }
+                    contact.relax(body, pace);
                 }
             }
         }
@@ -427,11 +428,11 @@ fn refuse_what_lanes_cannot_do(blueprint: &Blueprint, settings: &PhysicsSettings
 }
 
 /// The hinges in the order rapier solves their joints in: it colours them greedily so that joints of a colour share no
-/// part, and goes from colour to colour.
+/// part, and goes from colour to colour; large colours, which it solves several joints at a time, come first.
 fn solving_order(blueprint: &Blueprint) -> Result<Vec<usize>, EnvironmentError> {
     let mut colours_at = vec![0_u128; blueprint.parts().len()];
-    let mut coloured: Vec<(u32, usize)> = Vec::with_capacity(blueprint.hinges().len());
-    for (index, hinge) in blueprint.hinges().iter().enumerate() {
+    let mut colours = Vec::with_capacity(blueprint.hinges().len());
+    for hinge in blueprint.hinges() {
         let taken = colours_at[hinge.parent] | colours_at[hinge.child];
         let colour = (!taken).trailing_zeros();
         if colour >= MOST_COLOURS {
@@ -440,11 +441,16 @@ fn solving_order(blueprint: &Blueprint) -> Result<Vec<usize>, EnvironmentError> 
         }
         colours_at[hinge.parent] |= 1 << colour;
         colours_at[hinge.child] |= 1 << colour;
-        coloured.push((colour, index));
+        colours.push(colour);
     }
-    coloured.sort_unstable();
-    Ok(coloured.into_iter().map(|(_, index)| index).collect())
+    let size = |colour: u32| colours.iter().filter(|&&other| other == colour).count();
+    let mut order: Vec<usize> = (0..colours.len()).collect();
+    order.sort_by_key(|&hinge| (size(colours[hinge]) < LARGE_COLOUR, colours[hinge]));
+    Ok(order)
 }
 
 /// With more, rapier solves in another order.
 const MOST_COLOURS: u32 = 100;
+
+/// Joints from which on rapier solves a colour several at a time.
+const LARGE_COLOUR: usize = 64;

@@ -44,8 +44,8 @@ fn any_shape() -> impl Strategy<Value = Shape> {
     let size = || prop_oneof![8 => 0.04..0.6_f32, 1 => 0.005..0.04_f32, 1 => 0.6..3.0_f32];
     prop_oneof![
         2 => (size(), size()).prop_map(|(width, height)| Shape::Box { width, height }),
-        1 => size().prop_map(|size| Shape::Circle { radius: size * 0.5 }),
-        1 => (size(), size()).prop_map(|(length, radius)| Shape::Capsule { length, radius: radius * 0.4 }),
+        1 => size().prop_map(|size| Shape::Circle { radius: (size * 0.5).max(0.005) }),
+        1 => (size(), size()).prop_map(|(length, radius)| Shape::Capsule { length, radius: (radius * 0.4).max(0.005) }),
     ]
 }
 

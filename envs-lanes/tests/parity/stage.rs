@@ -125,10 +125,7 @@ struct Bits {
 fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
     let Snapshot { time, parts, motor_work } = environment.snapshot();
     let mut inputs = vec![0.0; environment.inputs()];
-    // Before its first step rapier has not sorted the ground into its search tree yet, and rays see nothing.
-    if *time > 0.0 || environment.settings().settle_time > 0.0 {
-        environment.sense(&mut inputs);
-    }
+    environment.sense(&mut inputs);
     Bits {
         parts: parts
             .iter()

@@ -1,4 +1,4 @@
-use super::Outcome;
+use super::{Outcome, bench_training::Training};
 use clap::{Args, Subcommand};
 use gambol::{
     config::{STRATEGIES, strategy},
@@ -11,7 +11,8 @@ use std::process::ExitCode;
 #[derive(Args)]
 #[command(after_help = "\
 Example:
-  gambol bench yardsticks --strategies neat --tasks xor")]
+  gambol bench yardsticks --strategies neat --tasks xor
+  gambol bench training --creature biped-1 --generations 50")]
 pub(crate) struct Bench {
     #[command(subcommand)]
     what: What,
@@ -21,6 +22,8 @@ pub(crate) struct Bench {
 enum What {
     /// Lets each strategy solve XOR and pole balancing, beside what papers report
     Yardsticks(Yardsticks),
+    /// Trains creatures and says how long it takes
+    Training(Training),
 }
 
 #[derive(Args)]
@@ -51,6 +54,7 @@ impl Bench {
     pub(crate) fn run(self) -> Outcome {
         match self.what {
             What::Yardsticks(yardsticks) => yardsticks.run(),
+            What::Training(training) => training.run(),
         }
     }
 }

@@ -41,6 +41,12 @@ pub(crate) struct Compare {
     /// What each run may use up: so many physics steps
     #[arg(long)]
     steps: Option<u64>,
+    /// What steps the creatures of all runs in training: lanes, rapier [default: what each strategy's settings say]
+    #[arg(long, value_name = "NAME")]
+    engine: Option<String>,
+    /// How the worlds of all runs vary in training: none, light [default: what each strategy's settings say]
+    #[arg(long, value_name = "NAME")]
+    variation: Option<String>,
     /// One setting for all runs, such as movement.steps=600; can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -73,6 +79,8 @@ impl Compare {
             seeds: (1..=self.seeds).collect(),
             budget: StopConditions { evaluations: self.evaluations, steps: self.steps, ..StopConditions::default() },
             set: self.set.clone(),
+            engine: self.engine.clone(),
+            variation: self.variation.clone(),
         };
         let plan = request.plan(&catalogue)?;
         let folder = ComparisonFolder::create(&self.out, &plan)?;

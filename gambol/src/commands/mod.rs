@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod bench;
+mod bench_training;
 mod check;
 mod compare;
 mod list;
@@ -87,7 +88,7 @@ pub(crate) enum Command {
     Compare(compare::Compare),
     /// Puts the parts of a comparison together
     Merge(compare::Merge),
-    /// Measures the strategies
+    /// Measures the strategies, and how long training takes
     Bench(bench::Bench),
     /// Lists the shipped creatures
     Creatures(list::Creatures),

@@ -1,6 +1,6 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
-use gambol::{config::RunConfig, training::Outcome};
+use gambol::{champion::Champion, config::RunConfig, training::Outcome};
 use indicatif::{ProgressBar, ProgressStyle};
 use ne_core::{GenerationReport, StopReason};
 use serde_json::json;
@@ -19,6 +19,8 @@ pub(super) struct Show {
     first: Option<u64>,
     last_line: Option<Instant>,
     limit: Option<u64>,
+    /// Whether every generation has another world, so that its best is not yet the champion.
+    varied: bool,
 }
 
 enum Manner {
@@ -48,15 +50,30 @@ impl Show {
             let (creature, movement) = (&config.creature.name, &config.movement.name);
             eprintln!("{creature} learns {movement}: {population}seed {}", config.seed);
         }
-        Self { manner, unit: unit.into(), start: Instant::now(), first: None, last_line: None, limit }
+        Self {
+            manner,
+            unit: unit.into(),
+            start: Instant::now(),
+            first: None,
+            last_line: None,
+            limit,
+            varied: !config.variation.is_none(),
+        }
     }
 
     pub(super) fn generation(&mut self, report: &GenerationReport) {
         let first = *self.first.get_or_insert(report.evaluations.saturating_sub(report.population));
         let rate = (report.evaluations - first) as f64 / self.start.elapsed().as_secs_f64().max(1e-9);
-        let best = report.best_so_far.map_or_else(|| "–".into(), |best| format!("{:.2} {}", best.get(), self.unit));
+        let measure = |fitness: Option<f64>| fitness.map_or_else(|| "–".into(), |it| format!("{it:.2} {}", self.unit));
+        let champion = measure(report.best_so_far.map(f64::from));
         let mean = report.fitness.map_or_else(|| "–".into(), |of| format!("{:.2}", of.mean));
-        let message = format!("best {best}, mean {mean}, {rate:.0} evaluations/s");
+        let message = match self.varied {
+            true => {
+                let best = measure(report.fitness.map(|of| of.best));
+                format!("best {best} in training, mean {mean}, champion {champion} in rapier, {rate:.0} evaluations/s")
+            }
+            false => format!("best {champion}, mean {mean}, {rate:.0} evaluations/s"),
+        };
         match &self.manner {
             Manner::Quiet => {}
             Manner::Json => print_json(&json!({ "generation": report })),
@@ -86,8 +103,10 @@ impl Show {
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
         if matches!(self.manner, Manner::Json) {
+            let trained = champion.as_ref().and_then(|champion| champion.trained);
             print_json(&json!({ "result": {
-                "folder": folder.path(), "reason": reason, "progress": progress, "fitness": fitness, "seconds": seconds,
+                "folder": folder.path(), "reason": reason, "progress": progress, "fitness": fitness,
+                "trained": trained, "seconds": seconds,
             }}));
         }
         if matches!(self.manner, Manner::Quiet | Manner::Json) {
@@ -101,12 +120,13 @@ impl Show {
         let Outcome { folder, reason, progress, champion } = outcome;
         let generations = progress.generations;
         match champion {
-            Some(champion) => say!(
-                "best {:.3} {}, found in generation {} of {generations}; {reason} after {seconds:.1} s",
-                champion.fitness,
-                self.unit,
-                champion.generation
-            )?,
+            Some(champion) => {
+                let (best, found) = (worth(champion, &self.unit), champion.generation);
+                say!("best {best}, found in generation {found} of {generations}; {reason} after {seconds:.1} s")?;
+                if champion.parted() {
+                    say!("warning   {PARTED}")?;
+                }
+            }
             None if generations == 0 => say!("no generation was done: {reason}")?,
             None => say!("every evaluation failed; {reason} after {generations} generations")?,
         }
@@ -120,6 +140,18 @@ impl Show {
             say!("go on     gambol resume {}", folder.path().display())?;
         }
         Ok(())
+    }
+}
+
+/// What is said where lanes and rapier should agree and do not.
+const PARTED: &str = "lanes and rapier part: they give this champion another fitness; rapier's counts";
+
+/// `12.300 m in rapier (14.000 m in training)`, or only the fitness if it was the same in training.
+fn worth(champion: &Champion, unit: &str) -> String {
+    let fitness = champion.fitness;
+    match champion.fitness_in_training() {
+        Some(trained) => format!("{fitness:.3} {unit} in rapier ({trained:.3} {unit} in training)"),
+        None => format!("{fitness:.3} {unit}"),
     }
 }
 

@@ -21,6 +21,7 @@ Examples:
   gambol train tetrapod-2 jumping --generations 100 --seed 7 --out runs/leap
   gambol train biped-1 running --preset thesis
   gambol train biped-1 running --strategy neat
+  gambol train biped-1 running --variation none --engine rapier
   gambol train biped-1 running --strategy cma-es --topology-from runs/biped-1-running/champion.json
   gambol train apod running --set strategy.conventional.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
@@ -41,6 +42,13 @@ pub(crate) struct Train {
     /// Keep the topology of this champion's net (one that NEAT has found, say) and search its weights anew
     #[arg(long, value_name = "CHAMPION")]
     topology_from: Option<PathBuf>,
+    /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
+    #[arg(long, value_name = "NAME")]
+    engine: Option<String>,
+    /// How the world varies in training: none, or light (friction, mass, torque, time step and start pose) [default: light,
+    /// none with --preset thesis and stanley-2002]
+    #[arg(long, value_name = "NAME")]
+    variation: Option<String>,
     /// A configuration file, whole or in part, laid over the preset
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -122,7 +130,7 @@ impl Limits {
 impl Train {
     pub(crate) fn run(self) -> Outcome {
         let catalogue = MovementCatalogue::default();
-        let Self { creature, movement, preset, strategy, topology_from, config, set, .. } = &self;
+        let Self { creature, movement, preset, strategy, topology_from, engine, variation, config, set, .. } = &self;
         let request = Request {
             creature: creature.clone(),
             movement: movement.clone(),
@@ -131,6 +139,8 @@ impl Train {
             topology_from: topology_from.clone(),
             config: config.clone(),
             set: set.clone(),
+            engine: engine.clone(),
+            variation: variation.clone(),
         };
         let mut config = request.resolve(&catalogue)?;
         if let Some(seed) = self.seed {
@@ -151,7 +161,7 @@ impl Train {
 /// The error, with the file it is in: the configuration file, if that alone gives the same error.
 fn located(error: &str, request: Request, catalogue: &MovementCatalogue) -> String {
     let file = request.config.clone();
-    let alone = Request { set: Vec::new(), ..request }.resolve(catalogue);
+    let alone = Request { set: Vec::new(), engine: None, variation: None, ..request }.resolve(catalogue);
     let same = alone.is_ok_and(|config| Setup::new(&config, catalogue).is_err_and(|found| found.to_string() == error));
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }

@@ -36,7 +36,7 @@ impl Verify {
                 "{}",
                 json!({
                     "identical": identical, "unchanged": unchanged, "diverges_at_step": diverges_at,
-                    "recorded_fitness": recorded, "fitness": evaluation.fitness(),
+                    "recorded_fitness": recorded, "fitness": evaluation.fitness(), "trained": champion.trained,
                 })
             )?;
         } else {
@@ -55,6 +55,10 @@ fn explain(champion: &Champion, verification: &Verification, unchanged: bool) ->
     if champion.engine != engine {
         let (was, is) = (&champion.engine, &engine);
         say!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version)?;
+    }
+    if let Some(trained) = &champion.trained {
+        let worlds = if trained.variation.is_none() { "without variation" } else { "in worlds that vary" };
+        say!("training: fitness {} in {}, {worlds}", trained.fitness, trained.engine.name())?;
     }
     let again = match &evaluation.outcome {
         Ok(fitness) => format!("fitness {fitness}"),

@@ -72,6 +72,10 @@ pub struct PlanRequest {
     pub budget: StopConditions,
     /// Single settings for all runs, `key=value`.
     pub set: Vec<String>,
+    /// The engine of all runs, by name; otherwise what each method says.
+    pub engine: Option<String>,
+    /// The variation of all runs, by name; otherwise what each method says.
+    pub variation: Option<String>,
 }
 
 /// Why a request is no plan.
@@ -172,6 +176,8 @@ impl PlanRequest {
             strategy: method.strategy.clone(),
             config: method.config.clone(),
             set: self.set.clone(),
+            engine: self.engine.clone(),
+            variation: self.variation.clone(),
             ..Request::default()
         };
         let (method, scenario) = (method.name.clone(), format!("{creature} {movement}"));

@@ -1,5 +1,8 @@
 use super::plan::Job;
-use crate::run_folder::{FolderError, RunFolder};
+use crate::{
+    champion::Champion,
+    run_folder::{FolderError, RunFolder},
+};
 use serde::{Deserialize, Serialize};
 
 /// What a comparison keeps of a run.
@@ -31,7 +34,8 @@ pub struct Point {
 }
 
 impl RunResult {
-    /// What the log and the timing of an ended run say.
+    /// What the log and the timing of an ended run say. What it comes to in the end is what its champion is worth: between
+    /// two hearings of a jury the log does not know yet.
     pub(super) fn read(job: &Job<'_>, folder: &RunFolder) -> Result<Self, FolderError> {
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let mut seconds = 0.0;
@@ -42,6 +46,9 @@ impl RunResult {
             if points.last().is_none_or(|last| last.best != best) || place + 1 == log.len() {
                 points.push(Point { evaluations: report.evaluations, steps: report.steps, seconds, best });
             }
+        }
+        if let Some(last) = points.last_mut().filter(|_| folder.champion().is_file()) {
+            last.best = Some(Champion::read(&folder.champion())?.fitness.get());
         }
         let Job { cell, seed } = *job;
         Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points })

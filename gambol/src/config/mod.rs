@@ -1,18 +1,20 @@
 //! The configuration of a run: everything needed to repeat it.
 
 mod assembly;
+mod engine;
 mod presets;
 mod request;
 mod strategy;
 
 pub use assembly::{Assembly, ConfigError};
-pub use presets::{PRESETS, Preset, preset};
+pub use engine::EngineChoice;
+pub use presets::{PRESETS, Preset, VARIATIONS, preset, variation};
 pub use request::{Request, RequestError};
 pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
 
 use creatures::{Creature, Sensor};
 use envs_rapier::{PhysicsSettings, Variation};
-use ne_core::{SettingError, StopConditions};
+use ne_core::{Hearings, SettingError, StopConditions};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{MovementSpec, Trials};
@@ -35,8 +37,11 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ.
+    /// How trials differ. With any variation the champion is chosen by how it does without, in one trial.
     pub variation: Variation,
+    /// What steps the creatures in training.
+    #[serde(default = "EngineChoice::of_old")]
+    pub engine: EngineChoice,
     /// The search.
     pub strategy: StrategySettings,
     /// The controller.
@@ -93,6 +98,15 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
+    /// With variation: with each checkpoint so many of the best of the generation, and the best of each generation since
+    /// the last, are evaluated without variation, and the best of them may become champion; from 1 to 1000, default 23.
+    #[serde(default = "default_finalists")]
+    pub finalists: usize,
+}
+
+/// With the nine generations between checkpoints they are 32: two batches of 16 lanes.
+fn default_finalists() -> usize {
+    23
 }
 
 impl RecordSettings {
@@ -100,6 +114,11 @@ impl RecordSettings {
         if self.checkpoint_every == 0 {
             return Err(SettingError::new("checkpoint_every", 0, "at least 1"));
         }
-        Ok(())
+        SettingError::check_range("finalists", self.finalists as f64, 1.0, 1000.0)
+    }
+
+    /// When a jury sits, where there is one.
+    pub(crate) fn hearings(&self) -> Hearings {
+        Hearings { every: self.checkpoint_every, finalists: self.finalists }
     }
 }

@@ -1,6 +1,6 @@
 //! Named starting points.
 
-use super::{ControllerSettings, RecordSettings, RunConfig, StrategySettings};
+use super::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings};
 use creatures::Creature;
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::StopConditions;
@@ -18,6 +18,7 @@ pub struct Preset {
     pub description: &'static str,
     strategy: fn() -> StrategySettings,
     activation: Activation,
+    variation: fn() -> Variation,
 }
 
 /// All presets; the first is the default.
@@ -27,12 +28,14 @@ pub const PRESETS: &[Preset] = &[
         description: "conventional neuroevolution as we found it to work best",
         strategy: || StrategySettings::Conventional(ConventionalNeSettings::default()),
         activation: Activation::Tanh,
+        variation: Variation::light,
     },
     Preset {
         name: "thesis",
         description: "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite",
         strategy: || StrategySettings::Conventional(ConventionalNeSettings::thesis()),
         activation: Activation::RationalTanh,
+        variation: Variation::default,
     },
     Preset {
         name: "stanley-2002",
@@ -42,8 +45,21 @@ pub const PRESETS: &[Preset] = &[
             StrategySettings::Neat(Box::new(NeatSettings { output_activation, ..NeatSettings::stanley_2002() }))
         },
         activation: Activation::Tanh,
+        variation: Variation::default,
     },
 ];
+
+/// Variations a user can ask for by name.
+pub const VARIATIONS: [&str; 2] = ["none", "light"];
+
+/// The variation of this name.
+pub fn variation(name: &str) -> Option<Variation> {
+    match name {
+        "none" => Some(Variation::default()),
+        "light" => Some(Variation::light()),
+        _ => None,
+    }
+}
 
 /// The preset of this name.
 pub fn preset(name: &str) -> Option<&'static Preset> {
@@ -58,7 +74,8 @@ impl Preset {
             seed: 1,
             movement: MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
             trials: Trials::default(),
-            variation: Variation::default(),
+            variation: (self.variation)(),
+            engine: EngineChoice::Lanes,
             strategy: (self.strategy)(),
             controller: ControllerSettings {
                 hidden: vec![10],
@@ -73,6 +90,7 @@ impl Preset {
             record: RecordSettings {
                 checkpoint_every: 10,
                 populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],
+                finalists: super::default_finalists(),
             },
             sensors: None,
             creature,

@@ -1,7 +1,8 @@
 //! What a user asks for, and the configuration that follows from it.
 
 use super::{
-    Assembly, ConfigError, FrozenTopology, PRESETS, Preset, RunConfig, STRATEGIES, StrategyEntry, preset, strategy,
+    Assembly, ConfigError, EngineChoice, FrozenTopology, PRESETS, Preset, RunConfig, STRATEGIES, StrategyEntry,
+    VARIATIONS, preset, strategy, variation,
 };
 use crate::{
     champion::{Champion, ChannelRecord},
@@ -37,6 +38,10 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// Single settings, `key=value`.
     pub set: Vec<String>,
+    /// The engine of training, by name.
+    pub engine: Option<String>,
+    /// The variation, by name: one of [`VARIATIONS`].
+    pub variation: Option<String>,
 }
 
 /// Why a request gives no configuration.
@@ -111,11 +116,26 @@ impl Request {
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
+        let mut config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
+        self.choose(&mut config)?;
         Ok(config)
+    }
+
+    /// Puts the engine and the variation in place that were asked for by name.
+    fn choose(&self, config: &mut RunConfig) -> Result<(), RequestError> {
+        if let Some(name) = &self.engine {
+            let unknown =
+                || RequestError::Unknown(suggest::unknown("engine", name, &EngineChoice::ALL.map(EngineChoice::name)));
+            config.engine = EngineChoice::find(name).ok_or_else(unknown)?;
+        }
+        if let Some(name) = &self.variation {
+            let unknown = || RequestError::Unknown(suggest::unknown("variation", name, &VARIATIONS));
+            config.variation = variation(name).ok_or_else(unknown)?;
+        }
+        Ok(())
     }
 
     fn creature(&self, layer: Option<&Layer>) -> Result<Creature, RequestError> {

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     champion::Champion,
-    config::{RunConfig, StrategySettings},
+    config::{self, RunConfig, StrategySettings, VARIATIONS},
     trajectory::Recording,
 };
 use creatures::Creature;
@@ -42,6 +42,13 @@ pub(super) struct MovementData {
 #[derive(Serialize)]
 pub(super) struct Summary {
     pub(super) fitness: Option<f64>,
+    /// The champion's fitness in training, if that is another.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) fitness_in_training: Option<f64>,
+    /// Whether each generation was evaluated in worlds of its own.
+    pub(super) varied: bool,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) warning: Option<String>,
     pub(super) generations: u64,
     pub(super) evaluations: u64,
     pub(super) physics_steps: u64,
@@ -171,13 +178,20 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         Fact::new("Movement", movement),
         Fact::new("Preset", &config.preset),
         Fact::new("Strategy", config.strategy.name()),
+        Fact::new("Engine", config.engine.name()),
         Fact::new("Trials", config.trials.count),
+        Fact::new("Variation", variation(config)),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
     ];
     facts.splice(4..4, topology(config));
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts
+}
+
+/// The variation by its name, if it has one.
+fn variation(config: &RunConfig) -> &'static str {
+    VARIATIONS.into_iter().find(|name| config::variation(name) == Some(config.variation)).unwrap_or("of its own")
 }
 
 /// What is settled about the net before the run; of a strategy from another program that is not known.

@@ -122,6 +122,7 @@ mod tests {
             population: 10,
             strategy: statistics.iter().map(|&(name, value)| Statistic::new(name, value)).collect(),
             species: species.iter().map(report).collect(),
+            hearing: None,
         }
     }
 

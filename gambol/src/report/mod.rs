@@ -5,11 +5,12 @@ mod data;
 mod history;
 mod network;
 mod page;
+mod parting;
 mod replays;
 
 use crate::{
     champion::Champion,
-    run_folder::{FolderError, GalleryKind, RunFolder},
+    run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     setup::SetupError,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
@@ -61,17 +62,30 @@ pub fn write_report(
     };
     let setup = crate::setup::Setup::new(&config, catalogue)?;
     let stills = Stills::new(&setup, config.seed);
-    let champions: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Champion).collect();
+    let newest = champion.as_ref().filter(|_| setup.nominal.is_some()).map(gallery_entry);
+    let mut champions: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Champion).collect();
+    let is_new = |entry: &&GalleryEntry| champions.last().is_none_or(|last| last.members != entry.members);
+    // One that was chosen at the end of the run, between two hearings, is in no gallery.
+    champions.extend(newest.as_ref().filter(is_new));
     let populations: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Population).collect();
     let movement = movement_data(catalogue, &config.movement.name, &setup.unit);
     let last = log.last();
+    let parted = champion.as_ref().is_some_and(Champion::parted);
+    let fitness = match &champion {
+        // The log knows the newest champion, but only as training knew it.
+        Some(champion) if parted || setup.nominal.is_some() => Some(champion.fitness),
+        _ => last.and_then(|last| last.best_so_far),
+    };
     let champion_data = champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?;
     let report = Report {
         title: format!("{} · {} · Gambol", config.creature.name, config.movement.name),
         creature: config.creature.clone(),
         movement,
         summary: last.map(|last| Summary {
-            fitness: last.best_so_far.map(f64::from),
+            fitness: fitness.map(f64::from),
+            fitness_in_training: champion.as_ref().and_then(Champion::fitness_in_training).map(f64::from),
+            varied: setup.nominal.is_some(),
+            warning: parting::warning(&log, parted),
             generations: last.generation,
             evaluations: last.evaluations,
             physics_steps: last.steps,
@@ -112,7 +126,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         settings: vec![
             Fact::new("Creature", &champion.creature.name),
             Fact::new("Movement", &champion.movement.name),
-            Fact::new("Fitness", format!("{:.3} {unit}", champion.fitness)),
+            Fact::new("Fitness", fitness(champion, &unit)),
             Fact::new("Found in generation", champion.generation),
             Fact::new("Strategy", &champion.strategy),
             Fact::new("Net", champion.network.topology()),
@@ -123,6 +137,17 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         versions: data::versions(),
     };
     write_page(path, &report)
+}
+
+fn fitness(champion: &Champion, unit: &str) -> String {
+    let trained = champion.fitness_in_training();
+    let trained = trained.map_or_else(String::new, |fitness| format!(" ({fitness:.3} {unit} in training)"));
+    format!("{:.3} {unit}{trained}", champion.fitness)
+}
+
+fn gallery_entry(champion: &Champion) -> GalleryEntry {
+    let member = GalleryMember { fitness: Some(champion.fitness), network: champion.network.clone() };
+    GalleryEntry { generation: champion.generation, kind: GalleryKind::Champion, members: vec![member] }
 }
 
 fn write_page(path: &Path, report: &Report) -> Result<(), ReportError> {

@@ -29,6 +29,7 @@ pub(super) fn play(episode: &Episode<RapierEnvironment>, mut network: Network, s
 /// Makes the small replays of a run.
 pub(super) struct Stills<'a> {
     setup: &'a Setup,
+    /// Of the run.
     seed: Seed,
     steps: u32,
     stride: usize,
@@ -45,7 +46,11 @@ impl<'a> Stills<'a> {
     pub(super) fn champions(&self, entries: &[&GalleryEntry]) -> Vec<StripEntry> {
         let still = |entry: &&GalleryEntry| {
             let champion = entry.members.first()?;
-            let replay = self.replay(entry.generation, champion);
+            // Where a jury chose it, it is shown in the jury's world.
+            let replay = match &self.setup.nominal {
+                Some(nominal) => self.replay(&nominal.episode, nominal.seed, champion),
+                None => self.replay(&self.setup.episode, self.seed.generation(entry.generation), champion),
+            };
             Some(StripEntry { generation: entry.generation, fitness: champion.fitness.map(Fitness::get), replay })
         };
         entries.par_iter().filter_map(still).collect()
@@ -59,17 +64,16 @@ impl<'a> Stills<'a> {
             let members = super::spread(&members, MEMBERS);
             let member = |member: &&GalleryMember| PopulationMember {
                 fitness: member.fitness.map(Fitness::get),
-                replay: self.replay(entry.generation, member),
+                replay: self.replay(&self.setup.episode, self.seed.generation(entry.generation), member),
             };
             PopulationEntry { generation: entry.generation, members: members.par_iter().map(member).collect() }
         };
         entries.iter().map(population).collect()
     }
 
-    fn replay(&self, generation: u64, member: &GalleryMember) -> Replay {
-        let seed = self.seed.generation(generation);
-        let recording = play(&self.setup.episode, member.network.clone(), seed, self.steps);
-        let time_step = self.setup.episode.environment().settings().time_step;
+    fn replay(&self, episode: &Episode<RapierEnvironment>, seed: Seed, member: &GalleryMember) -> Replay {
+        let recording = play(episode, member.network.clone(), seed, self.steps);
+        let time_step = episode.environment().settings().time_step;
         Replay::new(&recording.snapshots, time_step, self.stride)
     }
 }

@@ -18,6 +18,8 @@ const FLAGS: &[(&[&str], &[&str])] = &[
     (&["--minutes", "NaN"],      &["stop.minutes = NaN: must be above 0"]),
     (&["--target", "NaN"],       &["stop.target = NaN: must be a finite number"]),
     (&["--target", "-inf"],      &["stop.target = -inf: must be a finite number"]),
+    (&["--engine", "lnaes"],     &["there is no engine \"lnaes\"; did you mean \"lanes\"? (there are: lanes, rapier)"]),
+    (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, light)"]),
     (&["--preset", "thesys"],    &["there is no preset \"thesys\"", "did you mean \"thesis\"?"]),
 ];
 
@@ -31,6 +33,7 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("physics.timestep=0.01",                       &["physics.timestep: unknown field", "did you mean `time_step`?"]),
     ("strategy.conventional.popultion=3",           &["strategy.conventional.popultion", "did you mean `population`?"]),
     ("strategy.convetional.population=3",           &["strategy", "did you mean `conventional`?"]),
+    ("engine=lnaes",                                &["engine: unknown variant `lnaes`", "did you mean `lanes`?"]),
     ("physics.time_step.x=1",                       &["physics.time_step: has no field \"x\""]),
     // Types.
     ("physics.time_step=fast",                      &["physics.time_step: invalid type: string \"fast\""]),
@@ -57,6 +60,9 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("physics.time_step=0",                         &["physics.time_step = 0: must be from 0.001 to 0.05"]),
     ("physics.time_step=1e39",                      &["physics.time_step = inf: must be from 0.001 to 0.05"]),
     ("physics.solver_iterations=0",                 &["physics.solver_iterations = 0: must be from 1 to 32"]),
+    ("physics.continuous_collision_substeps=1",     &["engine: lanes cannot simulate this creature: it is to have continuous", "train it with --engine rapier"]),
+    ("record.finalists=0",                          &["record.finalists = 0: must be from 1 to 1000"]),
+    ("record.finalists=1001",                       &["record.finalists = 1001: must be from 1 to 1000"]),
     ("record.checkpoint_every=0",                   &["record.checkpoint_every = 0: must be at least 1"]),
     ("strategy.conventional.elites=1000000",        &["strategy.conventional.elites = 1000000: must be below"]),
     ("strategy.conventional.crossover_rate=1.5",    &["strategy.conventional.crossover_rate = 1.5: must be from 0 to 1"]),

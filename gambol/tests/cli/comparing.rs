@@ -143,6 +143,8 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
         (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),
         (&["--strategies", "ga,cma-es", "--set", "strategy.cma-es.population=20"], "ga on biped-1 running: --set"),
+        (&["--strategies", "ga", "--engine", "rapeir"], "there is no engine \"rapeir\"; did you mean \"rapier\"?"),
+        (&["--strategies", "ga", "--variation", "non"], "there is no variation \"non\"; did you mean \"none\"?"),
         (&["--strategies", "ga", "--set", "movement.steps=0"], "ga on biped-1 running: movement.steps = 0"),
     ] {
         assert_says(&fail(&mut compare(arguments)), &[says]);

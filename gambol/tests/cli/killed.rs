@@ -72,6 +72,20 @@ fn a_run_killed_at_any_moment_and_resumed_gives_the_same_bytes() {
     }
 }
 
+/// As above, for the engine that steps one creature at a time.
+#[test]
+fn a_run_in_rapier_that_is_killed_and_resumed_gives_the_same_bytes() {
+    let runs = Undisturbed { folder: tempfile::tempdir().expect("a temporary folder") };
+    for variation in ["none", "light"] {
+        let rapier = ["--engine", "rapier", "--variation", variation];
+        let [whole, killed] = ["whole", "killed"].map(|name| format!("{name}-{variation}"));
+        succeed(runs.train(&whole, 7).args(rapier).arg("--quiet"));
+        kill_after(runs.train(&killed, 7).args(rapier), &runs.path(&killed), 12);
+        succeed(&mut resume(&runs.path(&killed)));
+        assert_same_run(&runs.path(&whole), &runs.path(&killed));
+    }
+}
+
 #[test]
 fn a_run_killed_twice_and_resumed_twice_gives_the_same_bytes() {
     let runs = Undisturbed::run(3);

@@ -45,7 +45,7 @@ fn quiet_prints_nothing() -> Outcome {
 fn json_is_a_line_for_each_generation_and_one_for_the_result() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    let ended = run(small_run(&path, 5).arg("--json"));
+    let ended = run(small_run(&path, 5).args(["--json", "--variation", "none", "--engine", "rapier"]));
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
     let lines = ended.stdout.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>()?;
     let (result, generations) = lines.split_last().expect("six lines");
@@ -56,6 +56,7 @@ fn json_is_a_line_for_each_generation_and_one_for_the_result() -> Outcome {
     assert_eq!(result["reason"], "generations");
     assert_eq!(result["progress"]["evaluations"], 40);
     assert_eq!(result["fitness"], generations[4]["generation"]["best_so_far"]);
+    assert_eq!(result["trained"], Value::Null, "its fitness is that of training");
     Ok(())
 }
 

@@ -25,13 +25,20 @@ function buildHeading(run) {
   const summary = run.summary || {};
   const fitness = summary.fitness ?? run.champion?.fitness;
   const number = value => value !== null && value !== undefined;
-  if (number(fitness)) facts.push(`best ${withUnit(fitness, run.unit)}`);
+  const trained = summary.fitness_in_training;
+  if (number(fitness)) facts.push(`best ${withUnit(fitness, run.unit)}${number(trained) ? " in rapier" : ""}`);
+  if (number(trained)) facts.push(`${withUnit(trained, run.unit)} in training`);
   if (number(summary.generations)) facts.push(count(summary.generations, "generation", "generations"));
   if (number(summary.body_lengths_per_second)) facts.push(`${fixed(summary.body_lengths_per_second, 2)} body lengths per second`);
   facts.forEach((fact, i) => {
     if (i) lead.append(" · ");
     lead.append(element(i ? "span" : "strong", fact));
   });
+  if (summary.warning) {
+    const warning = document.getElementById("warning");
+    warning.hidden = false;
+    warning.textContent = summary.warning;
+  }
   if (run.movement?.description) {
     const text = run.movement.description.trim();
     lead.after(element("p", text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : "."), "described"));
@@ -91,13 +98,17 @@ function buildFitness(run) {
   document.getElementById("fitness").hidden = false;
   const rows = run.history;
   const sizes = rows.map(row => row.evaluations || 0);
-  const text = rows.length > 1 ? [`From ${withUnit(rows[0].best_so_far, run.unit)} to ${withUnit(rows[rows.length - 1].best_so_far, run.unit)} `
-    + `in ${count(rows.length, "generation", "generations")}`] : ["One generation"];
+  // With a jury there is no champion before its first hearing.
+  const bests = rows.map(row => row.best_so_far).filter(best => best !== null && best !== undefined);
+  const generations = count(rows.length, "generation", "generations");
+  const text = rows.length === 1 ? ["One generation"] : !bests.length ? [generations[0].toUpperCase() + generations.slice(1)]
+    : [`From ${withUnit(bests[0], run.unit)} to ${withUnit(bests[bests.length - 1], run.unit)} in ${generations}`];
   // A strategy may change the size of its generations.
   const size = sizes.every(size => size === sizes[0]) ? `${count(sizes[0], "evaluation", "evaluations")} each`
     : `${fixed(Math.min(...sizes), 0)} to ${fixed(Math.max(...sizes), 0)} evaluations`;
   if (sizes[0]) text.push(` of ${size}`);
-  document.getElementById("fitness-intro").textContent = text.join("") + ".";
+  const varied = run.summary?.varied ? " Each generation meets another world; the champion is whoever does best without variation, in rapier." : "";
+  document.getElementById("fitness-intro").textContent = text.join("") + "." + varied;
   new FitnessChart(run);
 }
 

@@ -1,0 +1,62 @@
+use crate::config::EngineChoice;
+use envs_lanes::LaneEpisode;
+use envs_rapier::RapierEnvironment;
+use ne_core::{Evaluation, Phenotype, Seed, Task};
+use tasks::Episode;
+
+/// What a population is evaluated on: the same episodes in either engine, with the same results.
+#[derive(Clone)]
+pub enum TrainingTask {
+    /// One creature at a time.
+    Rapier(Box<Episode<RapierEnvironment>>),
+    /// Many creatures at once.
+    Lanes(Box<LaneEpisode>),
+}
+
+impl TrainingTask {
+    /// The engine it is played in.
+    pub fn engine(&self) -> EngineChoice {
+        match self {
+            Self::Rapier(_) => EngineChoice::Rapier,
+            Self::Lanes(_) => EngineChoice::Lanes,
+        }
+    }
+
+    /// The same episodes, lasting at most `steps` steps, and at least 1.
+    #[must_use]
+    pub fn shortened(&self, steps: u32) -> Self {
+        match self {
+            Self::Rapier(episode) => Self::Rapier(Box::new(episode.shortened(steps))),
+            Self::Lanes(episode) => Self::Lanes(Box::new(episode.shortened(steps))),
+        }
+    }
+
+    fn task(&self) -> &dyn Task {
+        match self {
+            Self::Rapier(episode) => &**episode,
+            Self::Lanes(episode) => &**episode,
+        }
+    }
+}
+
+impl Task for TrainingTask {
+    fn inputs(&self) -> usize {
+        self.task().inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.task().outputs()
+    }
+
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        self.task().evaluate(phenotype, seed)
+    }
+
+    fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
+        self.task().evaluate_batch(phenotypes, seed)
+    }
+
+    fn batch_size(&self) -> usize {
+        self.task().batch_size()
+    }
+}

@@ -1,0 +1,111 @@
+//! `--engine`: lanes or rapier, with the same results; what lanes cannot do is refused, and rapier does it.
+
+use crate::{
+    damage::{edit_and_seal, json},
+    folder::{assert_same_run, read},
+    program::{assert_says, fail, gambol, small_run, succeed, text},
+};
+use serde_json::Value;
+use std::fs;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+#[test]
+fn lanes_are_the_default_and_rapier_finds_the_same() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for variation in ["none", "light"] {
+        let [plain, lanes, rapier] = ["plain", "lanes", "rapier"].map(|it| folder.path().join(variation).join(it));
+        let run = |path, flags: &[&str]| succeed(small_run(path, 12).args(["--variation", variation]).args(flags));
+        run(&plain, &[]);
+        run(&lanes, &["--engine", "lanes", "--threads", "1"]);
+        run(&rapier, &["--engine", "rapier", "--threads", "3"]);
+        assert_same_run(&plain, &lanes);
+        for file in ["log.jsonl", "gallery.jsonl", "checkpoint"] {
+            assert_eq!(read(&lanes.join(file)), read(&rapier.join(file)), "{file}, variation {variation}");
+        }
+        let champion = |path: &std::path::Path| {
+            let mut content = json(&path.join("champion.json"))["content"].take();
+            let trained = content["trained"].take();
+            content.as_object_mut().expect("an object").remove("trained");
+            (content, trained["engine"].clone())
+        };
+        let ((in_lanes, lanes_name), (in_rapier, rapier_name)) = (champion(&lanes), champion(&rapier));
+        assert_eq!(in_lanes, in_rapier, "variation {variation}");
+        // Without variation a champion trained in rapier is what it was in training.
+        let said = if variation == "none" { Value::Null } else { "rapier".into() };
+        assert_eq!((lanes_name, rapier_name), ("lanes".into(), said));
+        for path in [&lanes, &rapier] {
+            assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_creature_that_lanes_cannot_simulate_is_refused_and_rapier_trains_it() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (creature, run) = (folder.path().join("clumsy.json"), folder.path().join("run"));
+    let shipped = creatures::shipped().iter().find(|shipped| shipped.name == "biped-1").ok_or("it is shipped")?;
+    fs::write(&creature, shipped.json.replace(r#""self_collision": false"#, r#""self_collision": true"#))?;
+    let train = |flags: &[&str]| {
+        let mut train = gambol("train");
+        train.args([text(&creature), "running", "--population", "4", "--set", "movement.steps=20", "--quiet"]);
+        train.args(["--generations", "1", "--no-report", "--out", text(&run)]).args(flags);
+        train
+    };
+    let refusal = "engine: lanes cannot simulate this creature: its parts collide with each other (self_collision); \
+                   train it with --engine rapier";
+    assert_says(&fail(&mut train(&[])), &[refusal]);
+    assert!(!run.exists(), "nothing was begun");
+    succeed(&mut train(&["--engine", "rapier"]));
+    assert_says(&succeed(gambol("verify").arg(run.join("champion.json"))), &["identical: "]);
+
+    let config = folder.path().join("config.json");
+    fs::write(&config, format!(r#"{{"creature": "{}", "movement": {{"name": "running"}}}}"#, text(&creature)))?;
+    assert_says(&fail(gambol("check").arg(&config)), &[text(&config), refusal]);
+    let mut compare = gambol("compare");
+    compare.args(["--strategies", "ga", "--creatures", text(&creature), "--evaluations", "10", "--out", text(&config)]);
+    assert_says(&fail(&mut compare), &["ga on ", refusal]);
+    Ok(())
+}
+
+/// A configuration from before there was a choice was one for rapier.
+#[test]
+fn an_old_run_goes_on_in_rapier() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, old) = (folder.path().join("whole"), folder.path().join("old"));
+    for (path, generations) in [(&whole, 6), (&old, 3)] {
+        succeed(small_run(path, generations).args(["--engine", "rapier", "--variation", "none"]));
+    }
+    edit_and_seal(&old.join("config.json"), |content| {
+        let content = content.as_object_mut().expect("an object");
+        content.remove("engine");
+        content["record"].as_object_mut().expect("an object").remove("finalists");
+    });
+    succeed(gambol("resume").arg(&old).args(["--generations", "6", "--no-report"]));
+    assert_same_run(&whole, &old);
+    assert_eq!(json(&old.join("config.json"))["content"]["engine"], "rapier");
+    Ok(())
+}
+
+#[test]
+fn a_comparison_can_choose_engine_and_variation() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let scores = |name: &str, flags: &[&str]| -> Result<String, Box<dyn std::error::Error>> {
+        let out = folder.path().join(name);
+        let mut compare = gambol("compare");
+        compare.args(["--strategies", "ga,cosyne", "--creatures", "biped-1", "--seeds", "2", "--evaluations", "200"]);
+        compare.args(["--set", "movement.steps=40", "--quiet", "--out", text(&out)]);
+        succeed(compare.args(flags));
+        let scores = fs::read_to_string(out.join("scores.csv"))?;
+        // All but the seconds.
+        Ok(scores.lines().filter_map(|line| Some(line.rsplit_once(',')?.0)).collect::<Vec<_>>().join("\n"))
+    };
+    let lanes = scores("lanes", &["--variation", "none"])?;
+    assert_eq!(scores("rapier", &["--variation", "none", "--engine", "rapier"])?, lanes);
+    let light = scores("light", &["--variation", "light"])?;
+    assert_eq!(scores("default", &[])?, light);
+    assert_ne!(light, lanes);
+    assert!(!light.contains(",,"), "every run has a score:\n{light}");
+    Ok(())
+}
