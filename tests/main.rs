@@ -5,6 +5,7 @@ mod arrows;
 mod documents;
 mod engines;
 mod golden;
+mod transfer;
 
 use std::path::Path;
 

@@ -119,7 +119,7 @@ impl<const W: usize> LaneNet<W> {
             for (&weight, &source) in mine.iter().zip(&self.sources[neuron.sources.clone()]) {
                 sum += weight * self.values[source as usize];
             }
-            neuron.activation.apply_all(&mut sum.0);
+            neuron.activation.apply_to_lanes(&mut sum.0);
             if neuron.scale != 1.0 {
                 sum = sum * Lanes::splat(neuron.scale);
             }

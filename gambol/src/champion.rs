@@ -124,23 +124,19 @@ impl Champion {
         strategy: &str,
         champion: &ne_core::Champion<G>,
     ) -> Self {
-        let ne_core::Champion { seed, generation, fitness, trained, .. } = *champion;
+        let ne_core::Champion { seed, generation, fitness, trained, parted, .. } = *champion;
         let network: Network = champion.genome.express().into();
         let (episode, trials, variation) = match &setup.nominal {
             Some(nominal) => (&nominal.episode, Trials::default(), Variation::default()),
             None => (&setup.episode, config.trials, config.variation),
         };
         let (trajectory, evaluation) = replay(episode, trials, &network, seed);
-        let in_training = || match &setup.nominal {
-            Some(nominal) => nominal.task.evaluate(&mut network.clone(), seed).fitness(),
-            None => Some(fitness),
-        };
         let training = (config.engine != EngineChoice::Rapier || setup.nominal.is_some()).then(|| Training {
             engine: config.engine,
             fitness: trained.unwrap_or(fitness),
             trials: config.trials,
             variation: config.variation,
-            parted: in_training() != evaluation.fitness(),
+            parted: parted || Some(fitness) != evaluation.fitness(),
         });
         Self {
             creature: config.creature.clone(),

@@ -1,7 +1,7 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
 use crate::{config::EngineChoice, setup::Nominal};
-use ne_core::{Evaluation, Evaluator, Genome, Judgement, Jury, Parallel, Seed, Task};
+use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Seed, Task};
 use std::{cmp::Reverse, sync::Arc};
 
 /// Judges finalists in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
@@ -26,9 +26,15 @@ impl NominalJury {
         }
     }
 
-    /// Whether rapier finds the best of these as good as they say, if there is a best.
-    fn confirmed<G: Genome>(&self, reference: &dyn Task, finalists: &[G], evaluations: &[Evaluation]) -> bool {
-        let able = (0..finalists.len()).filter(|&index| evaluations[index].fitness().is_some());
+    /// Whether rapier finds the best of these as good as they say, if there is one that is to become champion.
+    fn confirmed<G: Genome>(
+        &self,
+        reference: &dyn Task,
+        finalists: &[G],
+        evaluations: &[Evaluation],
+        standing: Option<Fitness>,
+    ) -> bool {
+        let able = (0..finalists.len()).filter(|&index| evaluations[index].fitness() > standing);
         let Some(best) = able.min_by_key(|&index| Reverse(evaluations[index].fitness())) else { return true };
         let again = reference.evaluate(&mut finalists[best].express(), self.seed);
         let agree = again.outcome == evaluations[best].outcome;
@@ -45,10 +51,10 @@ impl<G: Genome> Jury<G> for NominalJury {
         self.seed
     }
 
-    fn judge(&self, finalists: &[G]) -> Judgement {
+    fn judge(&self, finalists: &[G], standing: Option<Fitness>) -> Judgement {
         let evaluations = self.evaluator.evaluate(&*self.task, finalists, self.seed);
         match &self.reference {
-            Some(reference) if !self.confirmed(&**reference, finalists, &evaluations) => {
+            Some(reference) if !self.confirmed(&**reference, finalists, &evaluations, standing) => {
                 Judgement { evaluations: self.evaluator.evaluate(&**reference, finalists, self.seed), parted: true }
             }
             _ => Judgement { evaluations, parted: false },
@@ -89,7 +95,7 @@ mod tests {
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
-        let Judgement { evaluations, parted } = jury.judge(&Puppet::sample(0, 1, 6));
+        let Judgement { evaluations, parted } = jury.judge(&Puppet::sample(0, 1, 6), None);
         (evaluations, parted)
     }
 

@@ -55,6 +55,9 @@ pub struct Champion<G> {
     /// The fitness it had in its generation, if a jury has judged it since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trained: Option<Fitness>,
+    /// Whether the jury's two ways of evaluating [parted](crate::Judgement::parted) at its hearing.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub parted: bool,
 }
 
 /// Why a run could not go on.
@@ -232,7 +235,8 @@ impl<S: Strategy> Evolution<S> {
         if !is_hearing {
             return (false, None);
         }
-        let (report, best) = court.hear(&std::mem::take(&mut self.finalists));
+        let (report, best) =
+            court.hear(&std::mem::take(&mut self.finalists), self.champion.as_ref().map(|champion| champion.fitness));
         (self.crown(best, every), Some(report))
     }
 
@@ -246,7 +250,7 @@ impl<S: Strategy> Evolution<S> {
     pub fn champion_if_heard(&self) -> Option<Champion<S::Genome>> {
         let standing = self.champion.clone();
         let Some(court) = self.court.as_ref().filter(|_| !self.finalists.is_empty()) else { return standing };
-        let (_, best) = court.hear(&self.finalists);
+        let (_, best) = court.hear(&self.finalists, self.champion.as_ref().map(|champion| champion.fitness));
         let fitness = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(|champion| champion.fitness);
         if fitness(&best) > fitness(&standing) { best } else { standing }
     }
@@ -297,5 +301,5 @@ impl<S: Strategy> Generation<'_, S> {
 fn best_of<G: Clone>(genomes: &[G], evaluations: &[Evaluation], seed: Seed) -> Option<Champion<G>> {
     let &(index, fitness) = ranking(evaluations).first()?;
     let genome = genomes[index].clone();
-    Some(Champion { genome, fitness, generation: seed.generation_index(), seed, trained: None })
+    Some(Champion { genome, fitness, generation: seed.generation_index(), seed, trained: None, parted: false })
 }

@@ -14,8 +14,8 @@ pub trait Jury<G: Genome>: Send + Sync {
     /// The seed of the jury's world: with it a champion's fitness can be had again.
     fn seed(&self) -> Seed;
 
-    /// Evaluates the finalists.
-    fn judge(&self, finalists: &[G]) -> Judgement;
+    /// Evaluates the finalists. Only one with a fitness above that of the `standing` champion can become champion.
+    fn judge(&self, finalists: &[G], standing: Option<Fitness>) -> Judgement;
 }
 
 /// What a jury found.
@@ -91,11 +91,15 @@ impl<G> fmt::Debug for Court<G> {
 }
 
 impl<G: Genome> Court<G> {
-    /// Hears each finalist once; gives the best as the champion it would make.
-    pub(crate) fn hear(&self, finalists: &[Finalist<G>]) -> (HearingReport, Option<Champion<G>>) {
+    /// Hears each finalist once; gives the best as the champion it would make, if it beats the standing one.
+    pub(crate) fn hear(
+        &self,
+        finalists: &[Finalist<G>],
+        standing: Option<Fitness>,
+    ) -> (HearingReport, Option<Champion<G>>) {
         let finalists = distinct(finalists);
         let genomes: Vec<G> = finalists.iter().map(|finalist| finalist.genome.clone()).collect();
-        let Judgement { evaluations, parted } = self.jury.judge(&genomes);
+        let Judgement { evaluations, parted } = self.jury.judge(&genomes, standing);
         if evaluations.len() != genomes.len() {
             // Nobody can say which belongs to whom.
             tracing::error!("the jury gave {} evaluations for {} finalists", evaluations.len(), genomes.len());
@@ -107,6 +111,7 @@ impl<G: Genome> Court<G> {
             generation: finalists[index].generation,
             seed: self.jury.seed(),
             trained: Some(finalists[index].fitness),
+            parted,
         });
         let (judged, trained) = (best.map(|(_, fitness)| fitness), champion.as_ref().and_then(|best| best.trained));
         (HearingReport { finalists: genomes.len() as u64, judged, trained, parted }, champion)

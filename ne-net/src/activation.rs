@@ -62,9 +62,22 @@ impl Activation {
     }
 
     /// Replaces each weighted sum by the neuron's output: [`apply`](Self::apply) to each, to the bit, and faster.
+    #[inline]
+    pub fn apply_all(self, sums: &mut [f32]) {
+        // Blocks of a fixed length become vector instructions without a rest.
+        let (blocks, rest) = sums.as_chunks_mut::<8>();
+        for block in blocks {
+            self.apply_to_lanes(block);
+        }
+        for sum in rest {
+            *sum = self.apply(*sum);
+        }
+    }
+
+    /// The same for sums side by side, of as many nets or neurons.
     // Always inlined, so that it is compiled for the instruction set of whoever calls it.
     #[inline(always)]
-    pub fn apply_all(self, sums: &mut [f32]) {
+    pub fn apply_to_lanes<const LANES: usize>(self, sums: &mut [f32; LANES]) {
         match self {
             Self::Logistic => replace(sums, logistic),
             Self::Tanh => replace(sums, tanh),
@@ -111,15 +124,8 @@ impl fmt::Display for Activation {
 }
 
 #[inline(always)]
-fn replace(sums: &mut [f32], function: impl Fn(f32) -> f32) {
-    // Blocks of a fixed length become vector instructions without a rest.
-    let (blocks, rest) = sums.as_chunks_mut::<8>();
-    for block in blocks {
-        for sum in block {
-            *sum = function(*sum);
-        }
-    }
-    for sum in rest {
+fn replace<const LANES: usize>(sums: &mut [f32; LANES], function: impl Fn(f32) -> f32) {
+    for sum in sums {
         *sum = function(*sum);
     }
 }

@@ -34,7 +34,7 @@ impl Jury<Puppet> for Known {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Puppet]) -> Judgement {
+    fn judge(&self, finalists: &[Puppet], _: Option<Fitness>) -> Judgement {
         self.heard.lock().expect("no test panics here").push(finalists.to_vec());
         let worth = |finalist: &Puppet| {
             let lines = (1..).zip(&self.worth);
@@ -80,7 +80,8 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     assert_eq!(next(), (Some(4.0), None, 1, 0));
     let heard = known.heard.lock().expect("no test panics here").clone();
     assert_eq!(heard, [vec![genome(1, 1), genome(3, 1), genome(3, 2)]], "in the order of their generations and ranks");
-    let champion = Champion { genome: genome(1, 1), fitness: fitness(4.0), generation: 1, seed: WORLD, trained };
+    let champion =
+        Champion { genome: genome(1, 1), fitness: fitness(4.0), generation: 1, seed: WORLD, trained, parted: false };
     assert_eq!(evolution.champion(), Some(&champion));
     // Of the equals in training the first is finalist; worth 5, it would take over.
     let next = evolution.champion_if_heard().expect("somebody");
@@ -152,7 +153,7 @@ impl Jury<Puppet> for Asleep {
         WORLD
     }
 
-    fn judge(&self, _: &[Puppet]) -> Judgement {
+    fn judge(&self, _: &[Puppet], _: Option<Fitness>) -> Judgement {
         Judgement { evaluations: Vec::new(), parted: false }
     }
 }
@@ -194,7 +195,7 @@ impl Jury<Weights> for Panel {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Weights]) -> Judgement {
+    fn judge(&self, finalists: &[Weights], _: Option<Fitness>) -> Judgement {
         Judgement { evaluations: Serial.evaluate(&TASK, finalists, WORLD), parted: false }
     }
 }
