@@ -1,4 +1,4 @@
-use super::{body::Body, world::Pace};
+use super::{body::Body, pace::Pace};
 use crate::lanes::{Lanes, angle_of};
 use creatures::{Blueprint, Hinge};
 use std::f32::consts::PI;

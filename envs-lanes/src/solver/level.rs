@@ -1,6 +1,7 @@
 use super::{
     body::Body,
-    rows::{Point, Rows, Up},
+    normal::Up,
+    rows::{Point, Rows},
 };
 use crate::lanes::{Lanes, Mask};
 use creatures::Shape;

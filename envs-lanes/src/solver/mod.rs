@@ -19,9 +19,13 @@
 //! gait. What is left out is what is exactly zero for a creature on fixed ground: its velocity, its inverse mass.
 
 mod body;
+mod contacts;
 mod joint;
 mod level;
 mod mass;
+mod normal;
+mod order;
+mod pace;
 mod rows;
 mod softness;
 mod uneven;

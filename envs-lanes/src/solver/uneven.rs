@@ -1,7 +1,8 @@
 use super::{
     body::Body,
-    rows::{Point, Rows, Slanted},
-    world::Pace,
+    normal::Slanted,
+    pace::Pace,
+    rows::{Point, Rows},
 };
 use crate::lanes::{Lanes, Mask};
 use creatures::Shape;

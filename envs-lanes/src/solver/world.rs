@@ -1,19 +1,18 @@
 use super::{
     body::Body,
+    contacts::Contacts,
     joint::Joint,
-    level::LevelContact,
     mass::InverseMass,
-    softness::Softness,
-    uneven::{self, UnevenContact},
+    order::{refuse_what_lanes_cannot_do, solving_order},
+    pace::Pace,
+    uneven,
 };
 use crate::{
-    engine::ENGINE,
     lanes::{Lanes, Mask},
     profile::{Laps, Part},
 };
 use creatures::Blueprint;
-use envs_core::{Conditions, EnvironmentError, Ground, GroundShape, PhysicsSettings};
-use std::f32::consts::FRAC_PI_4;
+use envs_core::{Conditions, EnvironmentError, Ground, PhysicsSettings};
 use std::sync::Arc;
 use tasks::PartState;
 
@@ -30,15 +29,6 @@ pub(crate) struct LaneWorld<const W: usize> {
     joint_of: Vec<usize>,
 }
 
-/// The contacts of each part with the ground.
-#[derive(Clone, Debug)]
-enum Contacts<const W: usize> {
-    /// A single half-space.
-    Level(Vec<LevelContact<W>>),
-    /// Anything else.
-    Uneven(Vec<UnevenContact<W>>),
-}
-
 /// What all lanes share.
 #[derive(Debug)]
 struct Plan {
@@ -47,23 +37,6 @@ struct Plan {
     ground: Ground,
     /// The hinges in the order their joints are solved in.
     order: Vec<usize>,
-}
-
-/// The numbers a step needs that follow from a lane's time step.
-#[derive(Clone, Debug)]
-pub(super) struct Pace<const W: usize> {
-    /// s.
-    pub(super) time_step: Lanes<W>,
-    pub(super) substep: Lanes<W>,
-    pub(super) substeps_per_second: Lanes<W>,
-    pub(super) joint_correction: Lanes<W>,
-    pub(super) joint_compliance: Lanes<W>,
-    pub(super) contact_correction: Lanes<W>,
-    pub(super) contact_factor: Lanes<W>,
-    /// The fastest an error is corrected, m/s and rad/s.
-    pub(super) top_correction: Lanes<W>,
-    /// The fastest a body may turn, rad/s: an eighth of a turn in a time step.
-    pub(super) top_spin: Lanes<W>,
 }
 
 impl<const W: usize> LaneWorld<W> {
@@ -96,23 +69,11 @@ impl<const W: usize> LaneWorld<W> {
         for (place, &hinge) in order.iter().enumerate() {
             joint_of[hinge] = place;
         }
-        let zero = Lanes::ZERO;
-        let pace = Pace {
-            time_step: zero,
-            substep: zero,
-            substeps_per_second: zero,
-            joint_correction: zero,
-            joint_compliance: zero,
-            contact_correction: zero,
-            contact_factor: zero,
-            top_correction: Lanes::splat(settings.corrective_speed),
-            top_spin: zero,
-        };
         Self {
             bodies: vec![Body::at_rest(); blueprint.parts().len()],
             joints: order.iter().map(|&hinge| Joint::new(blueprint, &blueprint.hinges()[hinge])).collect(),
             contacts: Contacts::new(blueprint, ground),
-            pace,
+            pace: Pace::new(settings),
             joint_of,
             plan,
         }
@@ -122,16 +83,7 @@ impl<const W: usize> LaneWorld<W> {
     pub(crate) fn reset(&mut self, lane: usize, time_step: f32, conditions: &Conditions) {
         let Plan { blueprint, settings, .. } = &*self.plan;
         let substep = time_step / settings.solver_iterations as f32;
-        let joint = Softness::new(settings.joint_frequency, settings.joint_damping_ratio, substep);
-        let contact = Softness::of_ground_contacts(substep);
-        self.pace.time_step.0[lane] = time_step;
-        self.pace.substep.0[lane] = substep;
-        self.pace.substeps_per_second.0[lane] = 1.0 / substep;
-        self.pace.joint_correction.0[lane] = joint.correction_rate;
-        self.pace.joint_compliance.0[lane] = joint.compliance;
-        self.pace.contact_correction.0[lane] = contact.correction_rate;
-        self.pace.contact_factor.0[lane] = contact.impulse_factor;
-        self.pace.top_spin.0[lane] = FRAC_PI_4 * (1.0 / time_step);
+        self.pace.set_lane(lane, time_step, settings);
         for (index, (part, body)) in blueprint.parts().iter().zip(&mut self.bodies).enumerate() {
             let mass = InverseMass::of(part, conditions.mass);
             let weight = -settings.gravity * (1.0 / mass.linear);
@@ -296,161 +248,3 @@ fn lap(stopwatch: &mut Option<&mut Laps>, part: Part) {
         stopwatch.lap(part);
     }
 }
-
-impl<const W: usize> Contacts<W> {
-    fn new(blueprint: &Blueprint, ground: &Ground) -> Self {
-        let shapes = blueprint.parts().iter().map(|part| part.shape);
-        if ground.shapes == [GroundShape::HalfSpace] {
-            Self::Level(shapes.map(LevelContact::new).collect())
-        } else {
-            Self::Uneven(shapes.map(|shape| UnevenContact::new(shape, ground)).collect())
-        }
-    }
-
-    fn reset(&mut self, part: usize, lane: usize, friction: f32) {
-        match self {
-            Self::Level(contacts) => contacts[part].rows.reset(lane, friction),
-            Self::Uneven(contacts) => contacts[part].reset(lane, friction),
-        }
-    }
-
-    fn copy_lane(&mut self, lane: usize, from: &Contacts<1>) {
-        match (self, from) {
-            (Self::Level(mine), Contacts::Level(theirs)) => {
-                mine.iter_mut().zip(theirs).for_each(|(mine, theirs)| mine.copy_lane(lane, theirs));
-            }
-            (Self::Uneven(mine), Contacts::Uneven(theirs)) => {
-                mine.iter_mut().zip(theirs).for_each(|(mine, theirs)| mine.copy_lane(lane, theirs));
-            }
-            // Worlds of one kind have one ground.
-            (Self::Level(_), Contacts::Uneven(_)) | (Self::Uneven(_), Contacts::Level(_)) => {}
-        }
-    }
-
-    #[inline(always)]
-    fn pressing(&self, part: usize) -> Mask<W> {
-        match self {
-            Self::Level(contacts) => contacts[part].rows.pressing,
-            Self::Uneven(contacts) => contacts[part].pressing(),
-        }
-    }
-
-    #[inline(always)]
-    fn find(&mut self, bodies: &[Body<W>], reach: f32, pace: &Pace<W>) {
-        match self {
-            Self::Level(contacts) => {
-                for (body, contact) in bodies.iter().zip(contacts) {
-                    contact.find(body, reach);
-                }
-            }
-            Self::Uneven(contacts) => {
-                for (body, contact) in bodies.iter().zip(contacts) {
-                    contact.find(body, reach, &pace.time_step);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn prepare(&mut self, bodies: &mut [Body<W>], pace: &Pace<W>) {
-        match self {
-            Self::Level(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.rows.prepare(body, pace);
-                }
-            }
-            Self::Uneven(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.prepare(body, pace);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn solve(&mut self, bodies: &mut [Body<W>]) {
-        match self {
-            Self::Level(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.rows.solve(body);
-                }
-            }
-            Self::Uneven(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.solve(body);
-                }
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn relax(&mut self, bodies: &mut [Body<W>], pace: &Pace<W>) {
-        match self {
-            Self::Level(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.rows.relax(body, pace);
-                }
-            }
-            Self::Uneven(contacts) => {
-                for (body, contact) in bodies.iter_mut().zip(contacts) {
-                    contact.relax(body, pace);
-                }
-            }
-        }
-    }
-}
-
-impl<const W: usize> Pace<W> {
-    fn copy_lane(&mut self, lane: usize, from: &Pace<1>) {
-        self.time_step.0[lane] = from.time_step.0[0];
-        self.substep.0[lane] = from.substep.0[0];
-        self.substeps_per_second.0[lane] = from.substeps_per_second.0[0];
-        self.joint_correction.0[lane] = from.joint_correction.0[0];
-        self.joint_compliance.0[lane] = from.joint_compliance.0[0];
-        self.contact_correction.0[lane] = from.contact_correction.0[0];
-        self.contact_factor.0[lane] = from.contact_factor.0[0];
-        self.top_spin.0[lane] = from.top_spin.0[0];
-    }
-}
-
-fn refuse(what: impl Into<String>) -> EnvironmentError {
-    EnvironmentError::Unsupported { engine: ENGINE, what: what.into() }
-}
-
-fn refuse_what_lanes_cannot_do(blueprint: &Blueprint, settings: &PhysicsSettings) -> Result<(), EnvironmentError> {
-    if blueprint.self_collision() {
-        return Err(refuse("its parts collide with each other (self_collision)"));
-    }
-    if settings.continuous_collision_substeps > 0 {
-        return Err(refuse("it is to have continuous collision detection (physics.continuous_collision_substeps)"));
-    }
-    Ok(())
-}
-
-/// The hinges in the order rapier solves their joints in: it colours them greedily so that joints of a colour share no
-/// part, and goes from colour to colour; large colours, which it solves several joints at a time, come first.
-fn solving_order(blueprint: &Blueprint) -> Result<Vec<usize>, EnvironmentError> {
-    let mut colours_at = vec![0_u128; blueprint.parts().len()];
-    let mut colours = Vec::with_capacity(blueprint.hinges().len());
-    for hinge in blueprint.hinges() {
-        let taken = colours_at[hinge.parent] | colours_at[hinge.child];
-        let colour = (!taken).trailing_zeros();
-        if colour >= MOST_COLOURS {
-            let part = &blueprint.parts()[hinge.parent].name;
-            return Err(refuse(format!("more than {MOST_COLOURS} parts hang together at \"{part}\"")));
-        }
-        colours_at[hinge.parent] |= 1 << colour;
-        colours_at[hinge.child] |= 1 << colour;
-        colours.push(colour);
-    }
-    let size = |colour: u32| colours.iter().filter(|&&other| other == colour).count();
-    let mut order: Vec<usize> = (0..colours.len()).collect();
-    order.sort_by_key(|&hinge| (size(colours[hinge]) < LARGE_COLOUR, colours[hinge]));
-    Ok(order)
-}
-
-/// With more, rapier solves in another order.
-const MOST_COLOURS: u32 = 100;
-
-/// Joints from which on rapier solves a colour several at a time.
-const LARGE_COLOUR: usize = 64;
