@@ -1,7 +1,7 @@
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 
-/// How rapier steps a creature: the settings, each with what breaks without it.
+/// How an engine steps a creature: rapier's settings, which every engine takes, each with what breaks without it.
 ///
 /// The defaults were found by measuring small creatures with strong motors. They are not rapier's own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -49,10 +49,31 @@ fn main() {
         println!(" {:>8.1}×", reference / best);
         let network = Network::Dense(nets.swap_remove(0));
         let profile = lanes.profile(&network, 2000, Instructions::best()).expect("it stands");
-        let shares: Vec<String> =
-            profile.shares().map(|(part, share)| format!("{part} {:.0} %", 100.0 * share)).collect();
-        println!("             {}", shares.join(", "));
+        let alone = alone(rapier.environment().clone());
+        let faster = alone / profile.physics();
+        println!("  physics alone: rapier {alone:.3} µs, lanes {:.3} µs, {faster:.1}×", profile.physics());
+        let whole: f64 = profile.parts().map(|(_, microseconds)| microseconds).sum();
+        let shares: Vec<String> = profile
+            .parts()
+            .map(|(part, microseconds)| format!("{part} {:.0} %", 100.0 * microseconds / whole))
+            .collect();
+        println!("  {}", shares.join(", "));
     }
+}
+
+/// µs a step of rapier takes when nobody senses or decides anything.
+fn alone(mut environment: RapierEnvironment) -> f64 {
+    let mut best = f64::INFINITY;
+    for _ in 0..5 {
+        environment.reset(Seed::of_run(1)).expect("it stands");
+        environment.act(&vec![0.5; environment.outputs()]);
+        let start = Instant::now();
+        for _ in 0..STEPS {
+            environment.step().expect("it lasts");
+        }
+        best = best.min(start.elapsed().as_secs_f64() * 1e6 / f64::from(STEPS));
+    }
+    best
 }
 
 /// The best of several rounds, µs a step.

@@ -141,6 +141,7 @@ impl Train {
             set: set.clone(),
             engine: engine.clone(),
             variation: variation.clone(),
+            unvaried: false,
         };
         let mut config = request.resolve(&catalogue)?;
         if let Some(seed) = self.seed {

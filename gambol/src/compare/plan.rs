@@ -74,7 +74,7 @@ pub struct PlanRequest {
     pub set: Vec<String>,
     /// The engine of all runs, by name; otherwise what each method says.
     pub engine: Option<String>,
-    /// The variation of all runs, by name; otherwise what each method says.
+    /// The variation of all runs, by name; otherwise what each method's file says, or none.
     pub variation: Option<String>,
 }
 
@@ -178,6 +178,8 @@ impl PlanRequest {
             set: self.set.clone(),
             engine: self.engine.clone(),
             variation: self.variation.clone(),
+            // A score at a budget must be that of the moment; a jury sits only now and then.
+            unvaried: true,
             ..Request::default()
         };
         let (method, scenario) = (method.name.clone(), format!("{creature} {movement}"));

@@ -29,7 +29,7 @@ pub struct Point {
     pub steps: u64,
     /// Seconds of wall clock since the run began. The one number that differs between equal runs.
     pub seconds: f64,
-    /// The best fitness so far; `None` while every evaluation failed.
+    /// The best fitness so far; `None` while every evaluation failed, and before the first hearing of a jury.
     pub best: Option<f64>,
 }
 

@@ -11,8 +11,9 @@ use crate::{
     suggest,
 };
 use creatures::{Blueprint, Creature, CreatureError};
+use envs_rapier::Variation;
 use ne_core::archive::ArchiveError;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::{
     fs, io,
     path::{Path, PathBuf},
@@ -42,6 +43,8 @@ pub struct Request {
     pub engine: Option<String>,
     /// The variation, by name: one of [`VARIATIONS`].
     pub variation: Option<String>,
+    /// Whether to leave out the preset's variation, so that the fitnesses of all generations can be compared.
+    pub unvaried: bool,
 }
 
 /// Why a request gives no configuration.
@@ -99,8 +102,15 @@ impl Request {
         if let Some(entry) = self.strategy(layer.as_mut())?.filter(|entry| entry.name != base.strategy.name()) {
             base.strategy = (entry.settings)();
         }
+        if self.unvaried {
+            base.variation = Variation::default();
+        }
         let mut assembly = Assembly::new(&base);
         if let Some(Layer { path, value }) = layer {
+            if value.get("variation").is_some() {
+                // What a file leaves out of its variation does not vary, whatever the preset says.
+                assembly.lay_over(json!({ "variation": Variation::default() }));
+            }
             assembly.lay_over(value);
             // What was said on its own wins over the file.
             assembly.keep(&base, &["creature", "preset"]);
@@ -109,33 +119,34 @@ impl Request {
         }
         if let Some(path) = &self.topology_from {
             let topology = FrozenTopology::of(&Champion::read(path)?);
-            assembly.lay_over(serde_json::json!({ "topology": topology }));
+            assembly.lay_over(json!({ "topology": topology }));
         }
+        assembly.lay_over(self.choices()?);
         for assignment in &self.set {
             check_strategy_of(assignment, base.strategy.name())?;
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        let mut config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
+        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
-        self.choose(&mut config)?;
         Ok(config)
     }
 
-    /// Puts the engine and the variation in place that were asked for by name.
-    fn choose(&self, config: &mut RunConfig) -> Result<(), RequestError> {
+    /// The engine and the variation that were asked for by name.
+    fn choices(&self) -> Result<Value, RequestError> {
+        let mut choices = json!({});
         if let Some(name) = &self.engine {
             let unknown =
                 || RequestError::Unknown(suggest::unknown("engine", name, &EngineChoice::ALL.map(EngineChoice::name)));
-            config.engine = EngineChoice::find(name).ok_or_else(unknown)?;
+            choices["engine"] = json!(EngineChoice::find(name).ok_or_else(unknown)?);
         }
         if let Some(name) = &self.variation {
             let unknown = || RequestError::Unknown(suggest::unknown("variation", name, &VARIATIONS));
-            config.variation = variation(name).ok_or_else(unknown)?;
+            choices["variation"] = json!(variation(name).ok_or_else(unknown)?);
         }
-        Ok(())
+        Ok(choices)
     }
 
     fn creature(&self, layer: Option<&Layer>) -> Result<Creature, RequestError> {

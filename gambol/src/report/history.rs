@@ -26,6 +26,15 @@ struct BandPoint {
     q90: f64,
 }
 
+/// The rows of the chart. The last has the champion's fitness: it may have been chosen between two hearings.
+pub(super) fn points(log: &[GenerationReport], champion: Option<Fitness>) -> Vec<HistoryPoint> {
+    let mut points: Vec<HistoryPoint> = log.iter().map(HistoryPoint::from).collect();
+    if let (Some(last), Some(fitness)) = (points.last_mut(), champion) {
+        last.best_so_far = Some(f64::from(fitness));
+    }
+    points
+}
+
 impl From<&GenerationReport> for HistoryPoint {
     fn from(report: &GenerationReport) -> Self {
         let fitness = report.fitness;
@@ -124,6 +133,16 @@ mod tests {
             species: species.iter().map(report).collect(),
             hearing: None,
         }
+    }
+
+    #[test]
+    fn the_last_row_knows_a_champion_chosen_between_two_hearings() {
+        let log = [report(&[], &[]), report(&[], &[])];
+        let champions = |champion: Option<Fitness>| points(&log, champion).iter().map(|row| row.best_so_far).collect();
+        let found: Vec<Option<f64>> = champions(Fitness::new(3.5).ok());
+        assert_eq!(found, [None, Some(3.5)]);
+        let found: Vec<Option<f64>> = champions(None);
+        assert_eq!(found, [None, None]);
     }
 
     #[test]

@@ -14,7 +14,6 @@ use crate::{
     setup::SetupError,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
-use history::HistoryPoint;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
@@ -92,7 +91,7 @@ pub fn write_report(
             stopped_because: ended.map(|reason| reason.to_string()),
             body_lengths_per_second: champion_data.as_ref().and_then(|champion| champion.body_lengths_per_second),
         }),
-        history: log.iter().map(HistoryPoint::from).collect(),
+        history: history::points(&log, fitness),
         species: history::species(&log),
         statistics: history::statistics(&log),
         champion: champion_data,

@@ -104,8 +104,36 @@ fn a_comparison_can_choose_engine_and_variation() -> Outcome {
     let lanes = scores("lanes", &["--variation", "none"])?;
     assert_eq!(scores("rapier", &["--variation", "none", "--engine", "rapier"])?, lanes);
     let light = scores("light", &["--variation", "light"])?;
-    assert_eq!(scores("default", &[])?, light);
+    assert_eq!(scores("default", &[])?, lanes, "a score at a budget is that of the moment");
     assert_ne!(light, lanes);
     assert!(!light.contains(",,"), "every run has a score:\n{light}");
     Ok(())
+}
+
+/// The variation a new run is configured with.
+fn variation_of(arguments: &[&str], file: Option<&str>) -> serde_json::Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("run");
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--generations", "1", "--set", "movement.steps=20", "--no-report", "--quiet"]);
+    if let Some(file) = file {
+        let path = folder.path().join("some.json");
+        fs::write(&path, file).expect("written");
+        train.args(["--config", text(&path)]);
+    }
+    succeed(train.args(["--out", text(&out)]).args(arguments));
+    json(&out.join("config.json"))["content"]["variation"].take()
+}
+
+#[test]
+fn single_settings_come_after_options_and_files_say_all_that_varies() {
+    let light = variation_of(&[], None);
+    assert_eq!(light["friction"], 0.2);
+    let mut rougher = variation_of(&["--set", "variation.friction=0.5", "--variation", "light"], None);
+    assert_eq!(rougher["friction"].take(), 0.5);
+    assert_eq!(rougher["start_pose"], light["start_pose"]);
+    let file = variation_of(&[], Some(r#"{ "variation": { "friction": 0.3 } }"#));
+    assert_eq!((&file["friction"], &file["mass"], &file["start_pose"]), (&0.3.into(), &0.0.into(), &0.0.into()));
+    assert_eq!(variation_of(&["--variation", "light"], Some(r#"{ "variation": { "friction": 0.3 } }"#)), light);
+    assert_eq!(variation_of(&[], Some(r#"{ "trials": { "count": 1 } }"#)), light);
 }
