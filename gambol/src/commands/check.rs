@@ -1,6 +1,8 @@
 use super::Outcome;
 use clap::Args;
 use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
+use envs_lanes::LaneEngine;
 use gambol::{
     Setup,
     champion::{CHAMPION_FORMAT, Champion},
@@ -64,6 +66,10 @@ fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
     if lowest.abs() > 0.05 {
         let place = if lowest > 0.0 { "above" } else { "below" };
         say!("  note: in the start pose its lowest point is {:.2} m {place} the ground (y = 0)", lowest.abs())?;
+    }
+    let world = (PhysicsSettings::default(), Ground::flat(), Conditions::nominal(motors.len()));
+    if let Err(refusal) = LaneEngine::new(&blueprint, &world.0, &world.1, &world.2) {
+        say!("  note: {refusal}; train it with --engine rapier")?;
     }
     for channel in senses.channels() {
         say!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;

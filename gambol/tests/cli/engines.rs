@@ -47,6 +47,10 @@ fn a_creature_that_lanes_cannot_simulate_is_refused_and_rapier_trains_it() -> Ou
     let (creature, run) = (folder.path().join("clumsy.json"), folder.path().join("run"));
     let shipped = creatures::shipped().iter().find(|shipped| shipped.name == "biped-1").ok_or("it is shipped")?;
     fs::write(&creature, shipped.json.replace(r#""self_collision": false"#, r#""self_collision": true"#))?;
+    let said = succeed(gambol("check").arg(&creature));
+    let note =
+        "note: lanes cannot simulate this creature: its parts collide with each other (self_collision); train it";
+    assert!(said.contains(note), "{said}");
     let train = |flags: &[&str]| {
         let mut train = gambol("train");
         train.args([text(&creature), "running", "--population", "4", "--set", "movement.steps=20", "--quiet"]);
