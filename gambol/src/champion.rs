@@ -126,11 +126,10 @@ impl Champion {
     ) -> Self {
         let ne_core::Champion { seed, generation, fitness, trained, parted, .. } = *champion;
         let network: Network = champion.genome.express().into();
-        let (episode, trials, variation) = match &setup.nominal {
-            Some(nominal) => (&nominal.episode, Trials::default(), Variation::default()),
-            None => (&setup.episode, config.trials, config.variation),
+        let (trials, variation, (trajectory, evaluation)) = match &setup.nominal {
+            Some(nominal) => (Trials::default(), Variation::default(), nominal.replay(&network, seed)),
+            None => (config.trials, config.variation, replay(&setup.episode, config.trials, &network, seed)),
         };
-        let (trajectory, evaluation) = replay(episode, trials, &network, seed);
         let training = (config.engine != EngineChoice::Rapier || setup.nominal.is_some()).then(|| Training {
             engine: config.engine,
             fitness: trained.unwrap_or(fitness),
@@ -219,7 +218,7 @@ impl Champion {
 }
 
 /// Plays a controller: what it does in the first trial, and what it is worth. One of another shape does nothing.
-fn replay(
+pub(crate) fn replay(
     episode: &Episode<RapierEnvironment>,
     trials: Trials,
     network: &Network,

@@ -1,8 +1,9 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
 use crate::{config::EngineChoice, setup::Nominal};
-use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Seed, Task};
-use std::{cmp::Reverse, sync::Arc};
+use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Task};
+use ne_net::{DenseNet, GraphNet, Network};
+use std::{any::Any, cmp::Reverse, sync::Arc};
 
 /// Judges finalists in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
 /// the bit, everybody is judged again, in rapier.
@@ -14,13 +15,37 @@ pub(crate) struct NominalJury {
     evaluator: Arc<Parallel>,
 }
 
+/// The jury's task in rapier, which remembers what it played last.
+struct InRapier(Nominal);
+
+impl Task for InRapier {
+    fn inputs(&self) -> usize {
+        self.0.episode.inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.0.episode.outputs()
+    }
+
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        let net: &dyn Any = phenotype;
+        let network = net.downcast_ref::<Network>().cloned();
+        let network = network.or_else(|| net.downcast_ref::<DenseNet>().map(|net| net.clone().into()));
+        let network = network.or_else(|| net.downcast_ref::<GraphNet>().map(|net| net.clone().into()));
+        match network {
+            Some(network) => self.0.replay(&network, seed).1,
+            None => self.0.episode.evaluate(phenotype, seed),
+        }
+    }
+}
+
 impl NominalJury {
     /// The jury of a run.
     pub(crate) fn new(nominal: &Nominal, evaluator: Arc<Parallel>) -> Self {
         let confirmed = nominal.task.engine() != EngineChoice::Rapier;
         Self {
             task: Box::new(nominal.task.clone()),
-            reference: confirmed.then(|| Box::new(nominal.episode.clone()) as Box<dyn Task>),
+            reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
             seed: nominal.seed,
             evaluator,
         }
@@ -65,7 +90,7 @@ impl<G: Genome> Jury<G> for NominalJury {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ne_core::{Failure, Phenotype, conformance::Puppet};
+    use ne_core::{Failure, conformance::Puppet};
 
     /// Worth is what the puppet answers, as this engine sees it.
     struct Fake(fn(f64) -> Evaluation);

@@ -48,6 +48,7 @@ pub mod config;
 pub mod dot;
 mod jury;
 mod lines;
+mod nominal;
 mod recorder;
 pub mod report;
 pub mod run_folder;

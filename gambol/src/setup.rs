@@ -11,7 +11,7 @@ use ne_core::{Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use tasks::{Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
 
-pub use crate::training_task::TrainingTask;
+pub use crate::{nominal::Nominal, training_task::TrainingTask};
 
 /// The task and the topology of the controller a configuration describes: checked, built, ready.
 #[derive(Clone)]
@@ -26,17 +26,6 @@ pub struct Setup {
     pub topology: Topology,
     /// The unit of the fitness.
     pub unit: String,
-}
-
-/// One trial in the world as the configuration has it, where training varies it.
-#[derive(Clone)]
-pub struct Nominal {
-    /// In the engine of training.
-    pub task: TrainingTask,
-    /// In rapier.
-    pub episode: Episode<RapierEnvironment>,
-    /// The seed of its one trial.
-    pub seed: Seed,
 }
 
 /// Why a configuration cannot be built. Each says which field.
@@ -170,7 +159,7 @@ impl Setup {
             true => None,
             false => {
                 let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
-                Some(Nominal { task, episode, seed: Seed::of_run(config.seed) })
+                Some(Nominal::new(task, episode, Seed::of_run(config.seed)))
             }
         };
         Ok(Self { task, episode, nominal, topology, unit })

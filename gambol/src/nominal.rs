@@ -1,0 +1,49 @@
+//! The world of the jury.
+
+use crate::{champion, training_task::TrainingTask, trajectory::TrajectoryDigest};
+use envs_rapier::RapierEnvironment;
+use ne_core::{Evaluation, Seed};
+use ne_net::Network;
+use std::sync::{Arc, Mutex};
+use tasks::{Episode, Trials};
+
+/// One trial in the world as the configuration has it, where training varies it.
+#[derive(Clone)]
+pub struct Nominal {
+    /// In the engine of training.
+    pub task: TrainingTask,
+    /// In rapier.
+    pub episode: Episode<RapierEnvironment>,
+    /// The seed of its one trial.
+    pub seed: Seed,
+    /// What was replayed last: the jury has a champion played in rapier just before its file is written.
+    last: Arc<Mutex<Option<Replay>>>,
+}
+
+/// A controller's trial in rapier.
+struct Replay {
+    network: Network,
+    seed: Seed,
+    result: (TrajectoryDigest, Evaluation),
+}
+
+impl Nominal {
+    pub(crate) fn new(task: TrainingTask, episode: Episode<RapierEnvironment>, seed: Seed) -> Self {
+        Self { task, episode, seed, last: Arc::default() }
+    }
+
+    /// What a controller does in rapier, and what it is worth there.
+    pub(crate) fn replay(&self, network: &Network, seed: Seed) -> (TrajectoryDigest, Evaluation) {
+        let known = self.last.lock().ok().and_then(|last| {
+            let known = last.as_ref().filter(|known| known.seed == seed && known.network == *network);
+            known.map(|known| known.result.clone())
+        });
+        known.unwrap_or_else(|| {
+            let result = champion::replay(&self.episode, Trials::default(), network, seed);
+            if let Ok(mut last) = self.last.lock() {
+                *last = Some(Replay { network: network.clone(), seed, result: result.clone() });
+            }
+            result
+        })
+    }
+}
