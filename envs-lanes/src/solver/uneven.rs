@@ -25,6 +25,8 @@ pub(super) struct UnevenContact<const W: usize> {
     footings: Vec<Vec<Footing>>,
     /// In the order rapier solves them in. In a lane, each holds the contact with one shape at most.
     rows: Vec<Rows<Slanted<W>, W>>,
+    /// Which of the rows' points are near the ground in this step.
+    active: Vec<[Mask<W>; 2]>,
 }
 
 /// What all lanes share.
@@ -86,6 +88,7 @@ impl<const W: usize> UnevenContact<W> {
         Self {
             footings: vec![vec![Footing::default(); shapes.len()]; W],
             rows: vec![Rows::new(normal); shapes.len()],
+            active: vec![[Mask::NONE; 2]; shapes.len()],
             plan: Arc::new(Plan { part, radius, shapes }),
         }
     }
@@ -116,11 +119,21 @@ impl<const W: usize> UnevenContact<W> {
         pressing
     }
 
+    /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
+    pub(super) fn distance_along_ray(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
+        let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
+        let distance = |ledge: &Ledge| {
+            let place = Pose { rotation: Rotation::IDENTITY, translation: ledge.translation() };
+            ledge.shape.cast_ray(&place, &ray, length, true)
+        };
+        self.plan.shapes.iter().filter_map(distance).fold(length, f32::min)
+    }
+
     /// Finds the points that are within `reach` m of the ground, or will be after a step of this many seconds.
     #[inline(never)]
     pub(super) fn find(&mut self, body: &Body<W>, reach: f32, time_step: &Lanes<W>) {
         self.remember();
-        let mut active = vec![[Mask::NONE; 2]; self.rows.len()];
+        self.active.fill([Mask::NONE; 2]);
         for lane in 0..W {
             let placed = Placed {
                 pose: Pose {
@@ -136,11 +149,11 @@ impl<const W: usize> UnevenContact<W> {
             self.assign_rows(lane);
             for footing in &self.footings[lane] {
                 if let Some(row) = footing.row {
-                    footing.fill(&mut self.rows[row], &mut active[row], lane, &placed);
+                    footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed);
                 }
             }
         }
-        for (rows, active) in self.rows.iter_mut().zip(active) {
+        for (rows, &active) in self.rows.iter_mut().zip(&self.active) {
             rows.begin(body, active);
         }
     }
@@ -253,18 +266,6 @@ impl Footing {
             point.friction_impulse.0[lane] = contact.data.friction;
         }
     }
-}
-
-/// The distance from a point to ground of several shapes along a ray at `angle` (rad, in the world), m; `length` if it is
-/// further.
-pub(super) fn distance_along_ray(ground: &Ground, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
-    let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
-    let distance = |shape: &GroundShape| {
-        let ledge = Ledge::new(shape);
-        let place = Pose { rotation: Rotation::IDENTITY, translation: ledge.translation() };
-        ledge.shape.cast_ray(&place, &ray, length, true)
-    };
-    ground.shapes.iter().filter_map(distance).fold(length, f32::min)
 }
 
 /// Sets a point of contact from where it is on the ground and on the part, and how far apart the surfaces are; rounded

@@ -5,7 +5,6 @@ use super::{
     mass::InverseMass,
     order::{refuse_what_lanes_cannot_do, solving_order},
     pace::Pace,
-    uneven,
 };
 use crate::{
     lanes::{Lanes, Mask},
@@ -153,10 +152,10 @@ impl<const W: usize> LaneWorld<W> {
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
     #[inline(always)]
     pub(crate) fn distance_to_ground(&self, (x, y): (Lanes<W>, Lanes<W>), angle: f32, length: f32) -> Lanes<W> {
-        if matches!(self.contacts, Contacts::Uneven(_)) {
-            let ground = &self.plan.ground;
+        if let Contacts::Uneven(contacts) = &self.contacts {
             let from = |lane: usize| [x.0[lane], y.0[lane]];
-            return Lanes(std::array::from_fn(|lane| uneven::distance_along_ray(ground, from(lane), angle, length)));
+            // They all stand on the same ground.
+            return Lanes(std::array::from_fn(|lane| contacts[0].distance_along_ray(from(lane), angle, length)));
         }
         let down = libm::sinf(angle);
         y.map(|y| {
