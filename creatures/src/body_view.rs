@@ -7,6 +7,8 @@
 pub trait BodyView {
     /// Rotation of the torso relative to the start pose, counter-clockwise, rad, in (-π, π].
     fn torso_rotation(&self) -> f32;
+    /// Angular speed of the torso, counter-clockwise, rad/s.
+    fn torso_spin(&self) -> f32;
     /// Angle of a hinge, child against parent, relative to the start pose, rad.
     fn joint_angle(&self, hinge: usize) -> f32;
     /// Speed of a hinge, child against parent, rad/s.

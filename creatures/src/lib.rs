@@ -76,7 +76,7 @@ pub use colour::Colour;
 pub use creature::{Creature, FORMAT, Joint, Motor, Part, VERSION};
 pub use error::{CreatureError, UnknownName};
 pub use look::{Decoration, Form, Look};
-pub use motors::Motors;
+pub use motors::{Actuation, Drive, Motors};
 pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::json_schema;

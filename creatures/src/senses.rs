@@ -10,6 +10,8 @@ pub const DEFAULT_INPUT_RANGE: f32 = 3.0;
 
 /// Speeds of the torso up to this are told apart, m/s.
 const TOP_TORSO_SPEED: f32 = 5.0;
+/// Spins of the torso up to this are told apart, rad/s.
+const TOP_TORSO_SPIN: f32 = 10.0;
 /// Joints are thrown about faster than their motors drive them.
 const SPEED_HEADROOM: f32 = 2.0;
 
@@ -43,6 +45,8 @@ pub struct Probe {
 pub enum Source {
     /// [`BodyView::torso_rotation`].
     TorsoRotation,
+    /// [`BodyView::torso_spin`].
+    TorsoSpin,
     /// [`BodyView::joint_angle`] of this hinge.
     JointAngle(usize),
     /// [`BodyView::joint_speed`] of this hinge.
@@ -105,6 +109,9 @@ impl Senses {
         match sensor {
             Sensor::TorsoRotation => {
                 self.push(format!("rotation of {torso}"), "rad", [-PI, PI], Source::TorsoRotation);
+            }
+            Sensor::TorsoSpin => {
+                self.push(format!("spin of {torso}"), "rad/s", [-TOP_TORSO_SPIN, TOP_TORSO_SPIN], Source::TorsoSpin);
             }
             Sensor::JointAngles => {
                 for (index, hinge) in hinges {
@@ -200,6 +207,7 @@ impl Source {
     fn read<B: BodyView + ?Sized>(self, body: &B) -> f32 {
         match self {
             Self::TorsoRotation => body.torso_rotation(),
+            Self::TorsoSpin => body.torso_spin(),
             Self::JointAngle(hinge) => body.joint_angle(hinge),
             Self::JointSpeed(hinge) => body.joint_speed(hinge),
             Self::VelocityForward => body.torso_velocity()[0],

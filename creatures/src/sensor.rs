@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 /// One kind of sense, as a creature file or a run names it.
 ///
 /// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
-/// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`.
+/// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`.
 /// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -41,11 +41,13 @@ pub enum Sensor {
         #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
         period: f32,
     },
+    /// Angular speed of the torso: one channel, rad/s, -10 to 10.
+    TorsoSpin,
 }
 
 impl Sensor {
     /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 8] = [
+    pub const NAMES: [&'static str; 9] = [
         "torso-rotation",
         "joint-angles",
         "joint-speeds",
@@ -54,6 +56,7 @@ impl Sensor {
         "foot-contacts",
         "rangefinder",
         "clock",
+        "torso-spin",
     ];
 
     /// The sensor's name as files write it.
@@ -67,6 +70,7 @@ impl Sensor {
             Self::FootContacts => Self::NAMES[5],
             Self::Rangefinder { .. } => Self::NAMES[6],
             Self::Clock { .. } => Self::NAMES[7],
+            Self::TorsoSpin => Self::NAMES[8],
         }
     }
 
@@ -91,6 +95,7 @@ mod tests {
             Sensor::FootContacts,
             Sensor::Rangefinder { angles: vec![0.0], length: 1.0 },
             Sensor::Clock { period: 1.0 },
+            Sensor::TorsoSpin,
         ];
         for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
             assert_eq!(sensor.name(), name);

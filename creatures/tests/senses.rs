@@ -5,12 +5,13 @@ mod common;
 use std::f32::consts::{FRAC_PI_2, PI};
 
 use common::small;
-use creatures::{Blueprint, BodyView, CreatureError, Motors, Senses, Sensor};
+use creatures::{Actuation, Blueprint, BodyView, CreatureError, Motors, Senses, Sensor};
 
 /// A body that tells made-up values.
 #[derive(Default)]
 struct Body {
     rotation: f32,
+    spin: f32,
     angles: [f32; 2],
     speeds: [f32; 2],
     velocity: [f32; 2],
@@ -23,6 +24,9 @@ struct Body {
 impl BodyView for Body {
     fn torso_rotation(&self) -> f32 {
         self.rotation
+    }
+    fn torso_spin(&self) -> f32 {
+        self.spin
     }
     fn joint_angle(&self, hinge: usize) -> f32 {
         self.angles[hinge]
@@ -58,6 +62,7 @@ fn all_sensors() -> Vec<Sensor> {
         Sensor::FootContacts,
         Sensor::Rangefinder { angles: vec![-30.0, 0.0], length: 4.0 },
         Sensor::Clock { period: 2.0 },
+        Sensor::TorsoSpin,
     ]
 }
 
@@ -79,7 +84,7 @@ fn read(senses: &Senses, body: &Body) -> Vec<f32> {
 fn channels_have_names_units_and_ranges() {
     let senses = senses(&all_sensors(), 3.0);
     let sixty = 60f32.to_radians();
-    let expected: [(&str, &str, [f32; 2]); 14] = [
+    let expected: [(&str, &str, [f32; 2]); 15] = [
         ("rotation of torso", "rad", [-PI, PI]),
         ("angle of left leg", "rad", [-sixty, sixty]),
         ("angle of right leg", "rad", [-sixty, sixty]),
@@ -94,6 +99,7 @@ fn channels_have_names_units_and_ranges() {
         ("distance at 0°", "m", [0.0, 4.0]),
         ("sine of 2 s clock", "", [-1.0, 1.0]),
         ("cosine of 2 s clock", "", [-1.0, 1.0]),
+        ("spin of torso", "rad/s", [-10.0, 10.0]),
     ];
     assert_eq!(senses.len(), expected.len());
     for (channel, (name, unit, range)) in senses.channels().iter().zip(expected) {
@@ -110,6 +116,7 @@ fn ends_of_the_ranges_become_the_input_range() {
             let raw = |channel: usize| senses.channels()[channel].range[end];
             let body = Body {
                 rotation: raw(0),
+                spin: raw(14),
                 angles: [raw(1), raw(2)],
                 speeds: [raw(3), raw(4)],
                 velocity: [raw(5), raw(6)],
@@ -136,7 +143,7 @@ fn ends_of_the_ranges_become_the_input_range() {
 fn the_middle_becomes_zero_and_values_beyond_are_clamped() {
     let senses = senses(&all_sensors(), 3.0);
     let middle = read(&senses, &Body { distance: 2.0, ..Body::default() });
-    for channel in (0..8).chain([10, 12]) {
+    for channel in (0..8).chain([10, 12, 14]) {
         assert_eq!(middle[channel], 0.0, "channel {channel}");
     }
     let beyond = Body { rotation: 99.0, angles: [-99.0, f32::INFINITY], height: -99.0, ..Body::default() };
@@ -157,6 +164,7 @@ fn not_a_number_stays_so() {
     let nan = f32::NAN;
     let body = Body {
         rotation: nan,
+        spin: nan,
         angles: [nan; 2],
         speeds: [nan; 2],
         velocity: [nan; 2],
@@ -171,7 +179,7 @@ fn not_a_number_stays_so() {
 
     let motors = Motors::new(&blueprint());
     let mut speeds = [0.0; 2];
-    motors.speeds(&[nan, 1.0], &mut speeds);
+    motors.speeds(&body, &[nan, 1.0], &mut speeds);
     assert!(speeds[0].is_nan());
     assert_eq!(speeds[1], 10.0);
 }
@@ -180,10 +188,28 @@ fn not_a_number_stays_so() {
 fn motors_scale_and_clamp() {
     let motors = Motors::new(&blueprint());
     let mut speeds = [0.0; 2];
-    motors.speeds(&[-0.5, 7.0], &mut speeds);
+    motors.speeds(&Body::default(), &[-0.5, 7.0], &mut speeds);
     assert_eq!(speeds, [-5.0, 10.0]);
-    motors.speeds(&[f32::NEG_INFINITY, 0.0], &mut speeds);
+    motors.speeds(&Body::default(), &[f32::NEG_INFINITY, 0.0], &mut speeds);
     assert_eq!(speeds, [-10.0, 0.0]);
+}
+
+#[test]
+fn motors_can_be_asked_for_angles() {
+    let motors = Motors::with_actuation(&blueprint(), Actuation::Angle { gain: 8.0 });
+    let sixty = 60f32.to_radians();
+    assert_eq!((motors.channels()[0].name.as_str(), motors.channels()[0].unit), ("angle of left leg", "rad"));
+    assert_eq!(motors.channels()[0].range, [-sixty, sixty]);
+    let asked = |outputs: [f32; 2], angles: [f32; 2]| {
+        let mut speeds = [0.0; 2];
+        motors.speeds(&Body { angles, ..Body::default() }, &outputs, &mut speeds);
+        speeds
+    };
+    let [near, there] = asked([0.5, 0.5], [0.5 * sixty - 0.25, 0.5 * sixty]);
+    assert!((near - 2.0).abs() < 1e-5 && there == 0.0, "{near}, {there}");
+    assert_eq!(asked([1.0, -1.0], [-1.0, 1.0]), [10.0, -10.0], "never more than the top speed");
+    assert_eq!(asked([7.0, 0.0], [sixty, 0.0]), [0.0, 0.0], "never beyond the limits");
+    assert!(asked([f32::NAN, 0.0], [0.0; 2])[0].is_nan());
 }
 
 #[test]

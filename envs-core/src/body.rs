@@ -79,6 +79,10 @@ impl<E: Engine> BodyView for Body<'_, E> {
         angle_from(self.rest.torso, direction(self.snapshot.torso()))
     }
 
+    fn torso_spin(&self) -> f32 {
+        self.snapshot.torso().spin
+    }
+
     fn joint_angle(&self, hinge: usize) -> f32 {
         let RestHinge { parent, child, angle } = self.rest.hinges[hinge];
         let parts = &self.snapshot.parts;

@@ -1,9 +1,9 @@
 use crate::{
-    Conditions, Engine, EnvironmentError, Ground, PhysicsSettings, RestPose, Settled, Variation, body::Body,
-    settled::advance,
+    Conditions, Engine, EnvironmentError, Ground, PhysicsSettings, RestPose, Settled, Variation, anatomy::body_of,
+    body::Body, settled::advance,
 };
-use creatures::{Blueprint, Motors, Senses, Sensor};
-use ne_core::{Failure, Seed};
+use creatures::{Actuation, Blueprint, Motors, Senses, Sensor};
+use ne_core::{Failure, Seed, SettingError};
 use std::sync::Arc;
 use tasks::{Environment, Snapshot};
 
@@ -26,8 +26,10 @@ pub struct ActuatedHinge {
 }
 
 /// What all copies of an environment share.
+#[derive(Clone)]
 struct Plan<E> {
     blueprint: Blueprint,
+    body: tasks::Body,
     senses: Senses,
     motors: Motors,
     settings: PhysicsSettings,
@@ -107,7 +109,53 @@ impl<E: Engine> CreatureEnvironment<E> {
         let settled = Settled::new(engine, &blueprint, &settings, &nominal)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
-        let plan = Plan { blueprint, senses, motors, settings, variation, ground, actuated, settled };
+        let plan = Plan {
+            body: body_of(&blueprint),
+            blueprint,
+            senses,
+            motors,
+            settings,
+            variation,
+            ground,
+            actuated,
+            settled,
+        };
+        Ok(Self { plan: Arc::new(plan), state })
+    }
+
+    /// The same environment, whose controller's outputs mean something else.
+    ///
+    /// # Errors
+    /// If the actuation's gain is out of range.
+    pub fn with_actuation(mut self, actuation: Actuation) -> Result<Self, EnvironmentError> {
+        if let Actuation::Angle { gain } = actuation {
+            let [low, high] = Actuation::GAINS;
+            SettingError::check_range("gain", gain.into(), low.into(), high.into())
+                .map_err(|error| error.within("actuation.angle"))?;
+        }
+        let plan = Arc::make_mut(&mut self.plan);
+        plan.motors = Motors::with_actuation(&plan.blueprint, actuation);
+        Ok(self)
+    }
+
+    /// The same environment in one world alone: every trial has these conditions, on this ground, and nothing varies.
+    /// The settings are then those of that world's trials, its time step in them.
+    ///
+    /// # Errors
+    /// If a condition is out of range, the ground is not valid, the engine cannot build it, or the creature does not
+    /// come to rest there.
+    pub fn under(&self, conditions: &Conditions, ground: Ground) -> Result<Self, EnvironmentError> {
+        conditions.validate(self.plan.motors.len()).map_err(|error| error.within("conditions"))?;
+        ground.validate().map_err(|error| error.within("ground"))?;
+        let settings = conditions.settings(&self.plan.settings);
+        settings.validate().map_err(|error| error.within("physics"))?;
+        let blueprint = &self.plan.blueprint;
+        let engine = E::new(blueprint, &settings, &ground, conditions)?;
+        let settled = Settled::new(engine, blueprint, &settings, conditions)
+            .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
+        let state = State::new(settled.clone(), self.plan.motors.len());
+        let variation = Variation::default();
+        let plan = Plan { settings, variation, ground, settled, ..(*self.plan).clone() };
         Ok(Self { plan: Arc::new(plan), state })
     }
 
@@ -182,6 +230,10 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
         self.state.time_step
     }
 
+    fn body(&self) -> Option<&tasks::Body> {
+        Some(&self.plan.body)
+    }
+
     fn reset(&mut self, seed: Seed) -> Result<(), Failure> {
         self.state = State::new(self.settled(seed)?, self.outputs());
         Ok(())
@@ -193,8 +245,8 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
     }
 
     fn act(&mut self, outputs: &[f32]) {
-        let State { engine, wanted, speeds, .. } = &mut self.state;
-        self.plan.motors.speeds(outputs, wanted);
+        let State { engine, wanted, speeds, snapshot, rest, .. } = &mut self.state;
+        self.plan.motors.speeds(&Body { engine, snapshot, rest }, outputs, wanted);
         for ((actuated, &wanted), speed) in self.plan.actuated.iter().zip(&*wanted).zip(speeds) {
             // A speed that is no number stays out of the engine; `step` reports it.
             if wanted != *speed && !wanted.is_nan() {

@@ -37,6 +37,7 @@
 //! # Ok::<(), ne_core::SettingError>(())
 //! ```
 
+mod anatomy;
 mod body;
 mod engine;
 mod environment;
@@ -46,6 +47,7 @@ mod settings;
 mod settled;
 mod variation;
 
+pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose};
 pub use engine::Engine;
 pub use environment::{ActuatedHinge, CreatureEnvironment};

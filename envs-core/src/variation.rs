@@ -45,6 +45,31 @@ impl Conditions {
         Self { friction: 1.0, mass: 1.0, torque: 1.0, time_step: 1.0, turns: vec![0.0; motors] }
     }
 
+    /// Checks that every number is finite, every factor above 0 (that on friction may be 0), and that there is a turn
+    /// for each of so many actuated joints.
+    ///
+    /// # Errors
+    /// Names the field and what it must be.
+    pub fn validate(&self, motors: usize) -> Result<(), SettingError> {
+        let factors = [("mass", self.mass), ("torque", self.torque), ("time_step", self.time_step)];
+        for (field, factor) in factors {
+            if !(factor.is_finite() && factor > 0.0) {
+                return Err(SettingError::new(field, factor, "finite and above 0"));
+            }
+        }
+        if !(self.friction.is_finite() && self.friction >= 0.0) {
+            return Err(SettingError::new("friction", self.friction, "finite and at least 0"));
+        }
+        if self.turns.len() != motors {
+            let found = format!("{} turns", self.turns.len());
+            return Err(SettingError::new("turns", found, format!("{motors}, one for each actuated joint")));
+        }
+        match self.turns.iter().find(|turn| !turn.is_finite()) {
+            Some(turn) => Err(SettingError::new("turns", turn, "finite")),
+            None => Ok(()),
+        }
+    }
+
     /// The settings of this trial: those given, with its time step.
     pub(crate) fn settings(&self, settings: &PhysicsSettings) -> PhysicsSettings {
         PhysicsSettings { time_step: settings.time_step * self.time_step, ..*settings }

@@ -33,12 +33,15 @@ impl LaneEpisode {
     /// If steps or trials are out of range.
     pub fn new(
         environment: LaneEnvironment,
-        movement: Box<dyn Movement>,
+        mut movement: Box<dyn Movement>,
         steps: u32,
         trials: Trials,
     ) -> Result<Self, SettingError> {
         SettingError::check_at_least("steps", steps as usize, 1)?;
         trials.validate().map_err(|error| error.within("trials"))?;
+        if let Some(body) = environment.body() {
+            movement.meet(body);
+        }
         Ok(Self { environment, movement, steps, trials, instructions: Instructions::best() })
     }
 

@@ -7,6 +7,7 @@ use crate::{
     senses::{Clocks, LaneSenses},
     solver::LaneWorld,
 };
+use creatures::{Actuation, Motors};
 use envs_core::{ActuatedHinge, Settled};
 use ne_core::Failure;
 use ne_net::{Network, Topology};
@@ -23,7 +24,7 @@ pub(crate) struct Herd<const W: usize> {
     world: LaneWorld<W>,
     senses: LaneSenses,
     actuated: Vec<ActuatedHinge>,
-    top_speeds: Vec<f32>,
+    motors: Motors,
     unstable_speed: f32,
     /// The nets, if they all have one topology.
     net: Option<LaneNet<W>>,
@@ -58,7 +59,7 @@ impl<const W: usize> Herd<W> {
             world,
             senses: LaneSenses::new(environment.senses(), &settled.rest),
             actuated: environment.actuated().to_vec(),
-            top_speeds: environment.motors().channels().iter().map(|channel| channel.range[1]).collect(),
+            motors: environment.motors().clone(),
             unstable_speed: environment.settings().unstable_speed,
             net: topology.and_then(LaneNet::new),
             inputs: zeros(environment.senses().len()),
@@ -191,10 +192,20 @@ impl<const W: usize> Work for Step<'_, W> {
 
     #[inline(always)]
     fn run(mut self) {
-        let Herd { world, actuated, top_speeds, outputs, power, fastest, .. } = self.0;
-        for ((actuated, output), &top) in actuated.iter().zip(outputs).zip(top_speeds.iter()) {
-            let wanted = output.clamp(-Lanes::ONE, Lanes::ONE) * Lanes::splat(top);
-            world.set_motor_speeds(actuated.hinge, wanted);
+        let Herd { world, senses, actuated, motors, outputs, power, fastest, .. } = self.0;
+        for (drive, output) in motors.drives().iter().zip(outputs) {
+            let wanted = output.clamp(-Lanes::ONE, Lanes::ONE);
+            let top = Lanes::splat(drive.top_speed);
+            let speeds = match motors.actuation() {
+                Actuation::Speed => wanted * top,
+                Actuation::Angle { gain } => {
+                    let [low, high] = drive.limits.map(Lanes::splat);
+                    let target = (wanted * Lanes::splat(drive.reach())).clamp(low, high);
+                    let lacking = target - senses.joint_angles(world, drive.hinge);
+                    (lacking * Lanes::splat(gain)).clamp(-top, top)
+                }
+            };
+            world.set_motor_speeds(drive.hinge, speeds);
         }
         world.step(self.1.as_deref_mut());
         *fastest = world.fastest();

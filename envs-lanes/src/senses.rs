@@ -37,6 +37,17 @@ impl LaneSenses {
         }
     }
 
+    /// The angle of a hinge in each lane, rad.
+    #[inline(always)]
+    pub(crate) fn joint_angles<const W: usize>(&self, world: &LaneWorld<W>, hinge: usize) -> Lanes<W> {
+        let hinge = &self.rest.hinges()[hinge];
+        let (parent, child) = (world.body(hinge.parent), world.body(hinge.child));
+        let cos = parent.cos * child.cos + parent.sin * child.sin;
+        let sin = parent.cos * child.sin - parent.sin * child.cos;
+        let (cos, sin) = turned_back(hinge.angle, cos, sin);
+        angle_of(cos, sin)
+    }
+
     #[inline(always)]
     fn measure<const W: usize>(&self, source: Source, world: &LaneWorld<W>, clocks: &Clocks<'_, W>) -> Lanes<W> {
         let torso = world.body(0);
@@ -45,14 +56,8 @@ impl LaneSenses {
                 let (cos, sin) = turned_back(self.rest.torso(), torso.cos, torso.sin);
                 angle_of(cos, sin)
             }
-            Source::JointAngle(hinge) => {
-                let hinge = &self.rest.hinges()[hinge];
-                let (parent, child) = (world.body(hinge.parent), world.body(hinge.child));
-                let cos = parent.cos * child.cos + parent.sin * child.sin;
-                let sin = parent.cos * child.sin - parent.sin * child.cos;
-                let (cos, sin) = turned_back(hinge.angle, cos, sin);
-                angle_of(cos, sin)
-            }
+            Source::TorsoSpin => torso.spin,
+            Source::JointAngle(hinge) => self.joint_angles(world, hinge),
             Source::JointSpeed(hinge) => {
                 let hinge = &self.rest.hinges()[hinge];
                 world.body(hinge.child).spin - world.body(hinge.parent).spin

@@ -5,7 +5,7 @@ use crate::{
     setup::{EpisodeParts, Setup, SetupError},
     trajectory::{TrajectoryDigest, TrajectoryDigester},
 };
-use creatures::{Channel, Creature, Sensor};
+use creatures::{Actuation, Channel, Creature, Sensor};
 use envs_rapier::{PhysicsSettings, RAPIER_VERSION, RapierEnvironment, Variation};
 use ne_core::{
     Evaluation, Fitness, Genome, Seed, Task,
@@ -35,6 +35,9 @@ pub struct Champion {
     pub sensors: Vec<Sensor>,
     /// Sensors are scaled to ± this.
     pub input_range: f32,
+    /// What outputs mean to motors.
+    #[serde(default)]
+    pub actuation: Actuation,
     /// Each input of the network, in order.
     pub inputs: Vec<ChannelRecord>,
     /// Each output of the network, in order; −1 and 1 are the ends of its range.
@@ -142,6 +145,7 @@ impl Champion {
             movement: MovementSpec { steps: Some(setup.episode.steps()), ..config.movement.clone() },
             sensors: config.sensors.clone().unwrap_or_else(|| config.creature.sensors.clone()),
             input_range: config.controller.input_range,
+            actuation: config.controller.actuation,
             inputs: setup.inputs().iter().map(Into::into).collect(),
             outputs: setup.outputs().iter().map(Into::into).collect(),
             network,
@@ -194,6 +198,7 @@ impl Champion {
             trials: self.trials,
             variation: self.variation,
             physics: self.physics,
+            actuation: self.actuation,
         }
     }
 

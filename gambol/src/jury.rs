@@ -1,7 +1,11 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, setup::Nominal};
-use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Task};
+use crate::{
+    config::EngineChoice,
+    gait::{Stage, USABLE},
+    setup::Nominal,
+};
+use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
 
@@ -11,9 +15,14 @@ pub(crate) struct NominalJury {
     task: Box<dyn Task>,
     /// Rapier, if the task is not in rapier itself.
     reference: Option<Box<dyn Task>>,
+    /// Where gaits are judged, if those of this movement are.
+    stage: Option<Stage>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
+
+/// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
+const JUDGED: usize = 4;
 
 /// The jury's task in rapier, which remembers what it played last.
 struct InRapier(Nominal);
@@ -28,15 +37,19 @@ impl Task for InRapier {
     }
 
     fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-        let net: &dyn Any = phenotype;
-        let network = net.downcast_ref::<Network>().cloned();
-        let network = network.or_else(|| net.downcast_ref::<DenseNet>().map(|net| net.clone().into()));
-        let network = network.or_else(|| net.downcast_ref::<GraphNet>().map(|net| net.clone().into()));
-        match network {
+        match network_of(phenotype) {
             Some(network) => self.0.replay(&network, seed).1,
             None => self.0.episode.evaluate(phenotype, seed),
         }
     }
+}
+
+/// The net that a controller is, if it is one.
+fn network_of(phenotype: &dyn Phenotype) -> Option<Network> {
+    let net: &dyn Any = phenotype;
+    let network = net.downcast_ref::<Network>().cloned();
+    let network = network.or_else(|| net.downcast_ref::<DenseNet>().map(|net| net.clone().into()));
+    network.or_else(|| net.downcast_ref::<GraphNet>().map(|net| net.clone().into()))
 }
 
 impl NominalJury {
@@ -46,9 +59,31 @@ impl NominalJury {
         Self {
             task: Box::new(nominal.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
+            stage: nominal.stage.clone(),
             seed: nominal.seed,
             evaluator,
         }
+    }
+
+    /// Looks, the best first, for one whose gait is usable: it gets a grade of its own. Those who would not become champion
+    /// even if theirs were are not looked at.
+    fn grades<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
+        let mut grades = vec![0; finalists.len()];
+        let Some(stage) = &self.stage else { return grades };
+        let is_usable = |finalist: &G| network_of(&finalist.express()).is_some_and(|network| stage.is_usable(&network));
+        let above = |fitness| Some(Standing { grade: USABLE, fitness }) > standing;
+        let mut able: Vec<(usize, Fitness)> = evaluations
+            .iter()
+            .enumerate()
+            .filter_map(|(index, evaluation)| Some((index, evaluation.fitness()?)))
+            .collect();
+        able.retain(|&(_, fitness)| above(fitness));
+        able.sort_by_key(|&(_, fitness)| Reverse(fitness));
+        able.truncate(JUDGED);
+        if let Some(&(usable, _)) = able.iter().find(|&&(index, _)| is_usable(&finalists[index])) {
+            grades[usable] = USABLE;
+        }
+        grades
     }
 
     /// Whether rapier finds the best of these as good as they say, if there is one that is to become champion.
@@ -57,10 +92,12 @@ impl NominalJury {
         reference: &dyn Task,
         finalists: &[G],
         evaluations: &[Evaluation],
-        standing: Option<Fitness>,
+        grades: &[u8],
+        standing: Option<Standing>,
     ) -> bool {
-        let able = (0..finalists.len()).filter(|&index| evaluations[index].fitness() > standing);
-        let Some(best) = able.min_by_key(|&index| Reverse(evaluations[index].fitness())) else { return true };
+        let place = |index: usize| Some(Standing { grade: grades[index], fitness: evaluations[index].fitness()? });
+        let able = (0..finalists.len()).filter(|&index| place(index) > standing);
+        let Some(best) = able.min_by_key(|&index| Reverse(place(index))) else { return true };
         let again = reference.evaluate(&mut finalists[best].express(), self.seed);
         let agree = again.outcome == evaluations[best].outcome;
         if !agree {
@@ -76,13 +113,16 @@ impl<G: Genome> Jury<G> for NominalJury {
         self.seed
     }
 
-    fn judge(&self, finalists: &[G], standing: Option<Fitness>) -> Judgement {
+    fn judge(&self, finalists: &[G], standing: Option<Standing>) -> Judgement {
         let evaluations = self.evaluator.evaluate(&*self.task, finalists, self.seed);
+        let grades = self.grades(finalists, &evaluations, standing);
         match &self.reference {
-            Some(reference) if !self.confirmed(&**reference, finalists, &evaluations, standing) => {
-                Judgement { evaluations: self.evaluator.evaluate(&**reference, finalists, self.seed), parted: true }
+            Some(reference) if !self.confirmed(&**reference, finalists, &evaluations, &grades, standing) => {
+                let evaluations = self.evaluator.evaluate(&**reference, finalists, self.seed);
+                let grades = self.grades(finalists, &evaluations, standing);
+                Judgement { evaluations, grades, parted: true }
             }
-            _ => Judgement { evaluations, parted: false },
+            _ => Judgement { evaluations, grades, parted: false },
         }
     }
 }
@@ -117,10 +157,11 @@ mod tests {
         let jury = NominalJury {
             task: Box::new(Fake(lanes)),
             reference: rapier.map(|rapier| Box::new(Fake(rapier)) as Box<dyn Task>),
+            stage: None,
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
-        let Judgement { evaluations, parted } = jury.judge(&Puppet::sample(0, 1, 6), None);
+        let Judgement { evaluations, parted, .. } = jury.judge(&Puppet::sample(0, 1, 6), None);
         (evaluations, parted)
     }
 

@@ -17,6 +17,7 @@
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
 //! | [`report`] | the HTML page |
+//! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
 //! | [`yardsticks`] | the strategies on classic tasks, beside published numbers |
 //! | [`source`] | finding a creature by name or path |
 //!
@@ -46,11 +47,14 @@ pub mod champion;
 pub mod compare;
 pub mod config;
 pub mod dot;
+pub mod gait;
 mod jury;
+mod limbs;
 mod lines;
 mod nominal;
 mod recorder;
 pub mod report;
+pub mod reproduce;
 pub mod run_folder;
 pub mod search;
 pub mod setup;

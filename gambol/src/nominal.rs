@@ -1,6 +1,6 @@
 //! The world of the jury.
 
-use crate::{champion, training_task::TrainingTask, trajectory::TrajectoryDigest};
+use crate::{champion, gait::Stage, training_task::TrainingTask, trajectory::TrajectoryDigest};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Seed};
 use ne_net::Network;
@@ -16,6 +16,8 @@ pub struct Nominal {
     pub episode: Episode<RapierEnvironment>,
     /// The seed of its one trial.
     pub seed: Seed,
+    /// Where gaits are judged, if those of this movement are.
+    pub stage: Option<Stage>,
     /// What was replayed last: the jury has a champion played in rapier just before its file is written.
     last: Arc<Mutex<Option<Replay>>>,
 }
@@ -28,8 +30,9 @@ struct Replay {
 }
 
 impl Nominal {
-    pub(crate) fn new(task: TrainingTask, episode: Episode<RapierEnvironment>, seed: Seed) -> Self {
-        Self { task, episode, seed, last: Arc::default() }
+    pub(crate) fn new(task: TrainingTask, episode: Episode<RapierEnvironment>, stage: Stage, seed: Seed) -> Self {
+        let stage = Some(stage).filter(|stage| stage.kind().is_some());
+        Self { task, episode, seed, stage, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.

@@ -7,7 +7,9 @@ use crate::{
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing},
     setup::Setup,
 };
-use ne_core::{Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy};
+use ne_core::{
+    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Standing, Strategy,
+};
 use ne_net::Network;
 use std::time::Instant;
 
@@ -44,9 +46,10 @@ impl EarlierLines {
         let mut best = None;
         let mut entries = 0;
         for report in &reports {
-            entries += usize::from(report.best_so_far > best);
+            let champion = report.best_so_far.map(|fitness| Standing { grade: report.grade, fitness });
+            entries += usize::from(champion > best);
             entries += usize::from(config.record.populations_at.contains(&report.generation));
-            best = report.best_so_far;
+            best = champion;
         }
         let (gallery, _) = Kept::check::<GalleryEntry>(&folder.gallery(), entries)?;
         let (timing, _) = Kept::check::<Timing>(&folder.timing(), generations)?;

@@ -2,9 +2,10 @@
 
 use crate::{
     config::{ControllerSettings, EngineChoice, FrozenTopology, RunConfig, StrategySettings},
-    suggest,
+    gait::Stage,
+    limbs, suggest,
 };
-use creatures::{Blueprint, Channel, Creature, CreatureError, Sensor};
+use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::{Seed, SettingError};
@@ -80,6 +81,8 @@ pub struct EpisodeParts<'a> {
     pub variation: Variation,
     /// The physics.
     pub physics: PhysicsSettings,
+    /// What outputs mean to motors.
+    pub actuation: Actuation,
 }
 
 impl EpisodeParts<'_> {
@@ -92,7 +95,8 @@ impl EpisodeParts<'_> {
         let steps = catalogue.steps(self.movement)?;
         let blueprint = Blueprint::new(self.creature.clone())?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let environment = RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?;
+        let environment = RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?
+            .with_actuation(self.actuation)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
 
@@ -106,6 +110,7 @@ impl EpisodeParts<'_> {
         let blueprint = Blueprint::new(self.creature.clone())?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
         let environment = LaneEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)
+            .and_then(|environment| environment.with_actuation(self.actuation))
             .map_err(SetupError::Engine)?;
         Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)
     }
@@ -148,19 +153,40 @@ impl Setup {
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
         let topology = match &config.topology {
-            None => shape.into(),
+            None => match config.controller.limbs {
+                None => shape.into(),
+                Some(phases) => {
+                    let environment = episode.environment();
+                    limbs::topology(
+                        environment.blueprint(),
+                        environment.senses(),
+                        environment.motors(),
+                        &config.controller,
+                        phases,
+                    )
+                    .into()
+                }
+            },
             Some(_) if matches!(config.strategy, StrategySettings::Neat(_)) => return Err(SetupError::Evolving),
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
         config.strategy.validate(&topology)?;
         check_size(&config.strategy, &topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
-        let nominal = match config.variation.is_none() {
+        if let Some(steps) = config.rehearsal {
+            SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
+        }
+        let nominal = match config.variation.is_none() && config.rehearsal.is_none() {
             true => None,
             false => {
                 let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
-                Some(Nominal::new(task, episode, Seed::of_run(config.seed)))
+                let stage = Stage::new(parts, catalogue)?;
+                Some(Nominal::new(task, episode, stage, Seed::of_run(config.seed)))
             }
+        };
+        let task = match config.rehearsal {
+            Some(steps) => task.shortened(steps),
+            None => task,
         };
         Ok(Self { task, episode, nominal, topology, unit })
     }
@@ -187,6 +213,7 @@ impl RunConfig {
             trials: self.trials,
             variation: self.variation,
             physics: self.physics,
+            actuation: self.controller.actuation,
         }
     }
 }

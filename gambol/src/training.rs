@@ -241,7 +241,7 @@ where
     {
         return Err(foreign("the inputs and outputs of its champion").into());
     }
-    let best = checkpoint.champion.as_ref().map(|champion| champion.fitness);
+    let best = checkpoint.champion.as_ref().map(ne_core::Champion::standing);
     if let Some(reason) = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO) {
         return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
     }

@@ -1,6 +1,6 @@
 use crate::{
     Checkpoint, Evaluation, Evaluator, Finalist, Fitness, Generation, GenerationReport, HearingReport, Hearings, Jury,
-    Observer, ObserverError, Quantiles, Seed, StopConditions, StopReason, StopSignal, Strategy, Task,
+    Observer, ObserverError, Quantiles, Seed, Standing, StopConditions, StopReason, StopSignal, Strategy, Task,
     archive::ArchiveError,
     checkpoint,
     jury::{Court, ranking},
@@ -58,6 +58,21 @@ pub struct Champion<G> {
     /// Whether the jury's two ways of evaluating [parted](crate::Judgement::parted) at its hearing.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub parted: bool,
+    /// The [grade](crate::Judgement::grades) the jury gave it; 0 without a jury.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub grade: u8,
+}
+
+impl<G> Champion<G> {
+    /// Where it stands.
+    pub fn standing(&self) -> Standing {
+        Standing { grade: self.grade, fitness: self.fitness }
+    }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_zero(grade: &u8) -> bool {
+    *grade == 0
 }
 
 /// Why a run could not go on.
@@ -127,7 +142,7 @@ impl<S: Strategy> Evolution<S> {
     ) -> Result<StopReason, EvolutionError> {
         let start = Instant::now();
         loop {
-            let best = self.champion.as_ref().map(|champion| champion.fitness);
+            let best = self.champion.as_ref().map(Champion::standing);
             if let Some(reason) = self.stop.reached(&self.progress, best, start.elapsed()) {
                 return Ok(reason);
             }
@@ -176,6 +191,7 @@ impl<S: Strategy> Evolution<S> {
             evaluations: self.progress.evaluations,
             steps: self.progress.steps,
             best_so_far: self.champion.as_ref().map(|champion| champion.fitness),
+            grade: self.champion.as_ref().map_or(0, |champion| champion.grade),
             fitness: Quantiles::of(&evaluations),
             failures: evaluations.iter().filter(|evaluation| evaluation.outcome.is_err()).count() as u64,
             population: genomes.len() as u64,
@@ -204,8 +220,8 @@ impl<S: Strategy> Evolution<S> {
 
     /// Makes the candidate champion if it beats the old one; otherwise so many more generations have passed without.
     fn crown(&mut self, candidate: Option<Champion<S::Genome>>, generations: u64) -> bool {
-        let reigning = self.champion.as_ref().map(|champion| champion.fitness);
-        let improved = candidate.as_ref().is_some_and(|candidate| Some(candidate.fitness) > reigning);
+        let reigning = self.champion.as_ref().map(Champion::standing);
+        let improved = candidate.as_ref().is_some_and(|candidate| Some(candidate.standing()) > reigning);
         if improved {
             self.champion = candidate;
             self.progress.stagnation = 0;
@@ -236,7 +252,7 @@ impl<S: Strategy> Evolution<S> {
             return (false, None);
         }
         let (report, best) =
-            court.hear(&std::mem::take(&mut self.finalists), self.champion.as_ref().map(|champion| champion.fitness));
+            court.hear(&std::mem::take(&mut self.finalists), self.champion.as_ref().map(Champion::standing));
         (self.crown(best, every), Some(report))
     }
 
@@ -250,9 +266,9 @@ impl<S: Strategy> Evolution<S> {
     pub fn champion_if_heard(&self) -> Option<Champion<S::Genome>> {
         let standing = self.champion.clone();
         let Some(court) = self.court.as_ref().filter(|_| !self.finalists.is_empty()) else { return standing };
-        let (_, best) = court.hear(&self.finalists, self.champion.as_ref().map(|champion| champion.fitness));
-        let fitness = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(|champion| champion.fitness);
-        if fitness(&best) > fitness(&standing) { best } else { standing }
+        let (_, best) = court.hear(&self.finalists, self.champion.as_ref().map(Champion::standing));
+        let place = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
+        if place(&best) > place(&standing) { best } else { standing }
     }
 
     /// Those who wait for the next hearing, in the order in which they were evaluated.
@@ -301,5 +317,13 @@ impl<S: Strategy> Generation<'_, S> {
 fn best_of<G: Clone>(genomes: &[G], evaluations: &[Evaluation], seed: Seed) -> Option<Champion<G>> {
     let &(index, fitness) = ranking(evaluations).first()?;
     let genome = genomes[index].clone();
-    Some(Champion { genome, fitness, generation: seed.generation_index(), seed, trained: None, parted: false })
+    Some(Champion {
+        genome,
+        fitness,
+        generation: seed.generation_index(),
+        seed,
+        trained: None,
+        parted: false,
+        grade: 0,
+    })
 }

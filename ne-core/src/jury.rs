@@ -1,6 +1,6 @@
 use crate::{Champion, Evaluation, Fitness, Genome, Seed, SettingError};
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeSet, fmt};
+use std::{cmp::Reverse, collections::BTreeSet, fmt};
 
 /// Judges individuals, all of them in one and the same world.
 ///
@@ -14,8 +14,17 @@ pub trait Jury<G: Genome>: Send + Sync {
     /// The seed of the jury's world: with it a champion's fitness can be had again.
     fn seed(&self) -> Seed;
 
-    /// Evaluates the finalists. Only one with a fitness above that of the `standing` champion can become champion.
-    fn judge(&self, finalists: &[G], standing: Option<Fitness>) -> Judgement;
+    /// Evaluates the finalists. Only one that stands above the `standing` champion can become champion.
+    fn judge(&self, finalists: &[G], standing: Option<Standing>) -> Judgement;
+}
+
+/// Where an individual stands before a jury: by its grade, and among those of one grade by its fitness.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Standing {
+    /// See [`Judgement::grades`].
+    pub grade: u8,
+    /// The fitness before the jury.
+    pub fitness: Fitness,
 }
 
 /// What a jury found.
@@ -23,6 +32,9 @@ pub trait Jury<G: Genome>: Send + Sync {
 pub struct Judgement {
     /// An evaluation for each finalist, in order.
     pub evaluations: Vec<Evaluation>,
+    /// For each finalist a grade, for a jury that asks for more than fitness: whoever has the higher grade stands above
+    /// all with a lower one, whatever their fitness. Empty: all have grade 0.
+    pub grades: Vec<u8>,
     /// Whether two ways of evaluating that should agree did not, for a jury that has two. The evaluations are then those
     /// of the one that is to be trusted.
     pub parted: bool,
@@ -69,7 +81,8 @@ pub struct Finalist<G> {
 pub struct HearingReport {
     /// How many were judged; an individual that was a finalist twice counts once.
     pub finalists: u64,
-    /// The highest fitness before the jury; `None` if all failed. If it is above the champion's, its owner is champion.
+    /// The fitness before the jury of the one who stood highest; `None` if all failed. If it stands above the champion, it
+    /// is champion.
     pub judged: Option<Fitness>,
     /// The fitness that the same individual had in its generation.
     pub trained: Option<Fitness>,
@@ -95,22 +108,26 @@ impl<G: Genome> Court<G> {
     pub(crate) fn hear(
         &self,
         finalists: &[Finalist<G>],
-        standing: Option<Fitness>,
+        standing: Option<Standing>,
     ) -> (HearingReport, Option<Champion<G>>) {
         let finalists = distinct(finalists);
         let genomes: Vec<G> = finalists.iter().map(|finalist| finalist.genome.clone()).collect();
-        let Judgement { evaluations, parted } = self.jury.judge(&genomes, standing);
+        let Judgement { evaluations, grades, parted } = self.jury.judge(&genomes, standing);
         if evaluations.len() != genomes.len() {
             // Nobody can say which belongs to whom.
             tracing::error!("the jury gave {} evaluations for {} finalists", evaluations.len(), genomes.len());
         }
-        let best = ranking(&evaluations).first().copied().filter(|_| evaluations.len() == genomes.len());
+        let grade_of = |index: usize| grades.get(index).copied().unwrap_or(0);
+        // Of equals the first: the ranking has them in their order, and only a higher grade comes before it.
+        let best = ranking(&evaluations).into_iter().min_by_key(|&(index, _)| Reverse(grade_of(index)));
+        let best = best.filter(|_| evaluations.len() == genomes.len());
         let champion = best.map(|(index, fitness)| Champion {
             genome: finalists[index].genome.clone(),
             fitness,
             generation: finalists[index].generation,
             seed: self.jury.seed(),
             trained: Some(finalists[index].fitness),
+            grade: grade_of(index),
             parted,
         });
         let (judged, trained) = (best.map(|(_, fitness)| fitness), champion.as_ref().and_then(|best| best.trained));

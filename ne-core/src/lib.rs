@@ -137,7 +137,7 @@ pub use evaluator::{Parallel, ThreadsError};
 #[cfg(feature = "evolution")]
 pub use evolution::{Champion, Evolution, EvolutionError, Progress};
 #[cfg(feature = "evolution")]
-pub use jury::{Finalist, HearingReport, Hearings, Judgement, Jury};
+pub use jury::{Finalist, HearingReport, Hearings, Judgement, Jury, Standing};
 #[cfg(feature = "evolution")]
 pub use observer::{Generation, Observer, ObserverError};
 #[cfg(feature = "evolution")]

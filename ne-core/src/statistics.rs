@@ -13,6 +13,9 @@ pub struct GenerationReport {
     pub steps: u64,
     /// The best fitness since the run began, with a jury the best at a hearing; `None` while there was none.
     pub best_so_far: Option<Fitness>,
+    /// The champion's [grade](crate::Judgement::grades).
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub grade: u8,
     /// The fitnesses of this generation; `None` if all failed.
     pub fitness: Option<Quantiles>,
     /// How many evaluations failed.
@@ -69,6 +72,11 @@ impl Quantiles {
         let mean = values.iter().map(|value| value / count).sum();
         Some(Self { best, mean, median: at(0.5), worst, q10: at(0.1), q25: at(0.25), q75: at(0.75), q90: at(0.9) })
     }
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
+fn is_zero(grade: &u8) -> bool {
+    *grade == 0
 }
 
 #[cfg(test)]

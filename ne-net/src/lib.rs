@@ -50,10 +50,12 @@ mod dense;
 mod graph;
 mod mathematics;
 mod network;
+mod tied;
 mod topology;
 
 pub use activation::Activation;
 pub use dense::{DenseNet, DenseNetError, DenseShape};
 pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
 pub use network::Network;
+pub use tied::{GenesError, Tie, TiedShape, Turn};
 pub use topology::{NetworkError, Topology};

@@ -1,4 +1,7 @@
-use crate::{DenseNet, DenseNetError, DenseShape, GraphNet, GraphNetError, GraphNeuron, GraphShape, Network};
+use crate::{
+    DenseNet, DenseNetError, DenseShape, GenesError, GraphNet, GraphNetError, GraphNeuron, GraphShape, Network,
+    TiedShape,
+};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 use std::{fmt, sync::Arc};
@@ -7,7 +10,7 @@ use std::{fmt, sync::Arc};
 ///
 /// The shapes are shared, so that a clone is cheap.
 ///
-/// In JSON: `{"dense": {…}}` or `{"graph": {…}}`.
+/// In JSON: `{"dense": {…}}`, `{"graph": {…}}` or `{"tied": {…}}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -16,6 +19,8 @@ pub enum Topology {
     Dense(Arc<DenseShape>),
     /// Any graph, such as one that NEAT has found.
     Graph(Arc<GraphShape>),
+    /// A graph whose weights are computed from fewer genes; its nets are graph nets.
+    Tied(Arc<TiedShape>),
 }
 
 /// Why a topology and weights are not a net.
@@ -25,6 +30,9 @@ pub enum NetworkError {
     /// Not a dense net.
     #[error(transparent)]
     Dense(#[from] DenseNetError),
+    /// Not the genes of a tied topology.
+    #[error(transparent)]
+    Tied(#[from] GenesError),
     /// Not a graph net.
     #[error(transparent)]
     Graph(#[from] GraphNetError),
@@ -36,6 +44,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.inputs,
             Self::Graph(shape) => shape.inputs,
+            Self::Tied(shape) => shape.net.inputs,
         }
     }
 
@@ -44,26 +53,31 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.outputs,
             Self::Graph(shape) => shape.outputs.len(),
+            Self::Tied(shape) => shape.net.outputs.len(),
         }
     }
 
-    /// The number of weights, biases included.
+    /// The number of weights, biases included; of a tied topology the number of its genes.
     pub fn weight_count(&self) -> usize {
         match self {
             Self::Dense(shape) => shape.weight_count(),
             Self::Graph(shape) => shape.weight_count(),
+            Self::Tied(shape) => shape.gene_count(),
         }
     }
 
-    /// For each neuron the number of its weights, in the order in which they stand.
+    /// For each neuron the number of its weights, in the order in which they stand; of a tied topology, for each group of
+    /// genes their number.
     pub fn weights_of_neurons(&self) -> impl Iterator<Item = usize> + '_ {
-        let (dense, graph) = match self {
-            Self::Dense(shape) => (Some(shape), None),
-            Self::Graph(shape) => (None, Some(shape)),
+        let (dense, graph, tied) = match self {
+            Self::Dense(shape) => (Some(shape), None, None),
+            Self::Graph(shape) => (None, Some(shape), None),
+            Self::Tied(shape) => (None, None, Some(shape)),
         };
         let dense = dense.into_iter().flat_map(|shape| shape.connections());
         let dense = dense.flat_map(|(sources, targets)| std::iter::repeat_n(sources + 1, targets));
-        dense.chain(graph.into_iter().flat_map(|shape| &shape.neurons).map(GraphNeuron::weight_count))
+        let graph = graph.into_iter().flat_map(|shape| &shape.neurons).map(GraphNeuron::weight_count);
+        dense.chain(graph).chain(tied.into_iter().flat_map(|shape| shape.groups.iter().copied()))
     }
 
     /// Checks the shape.
@@ -74,6 +88,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.validate(),
             Self::Graph(shape) => shape.validate(),
+            Self::Tied(shape) => shape.validate(),
         }
     }
 
@@ -85,6 +100,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => Ok(DenseNet::check_weights(shape, weights)?),
             Self::Graph(shape) => Ok(GraphNet::check_weights(shape, weights)?),
+            Self::Tied(shape) => Ok(shape.check_genes(weights)?),
         }
     }
 
@@ -96,6 +112,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => DenseNet::from_checked(Arc::clone(shape), weights).into(),
             Self::Graph(shape) => GraphNet::from_checked(Arc::clone(shape), weights).into(),
+            Self::Tied(shape) => GraphNet::from_checked(Arc::clone(&shape.net), &shape.weights(weights)).into(),
         }
     }
 }
@@ -103,6 +120,12 @@ impl Topology {
 impl From<DenseShape> for Topology {
     fn from(shape: DenseShape) -> Self {
         Self::Dense(shape.into())
+    }
+}
+
+impl From<TiedShape> for Topology {
+    fn from(shape: TiedShape) -> Self {
+        Self::Tied(shape.into())
     }
 }
 
@@ -117,6 +140,7 @@ impl fmt::Display for Topology {
         match self {
             Self::Dense(shape) => shape.fmt(f),
             Self::Graph(shape) => shape.fmt(f),
+            Self::Tied(shape) => shape.fmt(f),
         }
     }
 }
@@ -183,7 +207,7 @@ mod tests {
     #[test]
     fn files_are_checked_and_name_the_kinds() {
         for (text, part) in [
-            (r#"{"cloud": {}}"#, "unknown variant `cloud`, expected `dense` or `graph`"),
+            (r#"{"cloud": {}}"#, "unknown variant `cloud`, expected one of `dense`, `graph`, `tied`"),
             (r#"{"dense": {"inputs": 0, "hidden": [], "outputs": 1}}"#, "inputs = 0: must be from 1 to 4096"),
             (
                 r#"{"graph": {"inputs": 1, "recurrent": false, "neurons": [], "outputs": [1]}}"#,

@@ -1,4 +1,7 @@
-use crate::{Energy, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft};
+use crate::{
+    Energy, FallEnds, Footfalls, Headway, Idleness, Jumping, Leap, Movement, Rollovers, Running, Sum, TimeAloft,
+    Upright, Vibration,
+};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 use std::{fmt, sync::Arc};
@@ -97,6 +100,13 @@ impl Default for MovementCatalogue {
         catalogue.add::<Rollovers>(None, "how often the torso turned over; weigh it negatively");
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");
         catalogue.add::<TimeAloft>(None, "time without any part on the ground");
+        catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
+        catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 1.5 s; how many were not");
+        catalogue.add::<Headway>(None, "ends the episode when there is no headway for 1 s; 1 if there was none");
+        catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
+        catalogue
+            .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");
+        catalogue.add::<Leap>(None, "height of the torso above its start in a flight that all legs began together");
         catalogue
     }
 }

@@ -1,4 +1,4 @@
-use crate::Snapshot;
+use crate::{Body, Snapshot};
 use ne_core::{Failure, Seed};
 
 /// A body in a world, one step at a time: reset, then (sense, act, step, snapshot) again and again.
@@ -21,6 +21,11 @@ pub trait Environment: Clone + Send + Sync {
 
     /// Seconds one step takes. Only `reset` may change it: a varied trial can have steps of its own.
     fn time_step(&self) -> f32;
+
+    /// What the body is made of, for movements that want to know; `None`, the default, where there is nothing to tell.
+    fn body(&self) -> Option<&Body> {
+        None
+    }
 
     /// Puts the body in its start pose and the clock to zero. Variation between trials comes from the seed.
     ///

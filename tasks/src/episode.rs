@@ -56,9 +56,17 @@ impl<E: Environment> Episode<E> {
     ///
     /// # Errors
     /// If steps or trials are out of range.
-    pub fn new(environment: E, movement: Box<dyn Movement>, steps: u32, trials: Trials) -> Result<Self, SettingError> {
+    pub fn new(
+        environment: E,
+        mut movement: Box<dyn Movement>,
+        steps: u32,
+        trials: Trials,
+    ) -> Result<Self, SettingError> {
         SettingError::check_at_least("steps", steps as usize, 1)?;
         trials.validate().map_err(|error| error.within("trials"))?;
+        if let Some(body) = environment.body() {
+            movement.meet(body);
+        }
         Ok(Self { environment, movement, steps, trials })
     }
 

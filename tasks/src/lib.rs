@@ -11,7 +11,8 @@
 //! file and no controller, so a movement written once works for every creature in every engine, and fits on a page
 //! ([`Running`] is one). Movements add up: [`Sum`] weighs several, so a penalty is a movement too.
 //!
-//! Beside them stand the [`classic`] tasks, XOR and pole balancing, on which strategies are compared.
+//! Beside them stand the [`classic`] tasks, XOR and pole balancing, on which strategies are compared, and [`gait`], which
+//! measures what a body does in an episode, audits it for cheats and says whether it is usable.
 //!
 //! ```
 //! use ne_core::{Phenotype, Seed, Task};
@@ -30,15 +31,18 @@
 //! # let _: Box<dyn Movement> = Box::new(Retreat::default());
 //! ```
 
+mod body;
 mod catalogue;
 pub mod classic;
 pub mod conformance;
 mod environment;
 mod episode;
+pub mod gait;
 mod movement;
 mod snapshot;
 mod trials;
 
+pub use body::{Body, BodyHinge, BodyMotor, BodyPart};
 pub use catalogue::{MovementCatalogue, MovementEntry, MovementSpec, MovementSpecError, TermSpec};
 pub use classic::{
     Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings, Generalization, OutputRange, PoleFitness,
@@ -46,6 +50,9 @@ pub use classic::{
 };
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
-pub use movement::{Energy, FallEnds, Jumping, Movement, MovementClone, Rollovers, Running, Sum, TimeAloft, Verdict};
+pub use movement::{
+    Energy, FallEnds, Footfalls, Headway, Idleness, Jumping, Leap, Movement, MovementClone, Rollovers, Running, Sum,
+    TimeAloft, Upright, Verdict, Vibration,
+};
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trials};

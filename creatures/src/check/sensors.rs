@@ -34,6 +34,7 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             | Sensor::JointSpeeds
             | Sensor::TorsoVelocity
             | Sensor::TorsoHeight
+            | Sensor::TorsoSpin
             | Sensor::FootContacts => {}
         }
     }

@@ -1,6 +1,6 @@
 use crate::puppet::Puppet;
 use creatures::Blueprint;
-use envs_core::{CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Variation};
+use envs_core::{Conditions, CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Variation};
 use ne_core::Seed;
 use tasks::{Environment, conformance::check_environment};
 
@@ -90,6 +90,46 @@ fn a_varied_time_step_is_that_of_clock_and_work() {
     let top_speed = environment.blueprint().hinges()[hinge].motor.expect("it has one").top_speed;
     let expected = 10.0 * f64::from(top_speed) * f64::from(time_step);
     assert!((environment.snapshot().motor_work - expected).abs() < 1e-5 * expected);
+}
+
+#[test]
+fn a_world_given_whole_is_that_of_every_trial() {
+    let varied = varied(Variation::light());
+    let seed = Seed::of_run(2);
+    let conditions = Variation::light().draw(seed, varied.outputs());
+    let mut fixed = varied.under(&conditions, Ground::flat()).expect("settles");
+    assert_eq!(check_environment(&fixed, Seed::of_run(3)), Ok(()));
+    let trial = varied.settled(seed).expect("settles");
+    for seed in [seed, Seed::of_run(9)] {
+        fixed.reset(seed).expect("settles");
+        assert_eq!(*fixed.snapshot(), trial.snapshot);
+        assert_eq!(fixed.time_step(), trial.time_step);
+    }
+    assert_eq!(fixed.settings().time_step, trial.time_step);
+    assert!(fixed.variation().is_none());
+}
+
+#[test]
+fn a_world_that_makes_no_sense_is_refused() {
+    let environment = varied(Variation::default());
+    let nominal = Conditions::nominal(environment.outputs());
+    let refusal = |conditions: &Conditions, ground: Ground| {
+        environment.under(conditions, ground).err().expect("must be refused").to_string()
+    };
+    let refusals = [
+        (Conditions { mass: 0.0, ..nominal.clone() }, "conditions.mass = 0: must be finite and above 0"),
+        (Conditions { torque: f32::NAN, ..nominal.clone() }, "conditions.torque = NaN: must be finite and above 0"),
+        (Conditions { friction: -1.0, ..nominal.clone() }, "conditions.friction = -1: must be finite and at least 0"),
+        (Conditions { time_step: 5.0, ..nominal.clone() }, "physics.time_step = 0.1: must be from 0.001 to 0.05"),
+        (
+            Conditions { turns: vec![], ..nominal.clone() },
+            "conditions.turns = 0 turns: must be 8, one for each actuated joint",
+        ),
+    ];
+    for (conditions, says) in refusals {
+        assert_eq!(refusal(&conditions, Ground::flat()), says);
+    }
+    assert_eq!(refusal(&nominal, Ground { shapes: vec![] }), "ground.shapes = []: must be at least one shape");
 }
 
 #[test]

@@ -16,6 +16,7 @@ mod list;
 mod progress;
 mod replay;
 mod report;
+mod reproduce;
 mod resume;
 mod train;
 mod verify;
@@ -88,6 +89,8 @@ pub(crate) enum Command {
     Compare(compare::Compare),
     /// Puts the parts of a comparison together
     Merge(compare::Merge),
+    /// Does the experiments of the thesis again, and shows them beside what it reports
+    Reproduce(reproduce::Reproduce),
     /// Measures the strategies, and how long training takes
     Bench(bench::Bench),
     /// Lists the shipped creatures
@@ -109,6 +112,7 @@ impl Command {
             Self::Check(check) => check.run(),
             Self::Compare(compare) => compare.run(),
             Self::Merge(merge) => merge.run(),
+            Self::Reproduce(reproduce) => reproduce.run(),
             Self::Bench(bench) => bench.run(),
             Self::Creatures(creatures) => creatures.run(),
             Self::Movements(movements) => movements.run(),

@@ -1,5 +1,5 @@
 use super::{INTERRUPTED, Outcome, progress::Show};
-use clap::Args;
+use clap::{Args, ValueEnum};
 use gambol::{
     Setup,
     config::{Request, RunConfig},
@@ -85,6 +85,12 @@ pub(super) struct Limits {
     /// End after so many minutes
     #[arg(long)]
     minutes: Option<f64>,
+    /// End after so much wall-clock time, such as 10s, 90s, 5m or 1h, with the best usable champion so far
+    #[arg(long, value_name = "TIME", value_parser = minutes_of, conflicts_with = "minutes")]
+    budget: Option<f64>,
+    /// End as soon as the champion's gait is usable (see: gambol gait)
+    #[arg(long, value_name = "WHAT")]
+    until: Option<Until>,
     /// End when this fitness is reached
     #[arg(long, allow_hyphen_values = true)]
     target: Option<f64>,
@@ -122,9 +128,33 @@ impl Limits {
     }
 
     fn conditions(self) -> StopConditions {
-        let Self { generations, evaluations, steps, minutes, target, stagnation } = self;
-        StopConditions { generations, evaluations, steps, minutes, target, stagnation }
+        let Self { generations, evaluations, steps, target, stagnation, .. } = self;
+        let minutes = self.minutes.or(self.budget);
+        let grade = self.until.map(|Until::Usable| gambol::gait::USABLE);
+        StopConditions { generations, evaluations, steps, minutes, target, grade, stagnation }
     }
+}
+
+/// What a run can be ended by besides budgets and fitness.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Until {
+    /// The champion's gait is usable.
+    Usable,
+}
+
+/// A duration as people write it, in minutes.
+fn minutes_of(text: &str) -> Result<f64, String> {
+    let number_end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let (number, unit) = text.split_at(number_end);
+    let minutes = match unit.trim() {
+        "ms" => 1.0 / 60_000.0,
+        "s" => 1.0 / 60.0,
+        "m" | "min" => 1.0,
+        "h" => 60.0,
+        _ => return Err("must be a number and a unit: 500ms, 10s, 5m or 1h".into()),
+    };
+    let number: f64 = number.parse().map_err(|_| "must begin with a number: 10s, 5m or 1h")?;
+    if number > 0.0 { Ok(number * minutes) } else { Err("must be longer than nothing".into()) }
 }
 
 impl Train {

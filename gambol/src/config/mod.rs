@@ -1,6 +1,7 @@
 //! The configuration of a run: everything needed to repeat it.
 
 mod assembly;
+mod coaching;
 mod engine;
 mod presets;
 mod request;
@@ -12,7 +13,7 @@ pub use presets::{PRESETS, Preset, VARIATIONS, preset, variation};
 pub use request::{Request, RequestError};
 pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
 
-use creatures::{Creature, Sensor};
+use creatures::{Actuation, Creature, Sensor};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{Hearings, SettingError, StopConditions};
 use ne_net::{Activation, Topology};
@@ -39,6 +40,10 @@ pub struct RunConfig {
     pub trials: Trials,
     /// How trials differ. With any variation the champion is chosen by how it does without, in one trial.
     pub variation: Variation,
+    /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
+    /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
+    #[serde(default)]
+    pub rehearsal: Option<u32>,
     /// What steps the creatures in training.
     #[serde(default = "EngineChoice::of_old")]
     pub engine: EngineChoice,
@@ -76,6 +81,23 @@ pub struct ControllerSettings {
     pub hidden_scale: f32,
     /// Sensors are scaled to ± this.
     pub input_range: f32,
+    /// What an output means to its motor.
+    #[serde(default)]
+    pub actuation: Actuation,
+    /// A copy of one small net for each limb, with the clocks of the limbs like this; `null`: one net for the whole body,
+    /// of which every output hears every sensor.
+    #[serde(default)]
+    pub limbs: Option<LimbPhases>,
+}
+
+/// How far the clocks of limbs run ahead of each other before evolution changes it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum LimbPhases {
+    /// Half a turn between neighbours, along the body and beside each other: the start of a walk.
+    Alternating,
+    /// All alike: the start of a jump.
+    Together,
 }
 
 /// A net without its weights, such as the one of a champion that NEAT has found, and what it was made for.

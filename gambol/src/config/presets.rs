@@ -1,10 +1,10 @@
 //! Named starting points.
 
-use super::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings};
-use creatures::Creature;
+use super::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, coaching};
+use creatures::{Actuation, Creature};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::StopConditions;
-use ne_fixed::ConventionalNeSettings;
+use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
 use ne_neat::NeatSettings;
 use ne_net::Activation;
 use tasks::{MovementSpec, Trials};
@@ -19,16 +19,19 @@ pub struct Preset {
     strategy: fn() -> StrategySettings,
     activation: Activation,
     variation: fn() -> Variation,
+    /// What is added for creature and movement.
+    equip: fn(&mut RunConfig),
 }
 
 /// All presets; the first is the default.
 pub const PRESETS: &[Preset] = &[
     Preset {
         name: "default",
-        description: "conventional neuroevolution as we found it to work best",
-        strategy: || StrategySettings::Conventional(ConventionalNeSettings::default()),
+        description: "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and a coach's eye for gaits",
+        strategy: || StrategySettings::CmaEs(CmaEsSettings { population: Some(64), ..CmaEsSettings::default() }),
         activation: Activation::Tanh,
         variation: Variation::light,
+        equip: coaching::equip,
     },
     Preset {
         name: "thesis",
@@ -36,6 +39,7 @@ pub const PRESETS: &[Preset] = &[
         strategy: || StrategySettings::Conventional(ConventionalNeSettings::thesis()),
         activation: Activation::RationalTanh,
         variation: Variation::default,
+        equip: |_| {},
     },
     Preset {
         name: "stanley-2002",
@@ -46,6 +50,7 @@ pub const PRESETS: &[Preset] = &[
         },
         activation: Activation::Tanh,
         variation: Variation::default,
+        equip: |_| {},
     },
 ];
 
@@ -69,12 +74,13 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
 impl Preset {
     /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations.
     pub fn config(&self, creature: Creature, movement: &str) -> RunConfig {
-        RunConfig {
+        let mut config = RunConfig {
             preset: self.name.into(),
             seed: 1,
             movement: MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
             trials: Trials::default(),
             variation: (self.variation)(),
+            rehearsal: None,
             engine: EngineChoice::Lanes,
             strategy: (self.strategy)(),
             controller: ControllerSettings {
@@ -83,6 +89,8 @@ impl Preset {
                 output_activation: self.activation,
                 hidden_scale: 3.0,
                 input_range: creatures::DEFAULT_INPUT_RANGE,
+                actuation: Actuation::Speed,
+                limbs: None,
             },
             topology: None,
             stop: StopConditions { generations: Some(300), ..StopConditions::default() },
@@ -94,6 +102,8 @@ impl Preset {
             },
             sensors: None,
             creature,
-        }
+        };
+        (self.equip)(&mut config);
+        config
     }
 }

@@ -104,6 +104,7 @@ impl Request {
         }
         if self.unvaried {
             base.variation = Variation::default();
+            base.rehearsal = None;
         }
         let mut assembly = Assembly::new(&base);
         if let Some(Layer { path, value }) = layer {

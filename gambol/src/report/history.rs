@@ -126,6 +126,7 @@ mod tests {
             evaluations: 10,
             steps: 0,
             best_so_far: None,
+            grade: 0,
             fitness: None,
             failures: 0,
             population: 10,

@@ -33,6 +33,7 @@ mod tests {
             evaluations: 0,
             steps: 0,
             best_so_far: None,
+            grade: 0,
             fitness: None,
             failures: 0,
             population: 0,

@@ -22,6 +22,7 @@ mod program;
 mod repeating;
 mod replaying;
 mod reporting;
+mod reproduce;
 mod strategies;
 mod training;
 mod training_bench;

@@ -8,7 +8,7 @@ use crate::{
 };
 use ne_core::{
     Champion, Checkpoint, Evaluation, Evaluator, Evolution, Finalist, Fitness, HearingReport, Hearings, Judgement,
-    Jury, Parallel, Progress, Seed, Serial, StopConditions, StopReason, conformance::Puppet,
+    Jury, Parallel, Progress, Seed, Serial, Standing, StopConditions, StopReason, conformance::Puppet,
 };
 use proptest::prelude::*;
 use std::sync::{Arc, Mutex};
@@ -34,7 +34,7 @@ impl Jury<Puppet> for Known {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Puppet], _: Option<Fitness>) -> Judgement {
+    fn judge(&self, finalists: &[Puppet], _: Option<Standing>) -> Judgement {
         self.heard.lock().expect("no test panics here").push(finalists.to_vec());
         let worth = |finalist: &Puppet| {
             let lines = (1..).zip(&self.worth);
@@ -42,7 +42,7 @@ impl Jury<Puppet> for Known {
             let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *finalist);
             Evaluation::new(mine.next().map_or(FAILED, |(_, _, &worth)| worth))
         };
-        Judgement { evaluations: finalists.iter().map(worth).collect(), parted: self.parted }
+        Judgement { evaluations: finalists.iter().map(worth).collect(), grades: Vec::new(), parted: self.parted }
     }
 }
 
@@ -80,8 +80,15 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     assert_eq!(next(), (Some(4.0), None, 1, 0));
     let heard = known.heard.lock().expect("no test panics here").clone();
     assert_eq!(heard, [vec![genome(1, 1), genome(3, 1), genome(3, 2)]], "in the order of their generations and ranks");
-    let champion =
-        Champion { genome: genome(1, 1), fitness: fitness(4.0), generation: 1, seed: WORLD, trained, parted: false };
+    let champion = Champion {
+        genome: genome(1, 1),
+        fitness: fitness(4.0),
+        generation: 1,
+        seed: WORLD,
+        trained,
+        parted: false,
+        grade: 0,
+    };
     assert_eq!(evolution.champion(), Some(&champion));
     // Of the equals in training the first is finalist; worth 5, it would take over.
     let next = evolution.champion_if_heard().expect("somebody");
@@ -153,8 +160,8 @@ impl Jury<Puppet> for Asleep {
         WORLD
     }
 
-    fn judge(&self, _: &[Puppet], _: Option<Fitness>) -> Judgement {
-        Judgement { evaluations: Vec::new(), parted: false }
+    fn judge(&self, _: &[Puppet], _: Option<Standing>) -> Judgement {
+        Judgement { evaluations: Vec::new(), grades: Vec::new(), parted: false }
     }
 }
 
@@ -195,8 +202,8 @@ impl Jury<Weights> for Panel {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Weights], _: Option<Fitness>) -> Judgement {
-        Judgement { evaluations: Serial.evaluate(&TASK, finalists, WORLD), parted: false }
+    fn judge(&self, finalists: &[Weights], _: Option<Standing>) -> Judgement {
+        Judgement { evaluations: Serial.evaluate(&TASK, finalists, WORLD), grades: Vec::new(), parted: false }
     }
 }
 

@@ -9,8 +9,15 @@ fn run(stop: StopConditions) -> (StopReason, u64) {
     (reason, evolution.progress().generations)
 }
 
-const NONE: StopConditions =
-    StopConditions { generations: None, evaluations: None, steps: None, minutes: None, target: None, stagnation: None };
+const NONE: StopConditions = StopConditions {
+    generations: None,
+    evaluations: None,
+    steps: None,
+    minutes: None,
+    target: None,
+    grade: None,
+    stagnation: None,
+};
 
 #[test]
 fn each_condition_ends_the_run() {

@@ -2,18 +2,25 @@
 
 mod energy;
 mod fall_ends;
+mod footfalls;
+mod headway;
+mod idleness;
 mod jumping;
+mod leap;
 mod rollovers;
 mod running;
 mod sum;
 mod time_aloft;
+mod upright;
+mod vibration;
 
 pub use {
-    energy::Energy, fall_ends::FallEnds, jumping::Jumping, rollovers::Rollovers, running::Running, sum::Sum,
-    time_aloft::TimeAloft,
+    energy::Energy, fall_ends::FallEnds, footfalls::Footfalls, headway::Headway, idleness::Idleness, jumping::Jumping,
+    leap::Leap, rollovers::Rollovers, running::Running, sum::Sum, time_aloft::TimeAloft, upright::Upright,
+    vibration::Vibration,
 };
 
-use crate::Snapshot;
+use crate::{Body, Snapshot};
 
 /// Turns an episode into a number: the fitness, or a term of it.
 ///
@@ -34,6 +41,12 @@ pub trait Movement: MovementClone + Send + Sync {
 
     /// The unit of the value: "m", "J", "s", "1" for a count.
     fn unit(&self) -> &str;
+
+    /// Whose movement it will watch, told once and before anything else, if the environment knows. Most movements need
+    /// not know.
+    fn meet(&mut self, body: &Body) {
+        let _ = body;
+    }
 
     /// An episode begins with the body in this state.
     fn begin(&mut self, start: &Snapshot);

@@ -1,5 +1,5 @@
 use super::{Movement, Verdict};
-use crate::Snapshot;
+use crate::{Body, Snapshot};
 
 /// Several movements, weighted and added: running minus a hundredth of the energy, say.
 ///
@@ -48,6 +48,12 @@ impl Movement for Sum {
 
     fn unit(&self) -> &str {
         self.terms[0].1.unit()
+    }
+
+    fn meet(&mut self, body: &Body) {
+        for (_, movement) in &mut self.terms {
+            movement.meet(body);
+        }
     }
 
     fn begin(&mut self, start: &Snapshot) {

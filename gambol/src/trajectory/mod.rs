@@ -1,9 +1,12 @@
-//! What a champion did, step by step: recorded, digested, written as CSV.
+//! What a champion did, step by step: recorded, digested, written as CSV and read from it.
+
+mod csv;
+
+pub use csv::{CsvError, CsvTrajectory, read_csv};
 
 use ne_core::digest::Digest;
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
-use std::io::{self, Write};
 use tasks::{Moment, Snapshot, Watcher};
 
 /// A fingerprint of a trajectory that also knows, for any other trajectory, the first step at which the two differ.
@@ -81,30 +84,4 @@ impl Watcher for Recording {
             _ => {}
         }
     }
-}
-
-impl Recording {
-    /// Writes one row for each step and part, the start included:
-    /// `step,time_s,part,x_m,y_m,angle_rad,ground_contact`.
-    ///
-    /// `part` is the part's name, quoted where CSV needs it; `angle_rad` is against the world, counter-clockwise, above
-    /// −π and up to π; `ground_contact` is 1 while the part presses on the ground, else 0.
-    ///
-    /// # Errors
-    /// Whatever the writer says.
-    pub fn write_csv(&self, part_names: &[String], out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "step,time_s,part,x_m,y_m,angle_rad,ground_contact")?;
-        for (step, snapshot) in self.snapshots.iter().enumerate() {
-            for (name, part) in part_names.iter().zip(&snapshot.parts) {
-                let (time, contact) = (snapshot.time, u8::from(part.touching));
-                let name = quoted(name);
-                writeln!(out, "{step},{time},{name},{},{},{},{contact}", part.x, part.y, part.angle())?;
-            }
-        }
-        Ok(())
-    }
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }

@@ -1,0 +1,99 @@
+//! What the default preset adds to a bare search: what a coach knows of bodies that move.
+//!
+//! Each piece is a setting of the run like any other, so it can be changed or left out one by one; what each is worth is
+//! measured in `docs/ablation.md`.
+
+use super::{EngineChoice, LimbPhases, RunConfig};
+use creatures::{Actuation, Blueprint, Sensor};
+use ne_net::Activation;
+use tasks::TermSpec;
+
+/// Equips a configuration for its creature and its movement.
+pub(super) fn equip(config: &mut RunConfig) {
+    let movement = Movement::of(&config.movement.name);
+    let blueprint = Blueprint::new(config.creature.clone()).ok();
+    let legless = blueprint.as_ref().is_some_and(Blueprint::is_legless);
+    let controller = &mut config.controller;
+    controller.hidden = vec![4];
+    controller.hidden_activation = Activation::Tanh;
+    controller.output_activation = Activation::Tanh;
+    controller.hidden_scale = 1.0;
+    controller.limbs = Some(LimbPhases::Alternating);
+    controller.actuation = Actuation::Angle { gain: movement.gain() };
+    config.sensors = Some(sensors(&config.creature.sensors, movement, legless));
+    config.movement.terms = movement.terms(legless);
+    (config.movement.steps, config.rehearsal) = movement.steps().unzip();
+    // What lanes refuse is trained in rapier rather than not at all.
+    if config.creature.self_collision {
+        config.engine = EngineChoice::Rapier;
+    }
+}
+
+/// What is known of a movement.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Movement {
+    Running,
+    Jumping,
+    Other,
+}
+
+impl Movement {
+    fn of(name: &str) -> Self {
+        match name {
+            "running" => Self::Running,
+            "jumping" => Self::Jumping,
+            _ => Self::Other,
+        }
+    }
+
+    /// Of the motors' angle law, 1/s: a jump wants joints that snap, a stride ones that swing.
+    fn gain(self) -> f32 {
+        match self {
+            Self::Running | Self::Other => 10.0,
+            Self::Jumping => 40.0,
+        }
+    }
+
+    /// A stride, and a leap with its run-up, s.
+    fn period(self) -> f32 {
+        match self {
+            Self::Running | Self::Other => 0.5,
+            Self::Jumping => 1.0,
+        }
+    }
+
+    /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s and 2 s for a jump.
+    fn steps(self) -> Option<(u32, u32)> {
+        match self {
+            Self::Running => Some((1000, 500)),
+            Self::Jumping => Some((250, 100)),
+            Self::Other => None,
+        }
+    }
+
+    fn terms(self, legless: bool) -> Vec<TermSpec> {
+        let terms: &[(&str, f64)] = match self {
+            // What ends an episode is charged for by the distance it then cannot cover.
+            Self::Running if legless => &[("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
+            Self::Running => &[("upright", 0.0), ("headway", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
+            Self::Jumping => &[("leap", 2.0), ("vibration", -0.02)],
+            Self::Other => &[],
+        };
+        terms.iter().map(|&(term, weight)| TermSpec { term: term.into(), weight }).collect()
+    }
+}
+
+/// What the creature's file asks for, if it asks for anything of its own, or else what a body feels; and a clock.
+fn sensors(own: &[Sensor], movement: Movement, legless: bool) -> Vec<Sensor> {
+    let mut sensors = own.to_vec();
+    if sensors == Sensor::defaults() {
+        sensors.insert(1, Sensor::TorsoSpin);
+        if !legless {
+            sensors.push(Sensor::FootContacts);
+        }
+    }
+    if !sensors.iter().any(|sensor| matches!(sensor, Sensor::Clock { .. })) {
+        sensors.push(Sensor::Clock { period: movement.period() });
+    }
+    sensors
+}

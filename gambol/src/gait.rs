@@ -1,0 +1,93 @@
+//! The gait of a champion: measured and judged as it moves in rapier.
+
+use crate::{
+    champion::Champion,
+    setup::{EpisodeParts, SetupError},
+    trajectory::Recording,
+};
+use envs_rapier::{RapierEnvironment, Variation};
+use ne_core::Seed;
+use ne_net::Network;
+use tasks::{
+    Environment, Episode, MovementCatalogue, MovementSpec, Trials,
+    gait::{GaitReport, Kind, Trajectory},
+};
+
+/// A world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
+/// asks for. Nothing ends the episode early.
+#[derive(Clone)]
+pub struct Stage {
+    episode: Episode<RapierEnvironment>,
+    kind: Option<Kind>,
+    gravity: f32,
+}
+
+/// The [grade](ne_core::Judgement::grades) of a champion whose gait is usable; all others have 0.
+pub const USABLE: u8 = 1;
+
+/// A movement that is not judged is watched for so long, s.
+const UNJUDGED_SECONDS: f64 = 20.0;
+
+impl Stage {
+    /// The stage for a creature with its sensors, motors and physics.
+    ///
+    /// # Errors
+    /// If a field is out of range or the movement is unknown.
+    pub fn new(parts: EpisodeParts<'_>, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+        let kind = Kind::of(&parts.movement.name);
+        let seconds = kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds);
+        let steps = (seconds / f64::from(parts.physics.time_step)).round() as u32;
+        let movement = MovementSpec { name: parts.movement.name.clone(), steps: Some(steps), terms: Vec::new() };
+        let parts =
+            EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
+        let gravity = parts.physics.gravity;
+        Ok(Self { episode: parts.build(catalogue)?, kind, gravity })
+    }
+
+    /// How a gait is judged here, if it is.
+    pub fn kind(&self) -> Option<Kind> {
+        self.kind
+    }
+
+    /// What a controller does here. A body that explodes, and a controller of another shape, leave a short recording.
+    pub fn record(&self, network: &Network) -> Recording {
+        let mut recording = Recording::default();
+        // Without variation nothing comes from the seed.
+        self.episode.play(&mut network.clone(), Seed::of_run(0), &mut recording);
+        recording
+    }
+
+    /// Measures what a controller does here; `None` for one that falls silent at once: there is nothing to measure.
+    pub fn judge(&self, network: &Network) -> Option<GaitReport> {
+        let recording = self.record(network);
+        let body = self.episode.environment().body()?;
+        let trajectory = Trajectory::new(body, &recording.snapshots).ok()?.under_gravity(self.gravity);
+        Some(GaitReport::of(&trajectory, self.kind))
+    }
+
+    /// Whether a controller's gait is usable here; never for a movement that is not judged.
+    pub fn is_usable(&self, network: &Network) -> bool {
+        self.judge(network).and_then(|report| report.verdict).is_some_and(|judgement| judgement.usable)
+    }
+}
+
+/// Why a champion's gait cannot be told.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GaitOfChampionError {
+    /// Its world cannot be built.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// Its body exploded, or its controller failed, before there was anything to measure.
+    #[error("its episode breaks off before there is anything to measure")]
+    Unmeasurable,
+}
+
+/// Replays a champion in rapier, for as long as the judgement asks for, and measures its gait.
+///
+/// # Errors
+/// If a field of the champion is out of range, its movement is unknown, or there is nothing to measure.
+pub fn judge(champion: &Champion, catalogue: &MovementCatalogue) -> Result<GaitReport, GaitOfChampionError> {
+    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    stage.judge(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
+}

@@ -1,0 +1,243 @@
+//! One small net for every limb: the topology of controllers whose limbs share what they learn.
+//!
+//! A body repeats itself: ten legs are ten times the same leg. Searched for separately, ten legs must each learn to walk,
+//! and then to walk together; that is what decapods never managed. Here every limb has a copy of the same net, which
+//! sees what belongs to its limb (its joints, its foot) and what belongs to the whole body (the torso, a clock). The
+//! copies differ in two ways, each with genes of its own: the clock runs ahead by another phase in each limb, and where
+//! along the body a limb hangs shifts its thresholds.
+
+use crate::config::{ControllerSettings, LimbPhases};
+use creatures::{Blueprint, Motors, Probe, Senses, Source};
+use ne_net::{GraphNeuron, GraphShape, Tie, TiedShape, Turn};
+use std::f32::consts::PI;
+
+/// A limb: what shares a copy of the net.
+#[derive(Clone, Debug)]
+struct Limb {
+    /// Its actuated hinges, from the body outwards.
+    hinges: Vec<usize>,
+    /// Its parts.
+    parts: Vec<usize>,
+    /// Where it hangs along the body, −1 (back) to 1 (front).
+    place: f32,
+    /// Of its clock, rad, before genes.
+    phase: f32,
+    /// −1 for a joint whose child lies behind its parent, where bending up means turning the other way.
+    sign: f32,
+    /// Limbs with equally many joints share a net: which.
+    kind: usize,
+}
+
+/// What a copy of the net sees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Sight {
+    /// The sine of a clock whose cosine is the next input.
+    ClockSine,
+    ClockCosine,
+    /// Something of the whole body.
+    Whole,
+    /// The sign of a limb's joints goes with it.
+    Joint,
+    Foot,
+}
+
+/// The genes of the copies of one net, handed out in order.
+#[derive(Default)]
+struct Genes {
+    groups: Vec<usize>,
+    count: usize,
+}
+
+impl Genes {
+    /// So many new genes; the index of the first.
+    fn group(&mut self, size: usize) -> usize {
+        let first = self.count;
+        self.count += size;
+        if size > 0 {
+            self.groups.push(size);
+        }
+        first
+    }
+}
+
+/// The topology of a controller for this creature: for each limb a copy of one net.
+///
+/// The last layer sees what the hidden neurons see, and the hidden neurons.
+pub(crate) fn topology(
+    blueprint: &Blueprint,
+    senses: &Senses,
+    motors: &Motors,
+    controller: &ControllerSettings,
+    phases: LimbPhases,
+) -> TiedShape {
+    let limbs = limbs(blueprint, phases);
+    let hidden: usize = controller.hidden.iter().sum();
+    let mut genes = Genes::default();
+    let wave = genes.group(1);
+    let offsets = genes.group(limbs.len());
+    let kinds = limbs.iter().map(|limb| limb.kind).max().map_or(0, |kind| kind + 1);
+    let mut neurons = Vec::new();
+    let mut weights = Vec::new();
+    let mut output_of = vec![0; motors.len()];
+    let inputs = senses.len();
+    for kind in 0..kinds {
+        let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
+        let joints = copies[0].1.hinges.len();
+        let sights: Vec<Vec<(usize, Sight, usize)>> =
+            copies.iter().map(|(_, limb)| sees(limb, senses.probes())).collect();
+        // A copy may lack a sense that another has, but slots are the same in all of them.
+        let slots = sights.iter().flatten().map(|&(_, _, slot)| slot + 1).max().unwrap_or(0);
+        let first_hidden = genes.group(0);
+        let _ = first_hidden;
+        let hidden_genes: Vec<usize> = (0..hidden).map(|_| genes.group(2 + slots)).collect();
+        let output_genes: Vec<usize> = (0..joints).map(|_| genes.group(2 + slots + hidden)).collect();
+        for ((limb_index, limb), sights) in copies.iter().zip(&sights) {
+            let first_hidden_node = inputs + neurons.len();
+            let turn = |gene: usize| Turn {
+                genes: [gene, gene + 1],
+                factor: 1.0,
+                phase: limb.phase,
+                phase_genes: vec![(wave, PI * limb.place), (offsets + limb_index, 1.0)],
+            };
+            let mut neuron = |first: usize, hidden_sources: usize, activation, sign: f32| {
+                let mut sources: Vec<usize> = sights.iter().map(|&(input, _, _)| input).collect();
+                weights.push(Tie::Sum(vec![(first, sign), (first + 1, sign * limb.place)]));
+                for &(_, sight, slot) in sights {
+                    let gene = first + 2 + slot;
+                    let turn_of = |gene| Turn { factor: sign, ..turn(gene) };
+                    weights.push(match sight {
+                        Sight::ClockSine => Tie::Sine(turn_of(gene)),
+                        Sight::ClockCosine => Tie::Cosine(turn_of(gene - 1)),
+                        Sight::Joint => Tie::Sum(vec![(gene, sign * limb.sign)]),
+                        Sight::Whole | Sight::Foot => Tie::Sum(vec![(gene, sign)]),
+                    });
+                }
+                for index in 0..hidden_sources {
+                    sources.push(first_hidden_node + index);
+                    weights.push(Tie::Sum(vec![(first + 2 + slots + index, sign)]));
+                }
+                neurons.push(GraphNeuron { activation, bias: true, sources });
+                inputs + neurons.len() - 1
+            };
+            for &first in &hidden_genes {
+                neuron(first, 0, controller.hidden_activation, 1.0);
+            }
+            for (joint, &first) in output_genes.iter().enumerate() {
+                let node = neuron(first, hidden, controller.output_activation, limb.sign);
+                if let Some(output) = motors.drives().iter().position(|drive| drive.hinge == limb.hinges[joint]) {
+                    output_of[output] = node;
+                }
+            }
+        }
+    }
+    let net = GraphShape { inputs, recurrent: false, neurons, outputs: output_of };
+    TiedShape { net: net.into(), groups: genes.groups, weights }
+}
+
+/// The inputs a limb sees, each with its slot: the same sense has the same slot in every limb of a kind.
+fn sees(limb: &Limb, probes: &[Probe]) -> Vec<(usize, Sight, usize)> {
+    let mut seen = Vec::new();
+    let mut slot = 0;
+    let (mut angles, mut speeds, mut feet) = (None, None, None);
+    for (input, probe) in probes.iter().enumerate() {
+        let mut joint = |hinge: usize, first: &mut Option<usize>| {
+            let first = *first.get_or_insert_with(|| {
+                slot += limb.hinges.len();
+                slot - limb.hinges.len()
+            });
+            limb.hinges.iter().position(|&mine| mine == hinge).map(|index| (Sight::Joint, first + index))
+        };
+        let sight = match probe.source {
+            Source::JointAngle(hinge) => joint(hinge, &mut angles),
+            Source::JointSpeed(hinge) => joint(hinge, &mut speeds),
+            Source::Contact(part) => {
+                let first = *feet.get_or_insert_with(|| {
+                    slot += 1;
+                    slot - 1
+                });
+                limb.parts.contains(&part).then_some((Sight::Foot, first))
+            }
+            Source::ClockSine { .. } => Some((Sight::ClockSine, slot)),
+            Source::ClockCosine { .. } => Some((Sight::ClockCosine, slot)),
+            _ => Some((Sight::Whole, slot)),
+        };
+        if !matches!(probe.source, Source::JointAngle(_) | Source::JointSpeed(_) | Source::Contact(_)) {
+            slot += 1;
+        }
+        seen.extend(sight.map(|(sight, slot)| (input, sight, slot)));
+    }
+    seen
+}
+
+/// The limbs of a creature: its legs and, each alone, the actuated hinges that are in none; of a legless creature each
+/// hinge.
+fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
+    let actuated = blueprint.actuated();
+    let hinge_of = |part: usize| actuated.iter().copied().find(|&hinge| blueprint.hinges()[hinge].child == part);
+    let mut chains: Vec<Vec<usize>> = Vec::new();
+    let mut taken = vec![false; blueprint.hinges().len()];
+    if !blueprint.is_legless() {
+        for leg in blueprint.legs() {
+            let chain: Vec<usize> =
+                leg.iter().filter_map(|&part| hinge_of(part)).filter(|&hinge| !taken[hinge]).collect();
+            chain.iter().for_each(|&hinge| taken[hinge] = true);
+            if !chain.is_empty() {
+                chains.push(chain);
+            }
+        }
+    }
+    chains.extend(actuated.iter().filter(|&&hinge| !taken[hinge]).map(|&hinge| vec![hinge]));
+    let places = places(blueprint, &chains);
+    let mut kinds: Vec<usize> = Vec::new();
+    let phase_of = phases_of(&places, phases, blueprint.is_legless());
+    let limb = |(chain, (&place, phase)): (Vec<usize>, (&f32, f32))| {
+        let joints = chain.len();
+        let kind = kinds.iter().position(|&kind| kind == joints).unwrap_or_else(|| {
+            kinds.push(joints);
+            kinds.len() - 1
+        });
+        let hinge = &blueprint.hinges()[chain[0]];
+        let (parent, child) = (&blueprint.parts()[hinge.parent], &blueprint.parts()[hinge.child]);
+        let across = (child.x - parent.x).abs() > (child.y - parent.y).abs();
+        let sign = if across && child.x < parent.x { -1.0 } else { 1.0 };
+        let parts = chain.iter().map(|&hinge| blueprint.hinges()[hinge].child).collect();
+        Limb { hinges: chain, parts, place, phase, sign, kind }
+    };
+    chains.into_iter().zip(places.iter().zip(phase_of)).map(limb).collect()
+}
+
+/// Where along the body each chain's first joint is, from −1 to 1.
+fn places(blueprint: &Blueprint, chains: &[Vec<usize>]) -> Vec<f32> {
+    let [left, _, right, _] = blueprint.bounding_box();
+    let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
+    let place = |chain: &Vec<usize>| {
+        let hinge = &blueprint.hinges()[chain[0]];
+        let parent = &blueprint.parts()[hinge.parent];
+        let [x, y] = hinge.parent_anchor;
+        let anchor = parent.x + libm::cosf(parent.angle) * x - libm::sinf(parent.angle) * y;
+        (anchor - middle) / half
+    };
+    chains.iter().map(place).collect()
+}
+
+/// The phase of each limb's clock before genes, rad: neighbours along the body and beside each other are half a turn
+/// apart, or all are alike.
+fn phases_of(places: &[f32], phases: LimbPhases, legless: bool) -> Vec<f32> {
+    if phases == LimbPhases::Together || legless {
+        return vec![0.0; places.len()];
+    }
+    let mut rows: Vec<f32> = Vec::new();
+    for &place in places {
+        if !rows.iter().any(|row| (row - place).abs() < 0.01) {
+            rows.push(place);
+        }
+    }
+    rows.sort_by(f32::total_cmp);
+    let mut met = vec![0; rows.len()];
+    let phase = |&place: &f32| {
+        let row = rows.iter().position(|row| (row - place).abs() < 0.01).unwrap_or(0);
+        met[row] += 1;
+        PI * ((row + met[row] - 1) % 2) as f32
+    };
+    places.iter().map(phase).collect()
+}

@@ -1,0 +1,100 @@
+//! What a body is made of, as far as those who judge its movement need to know.
+
+/// A body as the judges of movements see it: its legs, hinges and masses, without looks, sensors or an engine.
+///
+/// Parts are told apart by their index in [`Snapshot::parts`](crate::Snapshot::parts); part 0 is the torso.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Body {
+    /// The longer side of the bounding box in the start pose, m.
+    pub body_length: f32,
+    /// Height of the torso's centre above the lowest point in the start pose, m.
+    pub start_height: f32,
+    /// What each part is like.
+    pub parts: Vec<BodyPart>,
+    /// Every hinge; hinge `i` is the same everywhere.
+    pub hinges: Vec<BodyHinge>,
+    /// The legs: the indices of their parts, from hip to foot. Only legs that move actively are listed.
+    pub legs: Vec<Vec<usize>>,
+    /// Whether it lies on the ground and crawls: its gait is told by its hinges, and not by its footfalls. The legs are
+    /// then the chains that hang on its torso.
+    pub legless: bool,
+}
+
+/// A rigid part.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyPart {
+    /// Its name.
+    pub name: String,
+    /// Mass, kg.
+    pub mass: f32,
+    /// Moment of inertia about its centre, kg·m².
+    pub inertia: f32,
+    /// The corners of its shape in its own frame, m: the shape is everything within `radius` of their convex hull.
+    pub corners: Vec<[f32; 2]>,
+    /// How far the shape reaches beyond its corners, m.
+    pub radius: f32,
+}
+
+/// A hinge between two parts.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BodyHinge {
+    /// Index of the part it hangs on.
+    pub parent: usize,
+    /// Index of the part that hangs on it.
+    pub child: usize,
+    /// Where it is in the parent's frame, m.
+    pub parent_anchor: [f32; 2],
+    /// Where it is in the child's frame, m.
+    pub child_anchor: [f32; 2],
+    /// Angle of the child against the parent when both are as the creature's file draws them, rad.
+    pub start_angle: f32,
+    /// Smallest and largest angle of the child against the parent, rad, counted from `start_angle`.
+    pub limits: [f32; 2],
+    /// The motor that the controller moves; `None` for a passive hinge.
+    pub motor: Option<BodyMotor>,
+}
+
+/// What drives a hinge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BodyMotor {
+    /// rad/s.
+    pub top_speed: f32,
+    /// N·m.
+    pub top_torque: f32,
+}
+
+impl Body {
+    /// The feet: the last part of each leg.
+    pub fn feet(&self) -> impl Iterator<Item = usize> + '_ {
+        self.legs.iter().filter_map(|leg| leg.last().copied())
+    }
+
+    /// The hinges that the controller moves.
+    pub fn actuated(&self) -> impl Iterator<Item = &BodyHinge> {
+        self.hinges.iter().filter(|hinge| hinge.motor.is_some())
+    }
+
+    /// Mass of all parts, kg.
+    pub fn mass(&self) -> f32 {
+        self.parts.iter().map(|part| part.mass).sum()
+    }
+}
+
+impl BodyHinge {
+    /// Its angle, rad, counted from the start pose, above −π and up to π.
+    pub fn angle(&self, parts: &[crate::PartState]) -> f32 {
+        let (parent, child) = (&parts[self.parent], &parts[self.child]);
+        let cos = parent.cos * child.cos + parent.sin * child.sin;
+        let sin = parent.cos * child.sin - parent.sin * child.cos;
+        let (c, s) = (libm::cosf(self.start_angle), libm::sinf(self.start_angle));
+        libm::atan2f(c * sin - s * cos, c * cos + s * sin)
+    }
+}
+
+impl BodyPart {
+    /// The height of its lowest point, m, when it is where `state` says.
+    pub fn lowest_point(&self, state: &crate::PartState) -> f32 {
+        let height = |[x, y]: &[f32; 2]| state.y + state.sin * x + state.cos * y;
+        self.corners.iter().map(height).fold(f32::INFINITY, f32::min) - self.radius
+    }
+}

@@ -1,0 +1,86 @@
+use super::Trajectory;
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+
+/// A foot that is off the ground no longer than this, in s, has not left it: pressed feet chatter for a step.
+const CHATTER: f64 = 0.03;
+
+/// A stretch of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Interval {
+    /// When it begins, s.
+    #[serde(rename = "from_s")]
+    pub from: f64,
+    /// When it ends, s.
+    #[serde(rename = "to_s")]
+    pub to: f64,
+}
+
+impl Interval {
+    /// How long it lasts, s.
+    pub fn seconds(&self) -> f64 {
+        self.to - self.from
+    }
+
+    /// The time of which these snapshots speak.
+    pub(super) fn of(trajectory: &Trajectory<'_>, snapshots: &RangeInclusive<usize>) -> Self {
+        let from = trajectory.time(snapshots.start().saturating_sub(1));
+        Self { from, to: trajectory.time(*snapshots.end()) }
+    }
+}
+
+/// The ranges of snapshots in which something holds.
+pub(super) fn ranges(holds: impl Iterator<Item = bool>) -> Vec<RangeInclusive<usize>> {
+    let mut ranges: Vec<RangeInclusive<usize>> = Vec::new();
+    for (index, _) in holds.enumerate().filter(|&(_, holds)| holds) {
+        match ranges.last_mut() {
+            Some(range) if *range.end() + 1 == index => *range = *range.start()..=index,
+            _ => ranges.push(index..=index),
+        }
+    }
+    ranges
+}
+
+/// The snapshots in which a part touches the ground, to the step.
+pub(super) fn contacts(trajectory: &Trajectory<'_>, part: usize) -> Vec<RangeInclusive<usize>> {
+    ranges(trajectory.snapshots().iter().map(|snapshot| snapshot.parts[part].touching))
+}
+
+/// The stances of a part: its contacts, with chatter joined up.
+pub(super) fn stances(trajectory: &Trajectory<'_>, part: usize) -> Vec<RangeInclusive<usize>> {
+    let mut stances: Vec<RangeInclusive<usize>> = Vec::new();
+    for contact in contacts(trajectory, part) {
+        match stances.last_mut() {
+            Some(last) if trajectory.time(contact.start() - last.end() - 1) <= CHATTER => {
+                *last = *last.start()..=*contact.end();
+            }
+            _ => stances.push(contact),
+        }
+    }
+    stances
+}
+
+/// When stances begin, s. One that the episode begins with has not begun.
+pub(super) fn touchdowns(trajectory: &Trajectory<'_>, stances: &[RangeInclusive<usize>]) -> Vec<f64> {
+    stances.iter().filter(|stance| *stance.start() > 0).map(|stance| Interval::of(trajectory, stance).from).collect()
+}
+
+/// When stances end, s. One that the episode ends with has not ended.
+pub(super) fn liftoffs(trajectory: &Trajectory<'_>, stances: &[RangeInclusive<usize>]) -> Vec<f64> {
+    stances
+        .iter()
+        .filter(|stance| *stance.end() < trajectory.steps())
+        .map(|stance| Interval::of(trajectory, stance).to)
+        .collect()
+}
+
+/// The longest time between two consecutive events, the start and the end of the episode being events too, s.
+pub(super) fn longest_gap(trajectory: &Trajectory<'_>, events: &[f64]) -> f64 {
+    let mut last = 0.0;
+    let mut longest: f64 = 0.0;
+    for &event in events.iter().chain([&trajectory.seconds()]) {
+        longest = longest.max(event - last);
+        last = event;
+    }
+    longest
+}

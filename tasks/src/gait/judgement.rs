@@ -1,0 +1,173 @@
+use super::{Flight, GaitReport, JUMPING_SECONDS, RUNNING_SECONDS, Reason, Trajectory};
+use serde::{Deserialize, Serialize};
+
+/// Clocks are f32: a limit in seconds is kept by what exceeds it by less than this.
+const CLOCK_ERROR: f64 = 1e-5;
+
+/// What a gait is judged as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Kind {
+    /// Getting ahead.
+    Running,
+    /// Getting off the ground.
+    Jumping,
+}
+
+impl Kind {
+    /// How a movement of this name is judged: `running` and `jumping` are, others are not.
+    pub fn of(movement: &str) -> Option<Self> {
+        match movement {
+            "running" => Some(Self::Running),
+            "jumping" => Some(Self::Jumping),
+            _ => None,
+        }
+    }
+
+    /// How long the episode to judge must last, s. All of a longer one is judged.
+    pub fn judged_seconds(self) -> f64 {
+        match self {
+            Self::Running => RUNNING_SECONDS,
+            Self::Jumping => JUMPING_SECONDS,
+        }
+    }
+}
+
+/// Whether a gait is usable.
+///
+/// **Running** is, if over the second half the mean forward speed is at least 0.5 body lengths/s; the torso gets ahead
+/// in each quarter of the episode and in each quarter of its second half; the torso never tilts more than 90° from its
+/// start; every leg touches down and lifts off at least once every 3 s, from the start to the end (legless, or without
+/// an actuated leg: every actuated joint moves by at least 20° in the second half); no actuated joint's dominant frequency
+/// is above 5 Hz; and no cheat is flagged.
+///
+/// **Jumping** is, if in one and the same flight every part is off the ground for at least 0.15 s; the torso rises at
+/// least 0.3 × its start height above its start; and all legs lose contact within 0.3 s before it (not asked of a legless
+/// body); and no cheat is flagged.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Judgement {
+    /// Whether nothing speaks against it.
+    pub usable: bool,
+    /// What speaks against it.
+    pub reasons: Vec<Reason>,
+    /// Index of the highest flight that makes a usable jump.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub best_flight: Option<usize>,
+}
+
+impl Judgement {
+    pub(super) fn of(kind: Kind, report: &GaitReport, trajectory: &Trajectory<'_>) -> Self {
+        let mut reasons = Vec::new();
+        // Half a step is forgiven: it may be the clock's.
+        if report.duration < kind.judged_seconds() - 0.5 * report.time_step {
+            reasons.push(Reason::TooShort { seconds: report.duration, required: kind.judged_seconds() });
+        }
+        let mut best_flight = None;
+        match kind {
+            Kind::Running => running(report, trajectory, &mut reasons),
+            Kind::Jumping => match judge_flights(report, trajectory) {
+                Ok(best) => best_flight = Some(best),
+                Err(against) => reasons.extend(against),
+            },
+        }
+        reasons.extend(report.cheats.iter().cloned().map(Reason::Cheat));
+        Self { usable: reasons.is_empty(), reasons, best_flight }
+    }
+}
+
+fn running(report: &GaitReport, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
+    const SLOWEST: f64 = 0.5;
+    const LARGEST_TILT: f64 = 90.0;
+    const HIGHEST_FREQUENCY: f64 = 5.0;
+    let speed = report.travel.second_half_relative_speed;
+    if speed < SLOWEST {
+        reasons.push(Reason::Slow { speed, required: SLOWEST });
+    }
+    let parts = [(false, &report.travel.quarters), (true, &report.travel.second_half_quarters)];
+    for (second_half, quarters) in parts {
+        for (index, &progress) in quarters.iter().enumerate().filter(|&(_, &progress)| progress <= 0.0) {
+            reasons.push(Reason::NoProgress { quarter: index + 1, second_half, progress });
+        }
+    }
+    let tilt = report.torso.largest_tilt;
+    if tilt > LARGEST_TILT {
+        reasons.push(Reason::Tilted { tilt, allowed: LARGEST_TILT, time: report.torso.largest_tilt_at });
+    }
+    if trajectory.body().legless || report.legs.is_empty() {
+        joints_used(report, reasons);
+    } else {
+        legs_used(report, reasons);
+    }
+    for joint in report.joints.iter().filter(|joint| joint.actuated && joint.dominant_frequency > HIGHEST_FREQUENCY) {
+        let (joint, frequency) = (joint.name.clone(), joint.dominant_frequency);
+        reasons.push(Reason::TooFast { joint, frequency, allowed: HIGHEST_FREQUENCY });
+    }
+}
+
+fn legs_used(report: &GaitReport, reasons: &mut Vec<Reason>) {
+    const LONGEST: f64 = 3.0;
+    for leg in &report.legs {
+        let (without_touchdown, without_liftoff) = (leg.longest_without_touchdown, leg.longest_without_liftoff);
+        if without_touchdown > LONGEST + CLOCK_ERROR {
+            let foot = leg.foot.clone();
+            reasons.push(Reason::NoTouchdown { foot, seconds: without_touchdown, allowed: LONGEST });
+        }
+        if without_liftoff > LONGEST + CLOCK_ERROR {
+            let foot = leg.foot.clone();
+            reasons.push(Reason::NoLiftoff { foot, seconds: without_liftoff, allowed: LONGEST });
+        }
+    }
+}
+
+fn joints_used(report: &GaitReport, reasons: &mut Vec<Reason>) {
+    const SMALLEST_RANGE: f64 = 20.0;
+    let mut actuated = report.joints.iter().filter(|joint| joint.actuated).peekable();
+    if actuated.peek().is_none() {
+        reasons.push(Reason::NothingActuated);
+    }
+    for joint in actuated.filter(|joint| joint.window_range < SMALLEST_RANGE) {
+        let (joint, range) = (joint.name.clone(), joint.window_range);
+        reasons.push(Reason::JointUnused { joint, range, required: SMALLEST_RANGE });
+    }
+}
+
+/// The highest flight with nothing against it, or what is against the best of them: the one with the least against it,
+/// then the highest.
+fn judge_flights(report: &GaitReport, trajectory: &Trajectory<'_>) -> Result<usize, Vec<Reason>> {
+    let judged = report.aloft.flights.iter().map(|flight| (flight, against(flight, trajectory))).enumerate();
+    let best = judged.min_by(|(_, (one, against_one)), (_, (other, against_other))| {
+        against_one.len().cmp(&against_other.len()).then(other.rise.total_cmp(&one.rise))
+    });
+    match best {
+        None => Err(vec![Reason::NeverAloft]),
+        Some((index, (_, against))) if against.is_empty() => Ok(index),
+        Some((_, (_, against))) => Err(against),
+    }
+}
+
+fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reason> {
+    const SHORTEST: f64 = 0.15;
+    const LOWEST_RISE: f64 = 0.3;
+    const WIDEST_SPREAD: f64 = 0.3;
+    let mut reasons = Vec::new();
+    let time = flight.interval.from;
+    let seconds = flight.interval.seconds();
+    if seconds < SHORTEST - CLOCK_ERROR {
+        reasons.push(Reason::ShortFlight { time, seconds, required: SHORTEST });
+    }
+    let required = LOWEST_RISE * trajectory.start_height();
+    if flight.rise < required {
+        reasons.push(Reason::LowFlight { time, rise: flight.rise, required });
+    }
+    if !trajectory.body().legless {
+        for (foot, _) in trajectory.body().feet().zip(&flight.push_offs).filter(|(_, push_off)| push_off.is_none()) {
+            let foot = trajectory.body().parts[foot].name.clone();
+            reasons.push(Reason::NoPushOff { time, foot });
+        }
+        let spread = flight.push_off_spread().filter(|&spread| spread > WIDEST_SPREAD + CLOCK_ERROR);
+        if let Some(spread) = spread {
+            reasons.push(Reason::UnevenPushOff { time, spread, allowed: WIDEST_SPREAD });
+        }
+    }
+    reasons
+}

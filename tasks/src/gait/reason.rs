@@ -1,0 +1,159 @@
+use super::Cheat;
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// What speaks against a gait, in words a user understands.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+#[allow(missing_docs, reason = "each field is named in the message; s, m, degrees, Hz and body lengths/s")]
+pub enum Reason {
+    /// The episode is shorter than the one to be judged, s.
+    TooShort { seconds: f64, required: f64 },
+    /// Too little speed over the second half, body lengths/s.
+    Slow { speed: f64, required: f64 },
+    /// No way forward in a quarter (1 to 4) of the episode or of its second half, m.
+    NoProgress { quarter: usize, second_half: bool, progress: f64 },
+    /// The torso tilts too far, degrees.
+    Tilted { tilt: f64, allowed: f64, time: f64 },
+    /// A foot does not come down for too long, s.
+    NoTouchdown { foot: String, seconds: f64, allowed: f64 },
+    /// A foot does not leave the ground for too long, s.
+    NoLiftoff { foot: String, seconds: f64, allowed: f64 },
+    /// A joint of a legless body hardly moves, degrees.
+    JointUnused { joint: String, range: f64, required: f64 },
+    /// There is nothing for a controller to move.
+    NothingActuated,
+    /// A joint swings too fast, Hz.
+    TooFast { joint: String, frequency: f64, allowed: f64 },
+    /// It never leaves the ground.
+    NeverAloft,
+    /// Its best flight is too short, s.
+    ShortFlight { time: f64, seconds: f64, required: f64 },
+    /// Its best flight is too low, m.
+    LowFlight { time: f64, rise: f64, required: f64 },
+    /// A leg has no part in its best flight.
+    NoPushOff { time: f64, foot: String },
+    /// The legs push off too far apart, s.
+    UnevenPushOff { time: f64, spread: f64, allowed: f64 },
+    /// The audit flagged a cheat.
+    Cheat(Cheat),
+}
+
+impl Reason {
+    /// What kind of reason it is, as in files: "slow", "no-touchdown"; for a cheat, which.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::TooShort { .. } => "too-short",
+            Self::Slow { .. } => "slow",
+            Self::NoProgress { .. } => "no-progress",
+            Self::Tilted { .. } => "tilted",
+            Self::NoTouchdown { .. } => "no-touchdown",
+            Self::NoLiftoff { .. } => "no-liftoff",
+            Self::JointUnused { .. } => "joint-unused",
+            Self::NothingActuated => "nothing-actuated",
+            Self::TooFast { .. } => "too-fast",
+            Self::NeverAloft => "never-aloft",
+            Self::ShortFlight { .. } => "short-flight",
+            Self::LowFlight { .. } => "low-flight",
+            Self::NoPushOff { .. } => "no-push-off",
+            Self::UnevenPushOff { .. } => "uneven-push-off",
+            Self::Cheat(cheat) => cheat.kind.name(),
+        }
+    }
+}
+
+impl fmt::Display for Reason {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::TooShort { seconds, required } => {
+                write!(f, "the episode lasted {seconds:.1} s, shorter than the {required:.0} s to be judged")
+            }
+            Self::Slow { speed, required } => {
+                write!(f, "second half: {speed:.2} body lengths/s, at least {required} required")
+            }
+            Self::NoProgress { quarter, second_half, progress } => {
+                let whole = if *second_half { "the second half" } else { "the episode" };
+                write!(f, "quarter {quarter} of {whole}: {progress:.2} m, some way forward required")
+            }
+            Self::Tilted { tilt, allowed, time } => {
+                write!(f, "torso: tilted by {tilt:.0}° at {time:.1} s, at most {allowed:.0}° allowed")
+            }
+            Self::NoTouchdown { foot, seconds, allowed } => {
+                write!(f, "{foot}: no touchdown for {seconds:.1} s, at most {allowed:.0} s allowed")
+            }
+            Self::NoLiftoff { foot, seconds, allowed } => {
+                write!(f, "{foot}: did not leave the ground for {seconds:.1} s, at most {allowed:.0} s allowed")
+            }
+            Self::JointUnused { joint, range, required } => {
+                write!(
+                    f,
+                    "{joint}: its joint moves by {range:.0}° in the second half, at least {required:.0}° required"
+                )
+            }
+            Self::NothingActuated => write!(f, "the body has no motor that a controller moves"),
+            Self::TooFast { joint, frequency, allowed } => {
+                write!(f, "{joint}: its joint swings at {frequency:.1} Hz, at most {allowed:.0} Hz allowed")
+            }
+            Self::NeverAloft => write!(f, "some part always touched the ground"),
+            Self::ShortFlight { time, seconds, required } => {
+                write!(f, "jump at {time:.1} s: {seconds:.2} s off the ground, at least {required} s required")
+            }
+            Self::LowFlight { time, rise, required } => {
+                write!(f, "jump at {time:.1} s: torso rose {rise:.2} m, at least {required:.2} m required")
+            }
+            Self::NoPushOff { time, foot } => write!(f, "jump at {time:.1} s: {foot} did not push off"),
+            Self::UnevenPushOff { time, spread, allowed } => {
+                write!(f, "jump at {time:.1} s: the legs pushed off {spread:.2} s apart, at most {allowed} s allowed")
+            }
+            Self::Cheat(cheat) => write!(f, "{cheat}"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gait::CheatKind;
+
+    #[test]
+    fn names_are_those_of_files() {
+        let foot = || "foot".to_owned();
+        let reasons = [
+            Reason::TooShort { seconds: 1.0, required: 2.0 },
+            Reason::Slow { speed: 0.0, required: 1.0 },
+            Reason::NoProgress { quarter: 1, second_half: false, progress: 0.0 },
+            Reason::Tilted { tilt: 91.0, allowed: 90.0, time: 0.0 },
+            Reason::NoTouchdown { foot: foot(), seconds: 4.0, allowed: 3.0 },
+            Reason::NoLiftoff { foot: foot(), seconds: 4.0, allowed: 3.0 },
+            Reason::JointUnused { joint: foot(), range: 0.0, required: 1.0 },
+            Reason::NothingActuated,
+            Reason::TooFast { joint: foot(), frequency: 6.0, allowed: 5.0 },
+            Reason::NeverAloft,
+            Reason::ShortFlight { time: 0.0, seconds: 0.0, required: 1.0 },
+            Reason::LowFlight { time: 0.0, rise: 0.0, required: 1.0 },
+            Reason::NoPushOff { time: 0.0, foot: foot() },
+            Reason::UnevenPushOff { time: 0.0, spread: 1.0, allowed: 0.3 },
+        ];
+        for reason in reasons {
+            let written = serde_json::to_value(&reason).expect("plain data");
+            let tag = written.as_str().or_else(|| written.as_object()?.keys().next().map(String::as_str));
+            assert_eq!(tag, Some(reason.name()));
+        }
+        for kind in [
+            CheatKind::JointSeparation,
+            CheatKind::LimitViolation,
+            CheatKind::SpeedCap,
+            CheatKind::SpinCap,
+            CheatKind::EnergyFromNowhere,
+            CheatKind::Tunnelling,
+            CheatKind::Vibration,
+            CheatKind::Chatter,
+            CheatKind::FrictionRatchet,
+            CheatKind::Fall,
+            CheatKind::Toppling,
+            CheatKind::BallisticLimb,
+        ] {
+            assert_eq!(serde_json::to_value(kind).expect("plain data"), kind.name());
+        }
+    }
+}

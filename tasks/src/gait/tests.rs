@@ -1,0 +1,308 @@
+//! Scripted gaits with known answers, and trajectories of any kind.
+
+use super::{
+    CheatKind, GaitError, GaitReport, Kind, Reason, Trajectory,
+    synthetic::{Pose, STANCE, STRIDE, TIME_STEP, body, film},
+};
+use crate::{Body, PartState, Snapshot};
+use proptest::prelude::*;
+use std::f64::consts::{PI, TAU};
+
+fn report(seconds: f64, kind: Kind, script: impl Fn(usize) -> Pose) -> GaitReport {
+    GaitReport::measure(&body(), &film(seconds, script), Some(kind)).expect("a script can be measured")
+}
+
+fn reasons(report: &GaitReport) -> Vec<String> {
+    report.verdict.iter().flat_map(|verdict| &verdict.reasons).map(ToString::to_string).collect()
+}
+
+fn near(found: f64, expected: f64, tolerance: f64) {
+    assert!((found - expected).abs() <= tolerance, "found {found}, expected {expected}");
+}
+
+#[test]
+fn a_walker_is_measured_and_usable() {
+    let report = report(20.0, Kind::Running, Pose::walking);
+    assert_eq!(reasons(&report), Vec::<String>::new());
+    assert!(report.verdict.as_ref().is_some_and(|verdict| verdict.usable));
+    near(report.travel.distance, 20.0, 1e-5);
+    near(report.travel.speed, 1.0, 1e-6);
+    near(report.travel.second_half_relative_speed, 1.0, 1e-6);
+    report.travel.quarters.iter().for_each(|&progress| near(progress, 5.0, 1e-5));
+    // 60 W at 1 m/s and 12 kg.
+    near(report.travel.cost_of_transport.expect("work is known"), 60.0 / (12.0 * 9.81), 1e-5);
+    near(report.torso.largest_tilt, 0.0, 1e-9);
+    for leg in &report.legs {
+        near(leg.duty_factor, STANCE as f64 / STRIDE as f64, 0.01);
+        near(leg.longest_without_touchdown, STRIDE as f64 * TIME_STEP, 1e-6);
+        near(leg.joints[0].range, 1.0, 0.01);
+        assert!((39..=40).contains(&leg.footfalls), "{}", leg.footfalls);
+        near(leg.stances[1].seconds(), STANCE as f64 * TIME_STEP, 1e-6);
+    }
+    for joint in &report.joints {
+        near(joint.dominant_frequency, 2.0, 0.01);
+        near(joint.reversals, 4.0, 0.11);
+        near(joint.range, 1.0_f64.to_degrees(), 0.5);
+    }
+    near(report.rhythm.stride_time.expect("a rhythm"), 0.5, 1e-6);
+    assert!(report.rhythm.strength > 0.99);
+    near(report.rhythm.strides, 20.0, 1e-6);
+    near(report.rhythm.progress_per_stride.expect("a rhythm"), 0.5, 1e-6);
+}
+
+#[test]
+fn a_jumper_is_measured_and_usable() {
+    let report = report(5.0, Kind::Jumping, Pose::jumping);
+    assert_eq!(reasons(&report), Vec::<String>::new());
+    let flight = report.best_flight().expect("a flight");
+    near(flight.interval.from, 1.0, 1e-6);
+    near(flight.interval.seconds(), 0.6, 0.02);
+    near(flight.rise, 9.0 / (2.0 * 9.81), 1e-3);
+    assert_eq!(flight.push_off_spread(), Some(0.0));
+    near(report.aloft.share, flight.interval.seconds() / 5.0, 1e-9);
+}
+
+#[test]
+fn legs_that_push_off_far_apart_do_not_jump_together() {
+    let late = |step: usize| {
+        let mut pose = Pose::jumping(step);
+        pose.touching[1] &= step < 30;
+        pose
+    };
+    let report = report(5.0, Kind::Jumping, late);
+    assert_eq!(reasons(&report), ["jump at 1.0 s: the legs pushed off 0.42 s apart, at most 0.3 s allowed"]);
+}
+
+#[test]
+fn a_hop_in_one_flight_and_height_in_another_are_no_jump() {
+    // High with the feet down, then off the ground without height.
+    let script = |step: usize| {
+        let mut pose = Pose::jumping(step);
+        let hop = (150..170).contains(&step);
+        pose.touching = [false, !hop, !hop];
+        pose
+    };
+    let report = report(5.0, Kind::Jumping, script);
+    assert_eq!(reasons(&report), ["jump at 3.0 s: torso rose 0.00 m, at least 0.24 m required"]);
+}
+
+#[test]
+fn one_who_stays_on_the_ground_does_not_jump() {
+    let report = report(5.0, Kind::Jumping, |_| Pose::standing());
+    assert_eq!(reasons(&report), ["some part always touched the ground"]);
+}
+
+#[test]
+fn a_leg_that_never_comes_down_is_named() {
+    let hopping = |step: usize| {
+        let mut pose = Pose::walking(step);
+        pose.touching[1] &= step < 740;
+        pose
+    };
+    let report = report(20.0, Kind::Running, hopping);
+    let expected = [
+        "left leg: no touchdown for 5.5 s, at most 3 s allowed",
+        "left leg: did not leave the ground for 5.2 s, at most 3 s allowed",
+    ];
+    assert_eq!(reasons(&report), expected);
+}
+
+#[test]
+fn a_dragged_foot_that_chatters_does_not_walk() {
+    let dragging = |step: usize| {
+        let mut pose = Pose::walking(step);
+        pose.touching[1] = !step.is_multiple_of(10);
+        pose
+    };
+    let report = report(20.0, Kind::Running, dragging);
+    assert!(reasons(&report).iter().any(|reason| reason.starts_with("left leg: no touchdown for")));
+}
+
+#[test]
+fn tilt_counts_whole_turns() {
+    let somersaults = |step: usize| Pose { tilt: -TAU * step as f64 / 500.0, ..Pose::walking(step) };
+    let report = report(20.0, Kind::Running, somersaults);
+    near(report.torso.largest_tilt, 720.0, 1e-3);
+    near(report.torso.rollovers, 2.0, 0.0);
+    assert!(reasons(&report).contains(&"torso: tilted by 720° at 20.0 s, at most 90° allowed".to_string()));
+}
+
+#[test]
+fn a_pause_of_a_quarter_is_no_running() {
+    let pausing = |step: usize| Pose { x: 0.02 * step.min(500).max(step.max(750) - 250) as f64, ..Pose::walking(step) };
+    let reasons = reasons(&report(20.0, Kind::Running, pausing));
+    assert!(
+        reasons.contains(&"quarter 3 of the episode: 0.00 m, some way forward required".to_string()),
+        "{reasons:?}"
+    );
+}
+
+#[test]
+fn short_and_slow_is_said() {
+    let slow = |step: usize| Pose { x: 0.004 * step as f64, ..Pose::walking(step) };
+    let expected = [
+        "the episode lasted 10.0 s, shorter than the 20 s to be judged",
+        "second half: 0.20 body lengths/s, at least 0.5 required",
+    ];
+    assert_eq!(reasons(&report(10.0, Kind::Running, slow)), expected);
+}
+
+#[test]
+fn a_fast_joint_is_not_usable() {
+    let buzzing = |step: usize| {
+        let swing = 0.1 * libm::sin(TAU * 6.0 * step as f64 * TIME_STEP);
+        Pose { hips: [swing, Pose::walking(step).hips[1]], ..Pose::walking(step) }
+    };
+    let report = report(20.0, Kind::Running, buzzing);
+    assert_eq!(reasons(&report), ["left leg: its joint swings at 6.0 Hz, at most 5 Hz allowed"]);
+}
+
+#[test]
+fn a_legless_body_must_move_every_joint() {
+    let body = Body { legless: true, ..body() };
+    let lazy = film(20.0, |step| Pose { hips: [Pose::walking(step).hips[0], 0.0], ..Pose::walking(step) });
+    let report = GaitReport::measure(&body, &lazy, Some(Kind::Running)).expect("a script can be measured");
+    assert_eq!(reasons(&report), ["right leg: its joint moves by 0° in the second half, at least 20° required"]);
+}
+
+#[test]
+fn a_standing_foot_that_is_dragged_slips_and_one_that_turns_on_its_toe_does_not() {
+    let dragged = film(1.0, |step| Pose { x: 0.02 * step as f64, ..Pose::standing() });
+    let report = GaitReport::measure(&body(), &dragged, None).expect("a script can be measured");
+    near(report.legs[0].slip, 1.0, 1e-4);
+    near(report.legs[0].slip_per_distance.expect("a distance"), 1.0, 1e-4);
+
+    let mut wheel = body();
+    wheel.parts[0] = crate::BodyPart { corners: vec![[0.0, 0.0]], radius: 0.5, ..wheel.parts[0].clone() };
+    wheel.legs = vec![vec![0]];
+    let rolling = film(1.0, |step| {
+        let x = 0.02 * step as f64;
+        Pose { x, y: 0.5, tilt: -x / 0.5, touching: [true, false, false], ..Pose::standing() }
+    });
+    let report = GaitReport::measure(&wheel, &rolling, None).expect("a script can be measured");
+    near(report.legs[0].slip, 0.0, 1e-5);
+}
+
+#[test]
+fn positions_alone_give_no_cost() {
+    let walk = film(20.0, Pose::walking);
+    let body = body();
+    let trajectory = Trajectory::from_positions(&body, &walk).expect("positions");
+    let report = GaitReport::of(&trajectory, Some(Kind::Running));
+    assert_eq!(report.travel.cost_of_transport, None);
+    assert!(report.verdict.is_some_and(|verdict| verdict.usable));
+}
+
+#[test]
+fn a_cheat_speaks_against_a_gait() {
+    let torn = |step: usize| Pose { gap: if step > 500 { 0.2 } else { 0.0 }, ..Pose::walking(step) };
+    let report = report(20.0, Kind::Running, torn);
+    let cheats: Vec<_> = report.cheats.iter().map(|cheat| cheat.kind).collect();
+    assert_eq!(cheats, [CheatKind::JointSeparation]);
+    assert!(report.verdict.is_some_and(|verdict| matches!(&verdict.reasons[..], [Reason::Cheat(_)])));
+}
+
+#[test]
+fn a_report_survives_a_file() {
+    let report = report(5.0, Kind::Jumping, Pose::jumping);
+    let text = serde_json::to_string(&report).expect("it can be written");
+    assert!(text.contains("\"distance_m\"") && text.contains("\"dominant_frequency_hz\""), "{text}");
+    assert_eq!(serde_json::from_str::<GaitReport>(&text).expect("it can be read"), report);
+}
+
+#[test]
+fn names_of_movements_tell_the_kind() {
+    assert_eq!(Kind::of("running"), Some(Kind::Running));
+    assert_eq!(Kind::of("jumping"), Some(Kind::Jumping));
+    assert_eq!(Kind::of("time-aloft"), None);
+}
+
+#[test]
+fn what_is_no_trajectory_is_refused() {
+    let refused = |body: &Body, snapshots: &[Snapshot]| {
+        GaitReport::measure(body, snapshots, None).expect_err("it is refused").to_string()
+    };
+    let walk = film(1.0, Pose::walking);
+    let changed = |change: fn(&mut Snapshot)| {
+        let mut walk = walk.clone();
+        change(&mut walk[7]);
+        walk
+    };
+    assert_eq!(refused(&body(), &walk[..1]), "a gait needs at least 2 snapshots, there are 1");
+    let fewer = changed(|snapshot| snapshot.parts.truncate(2));
+    assert_eq!(refused(&body(), &fewer), "snapshot 7 has 2 parts, the body has 3");
+    let unreal = changed(|snapshot| snapshot.parts[1].vy = f32::NAN);
+    assert_eq!(refused(&body(), &unreal), "snapshot 7: place or speed of left leg is not a finite number");
+    let unreal = changed(|snapshot| snapshot.motor_work = f64::INFINITY);
+    assert_eq!(refused(&body(), &unreal), "snapshot 7: the motors' work is not a finite number");
+    let uneven = changed(|snapshot| snapshot.time += 0.01);
+    assert!(matches!(GaitReport::measure(&body(), &uneven, None), Err(GaitError::Clock { snapshot: 7, .. })));
+    let footless = Body { legs: vec![vec![]], ..body() };
+    assert_eq!(refused(&footless, &walk), "the body's legs must be made of parts that exist");
+}
+
+/// Every number in a report.
+fn all_finite(value: &serde_json::Value) -> bool {
+    // JSON has no infinity: serde writes null, which an `Option` writes too; those are looked at by reading it back.
+    match value {
+        serde_json::Value::Number(number) => number.as_f64().is_some_and(f64::is_finite),
+        serde_json::Value::Array(values) => values.iter().all(all_finite),
+        serde_json::Value::Object(fields) => fields.values().all(all_finite),
+        _ => true,
+    }
+}
+
+fn number() -> impl Strategy<Value = f32> {
+    prop_oneof![4 => -2.0f32..2.0, 1 => -1e3f32..1e3, 1 => -1e30f32..1e30, 1 => Just(0.0f32), 1 => Just(f32::MAX)]
+}
+
+fn state() -> impl Strategy<Value = PartState> {
+    let turn = prop_oneof![4 => -PI..PI, 1 => Just(0.0)];
+    (number(), number(), turn, number(), number(), number(), any::<bool>()).prop_map(
+        |(x, y, angle, vx, vy, spin, touching)| {
+            let (cos, sin) = (libm::cos(angle) as f32, libm::sin(angle) as f32);
+            PartState { x, y, cos, sin, vx, vy, spin, touching }
+        },
+    )
+}
+
+fn trajectory() -> impl Strategy<Value = Vec<Snapshot>> {
+    let parts = prop::collection::vec(state(), 3);
+    let snapshots = prop::collection::vec((parts, -1e9f64..1e9), 2..40);
+    (snapshots, 0.001f64..0.05, any::<bool>()).prop_map(|(snapshots, time_step, constant)| {
+        let first = snapshots[0].clone();
+        let still = |(parts, motor_work)| if constant { first.clone() } else { (parts, motor_work) };
+        let snapshot =
+            |(step, (parts, motor_work))| Snapshot { time: (step as f64 * time_step) as f32, parts, motor_work };
+        snapshots.into_iter().map(still).enumerate().map(snapshot).collect()
+    })
+}
+
+proptest! {
+    #[test]
+    fn any_finite_trajectory_gives_finite_numbers(snapshots in trajectory(), legless: bool, kind in 0..3) {
+        let body = Body { legless, ..body() };
+        let kind = [Some(Kind::Running), Some(Kind::Jumping), None][kind as usize];
+        let report = GaitReport::measure(&body, &snapshots, kind).expect("it can be measured");
+        let json = serde_json::to_value(&report).expect("it can be written");
+        prop_assert!(all_finite(&json));
+        let back: GaitReport = serde_json::from_value(json).expect("no number is null");
+        prop_assert_eq!(back, report);
+        if let Ok(trajectory) = Trajectory::from_positions(&body, &snapshots) {
+            let report = GaitReport::of(&trajectory, kind);
+            let json = serde_json::to_value(&report).expect("it can be written");
+            let back: GaitReport = serde_json::from_value(json).expect("no number is null");
+            prop_assert_eq!(back, report);
+        }
+    }
+
+    #[test]
+    fn a_number_that_is_not_finite_is_refused(mut snapshots in trajectory(), place in 0..1000usize, field in 0..7) {
+        let snapshot = place % snapshots.len();
+        let part = &mut snapshots[snapshot].parts[place % 3];
+        let PartState { x, y, cos, sin, vx, vy, spin, .. } = part;
+        *[x, y, cos, sin, vx, vy, spin][field as usize] = f32::NAN;
+        let error = GaitReport::measure(&body(), &snapshots, None);
+        prop_assert!(matches!(error, Err(GaitError::NotFinite { .. })), "{:?}", error);
+    }
+}

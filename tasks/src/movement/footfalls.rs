@@ -1,0 +1,83 @@
+use super::{Movement, Verdict};
+use crate::{Body, Snapshot};
+
+/// Ends the episode when a leg is not used: when its foot has not come down, or has not left the ground, for 1.5 s. Its
+/// value is the number of legs that had stopped.
+///
+/// A foot counts as off the ground once it has been 1 cm above the lowest it ever was in this stance, so that a foot
+/// that shivers or drags does not count as stepping. Creatures without legs are left alone.
+#[derive(Clone, Debug, Default)]
+pub struct Footfalls {
+    legs: Vec<Leg>,
+    time: f32,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Leg {
+    foot: usize,
+    corners: Vec<[f32; 2]>,
+    radius: f32,
+    down: bool,
+    last_down: f32,
+    last_up: f32,
+}
+
+/// s.
+const PATIENCE: f32 = 1.5;
+/// m.
+const CLEARANCE: f32 = 0.01;
+
+impl Movement for Footfalls {
+    fn name(&self) -> &str {
+        "footfalls"
+    }
+
+    fn unit(&self) -> &str {
+        "1"
+    }
+
+    fn meet(&mut self, body: &Body) {
+        let leg = |foot: usize| Leg {
+            foot,
+            corners: body.parts[foot].corners.clone(),
+            radius: body.parts[foot].radius,
+            ..Leg::default()
+        };
+        self.legs = if body.legless { Vec::new() } else { body.feet().map(leg).collect() };
+    }
+
+    fn begin(&mut self, start: &Snapshot) {
+        self.time = start.time;
+        for leg in &mut self.legs {
+            leg.down = start.parts[leg.foot].touching;
+            (leg.last_down, leg.last_up) = (start.time, start.time);
+        }
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        self.time = now.time;
+        let mut verdict = Verdict::GoOn;
+        for leg in &mut self.legs {
+            let part = &now.parts[leg.foot];
+            if part.touching && !leg.down {
+                leg.down = true;
+                leg.last_down = now.time;
+            } else if !part.touching && leg.down {
+                let height = |[x, y]: &[f32; 2]| part.y + part.sin * x + part.cos * y;
+                let lowest = leg.corners.iter().map(height).fold(f32::INFINITY, f32::min) - leg.radius;
+                if lowest > CLEARANCE {
+                    leg.down = false;
+                    leg.last_up = now.time;
+                }
+            }
+            if now.time - leg.last_down.min(leg.last_up) > PATIENCE {
+                verdict = Verdict::End;
+            }
+        }
+        verdict
+    }
+
+    fn value(&self) -> f64 {
+        self.legs.iter().filter(|leg| self.time - leg.last_down.min(leg.last_up) > PATIENCE).count() as f64
+    }
+}

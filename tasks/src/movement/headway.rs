@@ -1,0 +1,51 @@
+use super::{Movement, Verdict};
+use crate::{Body, Snapshot};
+
+/// Ends the episode when there is no headway: less than 0.2 body lengths a second forwards over 1 s, at any time after
+/// the first second. Its value is 1 if that happened and 0 if not.
+///
+/// Standing safely on the spot is where searches for running get stuck; with this it lasts a second and earns nothing.
+#[derive(Clone, Debug, Default)]
+pub struct Headway {
+    least: f32,
+    /// Where the torso was at the beginning of this second.
+    x: f32,
+    since: f32,
+    stuck: bool,
+}
+
+/// Body lengths a second.
+const LEAST_SPEED: f32 = 0.2;
+/// s.
+const PERIOD: f32 = 1.0;
+
+impl Movement for Headway {
+    fn name(&self) -> &str {
+        "headway"
+    }
+
+    fn unit(&self) -> &str {
+        "1"
+    }
+
+    fn meet(&mut self, body: &Body) {
+        self.least = LEAST_SPEED * PERIOD * body.body_length;
+    }
+
+    fn begin(&mut self, start: &Snapshot) {
+        (self.x, self.since, self.stuck) = (start.torso().x, start.time, false);
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        if now.time - self.since >= PERIOD {
+            let x = now.torso().x;
+            self.stuck = x - self.x < self.least;
+            (self.x, self.since) = (x, now.time);
+        }
+        if self.stuck { Verdict::End } else { Verdict::GoOn }
+    }
+
+    fn value(&self) -> f64 {
+        f64::from(u8::from(self.stuck))
+    }
+}
