@@ -84,6 +84,12 @@ impl Variation {
         Self { friction: 0.2, mass: 0.1, torque: 0.1, time_step: 0.1, start_pose: 0.05 }
     }
 
+    /// More than [`light`](Self::light): friction ± 40 %, mass, torque and time step ± 20 %, and every actuated joint
+    /// turned by up to 0.1 rad (6°).
+    pub const fn strong() -> Self {
+        Self { friction: 0.4, mass: 0.2, torque: 0.2, time_step: 0.2, start_pose: 0.1 }
+    }
+
     /// Whether every trial has the same world.
     pub fn is_none(&self) -> bool {
         *self == Self::default()

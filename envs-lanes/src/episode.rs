@@ -203,8 +203,12 @@ impl<'a, 'b> Stage<'a, 'b> {
         if let Err(failure) = herd.show(lane, &mut seat.snapshot) {
             return Some(Outcome { steps, time_step, failure: Some(failure) });
         }
-        let ends = seat.movement.observe(&seat.snapshot) == Verdict::End || steps >= self.episode.steps;
-        ends.then_some(Outcome { steps, time_step, failure: None })
+        let failure = match seat.movement.observe(&seat.snapshot) {
+            Verdict::Fail(reason) => Some(Failure::Unstable { what: reason.into() }),
+            Verdict::GoOn if steps < self.episode.steps => return None,
+            Verdict::GoOn | Verdict::End => None,
+        };
+        Some(Outcome { steps, time_step, failure })
     }
 
     /// Counts a trial, and begins the next, or seats the next individual.

@@ -5,6 +5,7 @@ use crate::{
     setup::{EpisodeParts, SetupError},
     trajectory::Recording,
 };
+use envs_core::{Conditions, Ground};
 use envs_rapier::{RapierEnvironment, Variation};
 use ne_core::Seed;
 use ne_net::Network;
@@ -18,8 +19,10 @@ use tasks::{
 #[derive(Clone)]
 pub struct Stage {
     episode: Episode<RapierEnvironment>,
+    movement: MovementSpec,
     kind: Option<Kind>,
     gravity: f32,
+    flat: bool,
 }
 
 /// The [grade](ne_core::Judgement::grades) of a champion whose gait is usable; all others have 0.
@@ -35,13 +38,34 @@ impl Stage {
     /// If a field is out of range or the movement is unknown.
     pub fn new(parts: EpisodeParts<'_>, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
         let kind = Kind::of(&parts.movement.name);
-        let seconds = kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds);
-        let steps = (seconds / f64::from(parts.physics.time_step)).round() as u32;
-        let movement = MovementSpec { name: parts.movement.name.clone(), steps: Some(steps), terms: Vec::new() };
+        let steps = Some(judged_steps(kind, parts.physics.time_step));
+        let movement = MovementSpec { name: parts.movement.name.clone(), steps, terms: Vec::new() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
         let gravity = parts.physics.gravity;
-        Ok(Self { episode: parts.build(catalogue)?, kind, gravity })
+        Ok(Self { episode: parts.build(catalogue)?, movement, kind, gravity, flat: true })
+    }
+
+    /// The same stage in another world: under these conditions, on this ground.
+    ///
+    /// # Errors
+    /// If the world makes no sense, the creature does not come to rest in it, or the movement is unknown.
+    pub fn under(
+        &self,
+        conditions: &Conditions,
+        ground: Ground,
+        catalogue: &MovementCatalogue,
+    ) -> Result<Self, SetupError> {
+        let flat = ground == Ground::flat();
+        let environment = self.episode.environment().under(conditions, ground)?;
+        let steps = judged_steps(self.kind, environment.settings().time_step);
+        let episode = Episode::new(environment, catalogue.build(&self.movement)?, steps, Trials::default())?;
+        Ok(Self { episode, flat, ..self.clone() })
+    }
+
+    /// The creature in this world.
+    pub fn environment(&self) -> &RapierEnvironment {
+        self.episode.environment()
     }
 
     /// How a gait is judged here, if it is.
@@ -62,6 +86,7 @@ impl Stage {
         let recording = self.record(network);
         let body = self.episode.environment().body()?;
         let trajectory = Trajectory::new(body, &recording.snapshots).ok()?.under_gravity(self.gravity);
+        let trajectory = if self.flat { trajectory } else { trajectory.on_terrain() };
         Some(GaitReport::of(&trajectory, self.kind))
     }
 
@@ -69,6 +94,12 @@ impl Stage {
     pub fn is_usable(&self, network: &Network) -> bool {
         self.judge(network).and_then(|report| report.verdict).is_some_and(|judgement| judgement.usable)
     }
+}
+
+/// The steps of an episode as long as the judgement asks for.
+fn judged_steps(kind: Option<Kind>, time_step: f32) -> u32 {
+    let seconds = kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds);
+    (seconds / f64::from(time_step)).round() as u32
 }
 
 /// Why a champion's gait cannot be told.

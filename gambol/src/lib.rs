@@ -16,6 +16,8 @@
 //! | [`champion`] | the saved champion; verifying it |
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
+//! | [`gait`] | a champion's gait, measured and judged |
+//! | [`robust`] | what is left of it in worlds that are not quite the same |
 //! | [`report`] | the HTML page |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
 //! | [`yardsticks`] | the strategies on classic tasks, beside published numbers |
@@ -55,6 +57,7 @@ mod nominal;
 mod recorder;
 pub mod report;
 pub mod reproduce;
+pub mod robust;
 pub mod run_folder;
 pub mod search;
 pub mod setup;

@@ -81,11 +81,15 @@ impl Body {
 }
 
 impl BodyHinge {
+    /// Cosine and sine of the angle of the child against the parent, counted from where both lie parallel.
+    pub fn direction(&self, parts: &[crate::PartState]) -> [f32; 2] {
+        let (parent, child) = (&parts[self.parent], &parts[self.child]);
+        [parent.cos * child.cos + parent.sin * child.sin, parent.cos * child.sin - parent.sin * child.cos]
+    }
+
     /// Its angle, rad, counted from the start pose, above −π and up to π.
     pub fn angle(&self, parts: &[crate::PartState]) -> f32 {
-        let (parent, child) = (&parts[self.parent], &parts[self.child]);
-        let cos = parent.cos * child.cos + parent.sin * child.sin;
-        let sin = parent.cos * child.sin - parent.sin * child.cos;
+        let [cos, sin] = self.direction(parts);
         let (c, s) = (libm::cosf(self.start_angle), libm::sinf(self.start_angle));
         libm::atan2f(c * sin - s * cos, c * cos + s * sin)
     }

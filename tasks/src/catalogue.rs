@@ -1,6 +1,6 @@
 use crate::{
-    Energy, FallEnds, Footfalls, Headway, Idleness, Jumping, Leap, Movement, Rollovers, Running, Sum, TimeAloft,
-    Upright, Vibration,
+    Energy, FallEnds, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement, Rollovers, Running, Sum,
+    TimeAloft, Upright, Vibration,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
@@ -103,6 +103,7 @@ impl Default for MovementCatalogue {
         catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
         catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 1.5 s; how many were not");
         catalogue.add::<Headway>(None, "ends the episode when there is no headway for 1 s; 1 if there was none");
+        catalogue.add::<Honest>(None, "fails the evaluation of a body that lives on the errors of its physics");
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
             .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");

@@ -143,8 +143,10 @@ impl<E: Environment> Stage<E> {
             }
             let verdict = movement.observe(environment.snapshot());
             watcher.watch(&Moment { step, snapshot: environment.snapshot(), inputs, outputs, phenotype });
-            if verdict == Verdict::End {
-                return (step, None);
+            match verdict {
+                Verdict::GoOn => {}
+                Verdict::End => return (step, None),
+                Verdict::Fail(reason) => return (step, Some(Failure::Unstable { what: reason.into() })),
             }
         }
         (steps, None)

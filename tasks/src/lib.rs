@@ -51,8 +51,8 @@ pub use classic::{
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
-    Energy, FallEnds, Footfalls, Headway, Idleness, Jumping, Leap, Movement, MovementClone, Rollovers, Running, Sum,
-    TimeAloft, Upright, Verdict, Vibration,
+    Energy, FallEnds, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement, MovementClone, Rollovers, Running,
+    Sum, TimeAloft, Upright, Verdict, Vibration,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trials};

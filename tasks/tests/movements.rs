@@ -8,7 +8,7 @@ use tasks::{Energy, FallEnds, Jumping, Movement, PartState, Rollovers, Running, 
 /// Shows a movement the snapshots; the first is the start. Returns its value and at which step it ended the episode.
 fn watch(movement: &mut dyn Movement, snapshots: &[Snapshot]) -> (f64, Option<usize>) {
     movement.begin(&snapshots[0]);
-    let end = snapshots[1..].iter().position(|snapshot| movement.observe(snapshot) == Verdict::End);
+    let end = snapshots[1..].iter().position(|snapshot| movement.observe(snapshot) != Verdict::GoOn);
     (movement.value(), end.map(|at| at + 1))
 }
 

@@ -120,7 +120,7 @@ fn a_world_that_makes_no_sense_is_refused() {
         (Conditions { mass: 0.0, ..nominal.clone() }, "conditions.mass = 0: must be finite and above 0"),
         (Conditions { torque: f32::NAN, ..nominal.clone() }, "conditions.torque = NaN: must be finite and above 0"),
         (Conditions { friction: -1.0, ..nominal.clone() }, "conditions.friction = -1: must be finite and at least 0"),
-        (Conditions { time_step: 5.0, ..nominal.clone() }, "physics.time_step = 0.1: must be from 0.001 to 0.05"),
+        (Conditions { time_step: 4.0, ..nominal.clone() }, "physics.time_step = 0.08: must be from 0.001 to 0.05"),
         (
             Conditions { turns: vec![], ..nominal.clone() },
             "conditions.turns = 0 turns: must be 8, one for each actuated joint",

@@ -1,4 +1,4 @@
-use super::{Outcome, bench_training::Training};
+use super::{Outcome, bench_gaits::Gaits, bench_training::Training};
 use clap::{Args, Subcommand};
 use gambol::{
     config::{STRATEGIES, strategy},
@@ -12,7 +12,8 @@ use std::process::ExitCode;
 #[command(after_help = "\
 Example:
   gambol bench yardsticks --strategies neat --tasks xor
-  gambol bench training --creature biped-1 --generations 50")]
+  gambol bench training --creature biped-1 --generations 50
+  gambol bench gaits --creatures biped-1")]
 pub(crate) struct Bench {
     #[command(subcommand)]
     what: What,
@@ -24,6 +25,8 @@ enum What {
     Yardsticks(Yardsticks),
     /// Trains creatures and says how long it takes
     Training(Training),
+    /// Trains creatures until their gaits are usable, and says how many are and how long it took
+    Gaits(Box<Gaits>),
 }
 
 #[derive(Args)]
@@ -55,6 +58,7 @@ impl Bench {
         match self.what {
             What::Yardsticks(yardsticks) => yardsticks.run(),
             What::Training(training) => training.run(),
+            What::Gaits(gaits) => gaits.run(),
         }
     }
 }

@@ -8,16 +8,21 @@ macro_rules! say {
     }};
 }
 
+mod ablation;
 mod bench;
+mod bench_gaits;
 mod bench_training;
 mod check;
 mod compare;
+mod gait;
+mod gait_text;
 mod list;
 mod progress;
 mod replay;
 mod report;
 mod reproduce;
 mod resume;
+mod robust;
 mod train;
 mod verify;
 
@@ -30,6 +35,8 @@ type Outcome = Result<ExitCode, Box<dyn Error>>;
 
 /// The exit code of `verify` when the replay is not what the file says.
 const DIVERGED: u8 = 3;
+/// The exit code of `gait` when the gait is not usable.
+const NOT_USABLE: u8 = 3;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
 
@@ -61,7 +68,7 @@ Exit codes:
   0    done
   1    something was wrong: the message says which file and which field
   2    the command line was not understood
-  3    verify: the replay is not what the champion file says
+  3    verify: the replay is not what the champion file says; gait: the gait is not usable
   130  a run was interrupted; it is saved and can be resumed
 
 Set GAMBOL_LOG=debug to see what the libraries do."
@@ -83,6 +90,10 @@ pub(crate) enum Command {
     Verify(verify::Verify),
     /// Replays a champion: as a page, as a trajectory
     Replay(replay::Replay),
+    /// Measures a gait, says whether it is usable, and why not
+    Gait(gait::Gait),
+    /// Replays a champion in perturbed worlds: how often it stays usable, how much of its fitness it keeps
+    Robust(robust::Robust),
     /// Checks a creature, configuration or champion file and says what is wrong where
     Check(check::Check),
     /// Compares strategies on creatures and movements: same seeds, same budget, statistics
@@ -109,6 +120,8 @@ impl Command {
             Self::Report(report) => report.run(),
             Self::Verify(verify) => verify.run(),
             Self::Replay(replay) => replay.run(),
+            Self::Gait(gait) => gait.run(),
+            Self::Robust(robust) => robust.run(),
             Self::Check(check) => check.run(),
             Self::Compare(compare) => compare.run(),
             Self::Merge(merge) => merge.run(),

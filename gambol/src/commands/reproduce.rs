@@ -123,10 +123,8 @@ impl Thesis {
         let left = work(&folder, &plan, &options)?;
         let outcome = write_outcome(&folder, &plan)?;
         if !self.quiet {
-            match outcome.missing.len() {
-                0 => say!("all {} runs are there", outcome.asked)?,
-                missing => say!("{missing} of {} runs are missing", outcome.asked)?,
-            }
+            let there = outcome.asked - outcome.missing.len();
+            say!("{there} of {} runs are there", outcome.asked)?;
             say!("page      {}", folder.page().display())?;
             say!("raw data  {0}/results.csv, {0}/times.csv, {0}/timed.csv", folder.path().display())?;
         }

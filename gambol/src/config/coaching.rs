@@ -74,9 +74,13 @@ impl Movement {
     fn terms(self, legless: bool) -> Vec<TermSpec> {
         let terms: &[(&str, f64)] = match self {
             // What ends an episode is charged for by the distance it then cannot cover.
-            Self::Running if legless => &[("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
-            Self::Running => &[("upright", 0.0), ("headway", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
-            Self::Jumping => &[("leap", 2.0), ("vibration", -0.02)],
+            Self::Running if legless => {
+                &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)]
+            }
+            Self::Running => {
+                &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("footfalls", 0.0), ("vibration", -0.2)]
+            }
+            Self::Jumping => &[("honest", 0.0), ("leap", 2.0), ("vibration", -0.02)],
             Self::Other => &[],
         };
         terms.iter().map(|&(term, weight)| TermSpec { term: term.into(), weight }).collect()

@@ -55,13 +55,14 @@ pub const PRESETS: &[Preset] = &[
 ];
 
 /// Variations a user can ask for by name.
-pub const VARIATIONS: [&str; 2] = ["none", "light"];
+pub const VARIATIONS: [&str; 3] = ["none", "light", "strong"];
 
 /// The variation of this name.
 pub fn variation(name: &str) -> Option<Variation> {
     match name {
         "none" => Some(Variation::default()),
         "light" => Some(Variation::light()),
+        "strong" => Some(Variation::strong()),
         _ => None,
     }
 }

@@ -1,6 +1,7 @@
 //! What the page is given: plain data, lengths in metres, angles in radians, times in seconds.
 
 use super::{
+    gait::GaitData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
     network::NetworkData,
 };
@@ -24,6 +25,8 @@ pub(super) struct Report {
     pub(super) species: Vec<SpeciesHistory>,
     pub(super) statistics: Vec<StatisticHistory>,
     pub(super) champion: Option<ChampionData>,
+    /// How the champion moves; `None` if there is nothing to measure.
+    pub(super) gait: Option<GaitData>,
     pub(super) strip: Vec<StripEntry>,
     pub(super) populations: Vec<PopulationEntry>,
     pub(super) settings: Vec<Fact>,

@@ -1,7 +1,8 @@
-//! The report: one HTML file that works offline, with the champion's replay, the fitness curves, the species, the gait
-//! as it emerged and the net at work.
+//! The report: one HTML file that works offline, with the champion's replay, its gait measured and
+//! judged, the fitness curves, the species, the gait as it emerged and the net at work.
 
 mod data;
+mod gait;
 mod history;
 mod network;
 mod page;
@@ -10,10 +11,12 @@ mod replays;
 
 use crate::{
     champion::Champion,
+    gait::Stage,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     setup::SetupError,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
+use gait::GaitData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
@@ -94,6 +97,7 @@ pub fn write_report(
         history: history::points(&log, fitness),
         species: history::species(&log),
         statistics: history::statistics(&log),
+        gait: champion.as_ref().map(|champion| gait_data(champion, catalogue)).transpose()?.flatten(),
         champion: champion_data,
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
@@ -120,6 +124,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         species: Vec::new(),
         statistics: Vec::new(),
         champion: Some(champion_data(champion, catalogue)?),
+        gait: gait_data(champion, catalogue)?,
         strip: Vec::new(),
         populations: Vec::new(),
         settings: vec![
@@ -166,6 +171,11 @@ fn champion_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<C
     Ok(ChampionData::new(champion, &recording, body_length))
 }
 
+fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {
+    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    Ok(stage.judge(&champion.network).map(GaitData::from))
+}
+
 /// About `count` of the items, evenly spread, the first and the last among them.
 fn spread<'a, T>(items: &[&'a T], count: usize) -> Vec<&'a T> {
     if items.len() <= count {
@@ -179,6 +189,7 @@ fn commands(folder: &RunFolder) -> Vec<Command> {
     [
         ("Repeat this run", format!("gambol train --config {path}/config.json --out again")),
         ("Go on training", format!("gambol resume {path} --generations 1000")),
+        ("Measure the gait", format!("gambol gait {path}")),
         ("Prove the champion", format!("gambol verify {path}/champion.json")),
         ("Take the trajectory", format!("gambol replay {path}/champion.json --trajectory gait.csv")),
     ]

@@ -16,6 +16,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("assets/strip.js"),
     include_str!("assets/network_layout.js"),
     include_str!("assets/network.js"),
+    include_str!("assets/gait.js"),
     include_str!("assets/page.js"),
 ];
 

@@ -3,7 +3,8 @@
 use super::{Judged, Outcome};
 use std::fmt::Write;
 
-/// A row for each run: `preset,creature,movement,seed,generations,fitness,champion_generation,distance_m,rise_m,usable,reasons`.
+/// A row for each run: `preset,creature,movement,seed,generations`, then
+/// `fitness,champion_generation,distance_m,rise_m,usable,reasons` of its champion.
 ///
 /// What a run does not have is empty. Reasons are separated by semicolons.
 pub(super) fn results(outcome: &Outcome) -> String {

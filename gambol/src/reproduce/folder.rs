@@ -290,3 +290,39 @@ fn check_result(job: &Job, path: PathBuf, found: String, settings: &str) -> Resu
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::Request;
+
+    #[test]
+    fn a_result_of_another_versions_preset_is_refused() {
+        let place = tempfile::tempdir().expect("a folder");
+        let plan = Request { runs: 1, ..Request::default() }.plan().expect("a plan");
+        let folder = ReproductionFolder::create(place.path(), &plan).expect("a new folder");
+        let job = plan.jobs().next().expect("a run");
+        let Job::Run { cell, seed } = job else { panic!("timed runs come last") };
+        let config = cell.config(seed, StopConditions::default()).expect("a shipped creature");
+        let mut result = RunResult {
+            preset: cell.preset.name.into(),
+            creature: cell.scenario.creature.into(),
+            movement: cell.scenario.movement.into(),
+            seed,
+            settings: settings_digest(&config),
+            best: vec![Some(1.0), None],
+            mean: vec![Some(0.5), None],
+            champion: None,
+            threads: 1,
+            seconds: 0.25,
+        };
+        assert!(!folder.has(&job).expect("nothing is wrong"));
+        folder.write_run(&job, &result).expect("can be written");
+        assert_eq!(folder.run_result(&cell, seed).expect("it is as it was"), Some(result.clone()));
+        assert_eq!(folder.seeds(&cell).expect("can be read"), [1]);
+        result.settings = "of old".into();
+        folder.write_run(&job, &result).expect("can be written");
+        let error = folder.run_result(&cell, seed).expect_err("the settings differ").to_string();
+        assert!(error.contains("seed-1.json was made with other settings than the preset \"thesis\""), "{error}");
+    }
+}

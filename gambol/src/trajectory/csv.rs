@@ -66,7 +66,8 @@ pub fn read_csv(text: &str, part_names: &[String]) -> Result<CsvTrajectory, CsvE
     let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", COLUMNS.join(","))))?;
     let columns = columns(&header)?;
     let indices: HashMap<&str, usize> = part_names.iter().map(String::as_str).zip(0..).collect();
-    let mut reader = Reader { names: part_names, read: CsvTrajectory { snapshots: vec![], lines: vec![] }, seen: vec![] };
+    let mut reader =
+        Reader { names: part_names, read: CsvTrajectory { snapshots: vec![], lines: vec![] }, seen: vec![] };
     let mut last_line = header.line;
     for row in rows {
         last_line = row.line;
@@ -86,9 +87,8 @@ pub fn read_csv(text: &str, part_names: &[String]) -> Result<CsvTrajectory, CsvE
         let (cos, sin) = (libm::cosf(angle), libm::sinf(angle));
         let state =
             PartState { x: number("x_m", x)?, y: number("y_m", y)?, cos, sin, touching, ..PartState::default() };
-        let step = step.trim().parse().map_err(|_| {
-            wrong(row.line, format!("step is \"{step}\", expected a whole number"))
-        })?;
+        let step =
+            step.trim().parse().map_err(|_| wrong(row.line, format!("step is \"{step}\", expected a whole number")))?;
         reader.add(row.line, step, number("time_s", time)?, part, state)?;
     }
     reader.finish(last_line)
@@ -149,7 +149,10 @@ impl Reader<'_> {
         }
         let snapshot = &mut self.read.snapshots[step];
         if snapshot.time != time {
-            return Err(wrong(line, format!("time_s is {time}, but {} in the rows before of step {step}", snapshot.time)));
+            return Err(wrong(
+                line,
+                format!("time_s is {time}, but {} in the rows before of step {step}", snapshot.time),
+            ));
         }
         snapshot.parts[part] = state;
         Ok(())
@@ -252,7 +255,8 @@ mod tests {
 
     #[test]
     fn columns_and_parts_may_be_in_another_order() {
-        let text = "part,step,time_s,x_m,y_m,note,ground_contact,angle_rad\r\nb,0,0,1,2,hm,1,0\r\na,0,0,3,4,,0,0\r\n\r\n";
+        let text =
+            "part,step,time_s,x_m,y_m,note,ground_contact,angle_rad\r\nb,0,0,1,2,hm,1,0\r\na,0,0,3,4,,0,0\r\n\r\n";
         let read = read_csv(text, &["a".to_owned(), "b".to_owned()]).expect("valid");
         let [a, b] = &read.snapshots[0].parts[..] else { panic!("two parts") };
         assert_eq!((a.x, a.y, a.touching, b.x, b.y, b.touching), (3.0, 4.0, false, 1.0, 2.0, true));
@@ -272,9 +276,15 @@ mod tests {
         assert_eq!(refusal(""), "line 1: expected the columns step,time_s,part,x_m,y_m,angle_rad,ground_contact");
         assert!(refusal(good).starts_with("line 1: the column \"step\" is missing; expected step,time_s,"));
         assert!(refusal(&header.replace(",y_m", "")).starts_with("line 1: the column \"y_m\" is missing"));
-        assert_eq!(changed("1,0.02,torso,0,1", "1,0.02,torso,0,high"), "line 4: y_m is \"high\", expected a finite number");
+        assert_eq!(
+            changed("1,0.02,torso,0,1", "1,0.02,torso,0,high"),
+            "line 4: y_m is \"high\", expected a finite number"
+        );
         assert_eq!(changed("0,0,leg,0", "0,0,leg,inf"), "line 3: x_m is \"inf\", expected a finite number");
-        assert_eq!(changed("1,0.02,leg,0,0,0,1", "1,0.02,leg,0,0,0,yes"), "line 5: ground_contact is \"yes\", expected 0 or 1");
+        assert_eq!(
+            changed("1,0.02,leg,0,0,0,1", "1,0.02,leg,0,0,0,yes"),
+            "line 5: ground_contact is \"yes\", expected 0 or 1"
+        );
         assert_eq!(
             changed("0,0,leg", "0,0,lge"),
             "line 3: there is no part \"lge\"; did you mean \"leg\"? (there are: torso, leg)"
@@ -285,7 +295,10 @@ mod tests {
         assert_eq!(changed("1,0.02,torso", "3,0.02,torso"), "line 4: step 3 is out of order, expected 0 or 1");
         assert_eq!(changed("0,0,torso", "1,0,torso"), "line 2: step 1 is out of order, expected 0");
         assert_eq!(changed("1,0.02,torso", "1.5,0.02,torso"), "line 4: step is \"1.5\", expected a whole number");
-        assert_eq!(changed("1,0.02,leg", "1,0.03,leg"), "line 5: time_s is 0.03, but 0.02 in the rows before of step 1");
+        assert_eq!(
+            changed("1,0.02,leg", "1,0.03,leg"),
+            "line 5: time_s is 0.03, but 0.02 in the rows before of step 1"
+        );
         assert_eq!(changed("0,0,leg,0,0,0,1", "0,0,leg,0,0,0"), "line 3: 6 fields, the header has 7");
         assert_eq!(changed("0,0,leg", "0,0,\"leg"), "line 3: a quotation mark is never closed");
     }

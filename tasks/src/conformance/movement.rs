@@ -110,7 +110,7 @@ fn watch(movement: &mut dyn Movement, story: &Story, asked: Asked) -> Seen {
         if asked == Asked::EachStep {
             values.push(movement.value());
         }
-        if verdict == Verdict::End {
+        if verdict != Verdict::GoOn {
             break;
         }
     }

@@ -12,7 +12,8 @@ pub struct Idleness {
 #[derive(Clone, Debug, Default)]
 struct Joint {
     hinge: BodyHinge,
-    range: Option<[f32; 2]>,
+    /// Cosine and sine of the lowest and of the highest angle.
+    range: Option<[[f32; 2]; 2]>,
 }
 
 /// rad.
@@ -41,9 +42,11 @@ impl Movement for Idleness {
     fn observe(&mut self, now: &Snapshot) -> Verdict {
         if now.time - self.begun >= START {
             for joint in &mut self.joints {
-                let angle = joint.hinge.angle(&now.parts);
-                let [low, high] = joint.range.unwrap_or([angle; 2]);
-                joint.range = Some([low.min(angle), high.max(angle)]);
+                let now = joint.hinge.direction(&now.parts);
+                let [low, high] = joint.range.unwrap_or([now; 2]);
+                let lower = if turned(low, now) < 0.0 { now } else { low };
+                let higher = if turned(high, now) > 0.0 { now } else { high };
+                joint.range = Some([lower, higher]);
             }
         }
         Verdict::GoOn
@@ -51,9 +54,16 @@ impl Movement for Idleness {
 
     fn value(&self) -> f64 {
         let idle = |joint: &Joint| {
-            let [low, high] = joint.range.unwrap_or_default();
-            1.0 - f64::from(((high - low) / EXPECTED).min(1.0))
+            let range = joint
+                .range
+                .map_or(0.0, |[low, high]| libm::atan2f(turned(low, high), low[0] * high[0] + low[1] * high[1]).abs());
+            1.0 - f64::from((range / EXPECTED).min(1.0))
         };
         self.joints.iter().map(idle).sum::<f64>() / self.joints.len().max(1) as f64
     }
+}
+
+/// The sine of the angle from one direction to another.
+fn turned([c, s]: [f32; 2], [cos, sin]: [f32; 2]) -> f32 {
+    c * sin - s * cos
 }

@@ -4,6 +4,7 @@ mod energy;
 mod fall_ends;
 mod footfalls;
 mod headway;
+mod honest;
 mod idleness;
 mod jumping;
 mod leap;
@@ -15,9 +16,9 @@ mod upright;
 mod vibration;
 
 pub use {
-    energy::Energy, fall_ends::FallEnds, footfalls::Footfalls, headway::Headway, idleness::Idleness, jumping::Jumping,
-    leap::Leap, rollovers::Rollovers, running::Running, sum::Sum, time_aloft::TimeAloft, upright::Upright,
-    vibration::Vibration,
+    energy::Energy, fall_ends::FallEnds, footfalls::Footfalls, headway::Headway, honest::Honest, idleness::Idleness,
+    jumping::Jumping, leap::Leap, rollovers::Rollovers, running::Running, sum::Sum, time_aloft::TimeAloft,
+    upright::Upright, vibration::Vibration,
 };
 
 use crate::{Body, Snapshot};
@@ -71,6 +72,8 @@ pub enum Verdict {
     GoOn,
     /// It ends here; the value is what it is now.
     End,
+    /// What happens is not to be scored, for this reason: the evaluation fails.
+    Fail(&'static str),
 }
 
 /// Clones a movement behind a box; every `Movement` that is `Clone` has it.

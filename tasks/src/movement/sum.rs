@@ -65,8 +65,9 @@ impl Movement for Sum {
     fn observe(&mut self, now: &Snapshot) -> Verdict {
         let mut verdict = Verdict::GoOn;
         for (_, movement) in &mut self.terms {
-            if movement.observe(now) == Verdict::End {
-                verdict = Verdict::End;
+            match (movement.observe(now), verdict) {
+                (Verdict::GoOn, _) | (_, Verdict::Fail(_)) => {}
+                (stricter, _) => verdict = stricter,
             }
         }
         verdict

@@ -16,13 +16,14 @@ pub struct Vibration {
 struct Joint {
     hinge: BodyHinge,
     rising: bool,
-    furthest: f32,
+    /// Cosine and sine of the furthest angle since the last reversal.
+    furthest: [f32; 2],
     reversals: u32,
 }
 
 /// Reversals a second.
 const MOST: f32 = 8.0;
-/// rad.
+/// The sine of 2°.
 const NOTABLE: f32 = 0.035;
 
 impl Movement for Vibration {
@@ -41,20 +42,22 @@ impl Movement for Vibration {
     fn begin(&mut self, start: &Snapshot) {
         (self.start, self.time) = (start.time, start.time);
         for joint in &mut self.joints {
-            (joint.furthest, joint.rising, joint.reversals) = (joint.hinge.angle(&start.parts), true, 0);
+            (joint.furthest, joint.rising, joint.reversals) = (joint.hinge.direction(&start.parts), true, 0);
         }
     }
 
     fn observe(&mut self, now: &Snapshot) -> Verdict {
         self.time = now.time;
         for joint in &mut self.joints {
-            let angle = joint.hinge.angle(&now.parts);
-            let ahead = if joint.rising { angle - joint.furthest } else { joint.furthest - angle };
+            let [cos, sin] = joint.hinge.direction(&now.parts);
+            let [c, s] = joint.furthest;
+            let turned = c * sin - s * cos;
+            let ahead = if joint.rising { turned } else { -turned };
             if ahead > 0.0 {
-                joint.furthest = angle;
+                joint.furthest = [cos, sin];
             } else if ahead < -NOTABLE {
                 joint.rising = !joint.rising;
-                joint.furthest = angle;
+                joint.furthest = [cos, sin];
                 joint.reversals += 1;
             }
         }

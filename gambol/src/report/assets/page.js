@@ -86,13 +86,6 @@ function describeNetwork({ nodes, inputs, outputs, connections }) {
   return `${words.join(", ")}; ${weights.join(" and ")}.${memory}`;
 }
 
-function buildGait(run) {
-  if (!run.gait || !run.gait.length) return;
-  const list = document.getElementById("gait");
-  list.hidden = false;
-  terms(list, run.gait.map(({ label, value }) => [label, value]));
-}
-
 function buildFitness(run) {
   if (!run.history || !run.history.length) return;
   document.getElementById("fitness").hidden = false;

@@ -23,13 +23,13 @@ fn figure(outcome: &Outcome, scenario: &Scenario) -> String {
         .map(|cell| {
             let name = preset_name(outcome, cell.cell.preset.name);
             let fitness = number(cell.fitnesses().map(|[_, median, _]| median));
-            format!("<span class=\"legend-entry\">{name} median of champions <b>{fitness}</b></span>")
+            format!("<span class=\"legend-entry\">{name}, median of champions <b>{fitness}</b></span>")
         })
         .collect();
     let [first, second, third] = scenario.final_fitness;
     format!(
         "<figure class=\"scenario\"><figcaption><h3>{name}</h3>\
-         <p class=\"quiet\">The thesis after {} generations: {first:.2}, {second:.2}, {third:.2}, in its engine's unit of \
+         <p class=\"quiet\">Gegendorfer 2017 after {} generations: {first:.2}, {second:.2}, {third:.2}, in its engine's unit of \
          length, which cannot be compared with metres.</p></figcaption>\
          <div class=\"legend\">{legend}</div><div class=\"chart still\">{chart}</div>{}</figure>\n",
         super::super::thesis::GENERATIONS,

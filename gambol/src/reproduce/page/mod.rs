@@ -36,10 +36,10 @@ fn lead(outcome: &Outcome) -> String {
     let timed = outcome.cells.iter().filter(|cell| cell.clock.is_some()).count();
     let presets: Vec<&str> = outcome.presets.iter().map(|preset| preset.name).collect();
     format!(
-        "<strong>{runs} runs</strong> of {} generations and {timed} timed runs: {} scenarios, presets {}.",
+        "<strong>{runs} runs</strong> of {} generations, {timed} timed runs; scenarios: {}; presets: {}.",
         outcome.generations,
         outcome.scenarios.len(),
-        presets.join(" and ")
+        presets.join(", ")
     )
 }
 
@@ -81,7 +81,7 @@ fn wall(seconds: Option<f64>) -> String {
 
 /// The name of a preset, with its colour.
 fn preset_name(outcome: &Outcome, name: &str) -> String {
-    format!("<span class=\"{}\"><i class=\"swatch\"></i> {}</span>", colour(outcome, name), escaped(name))
+    format!("<span class=\"{}\"><i class=\"swatch\"></i> preset {}</span>", colour(outcome, name), escaped(name))
 }
 
 /// The class that gives a preset its colour.
@@ -159,7 +159,7 @@ mod tests {
             }
             assert_eq!(page.matches("<figure").count(), 14);
             assert_eq!(page.contains("280 of 280 runs are missing"), runs == 0);
-            assert_eq!(page.contains("2 of 3"), runs == 3, "seed 2 alone is usable, of three");
+            assert_eq!(page.contains("<td>1 of 3</td>"), runs == 3, "seed 2 alone is usable, of three");
         }
     }
 

@@ -19,7 +19,8 @@ fn usable_of(outcome: &Outcome, movement: &str) -> String {
     let mut rows = String::new();
     for scenario in of_movement(outcome, movement) {
         rows += &format!(
-            "<tr><th>{}</th><td class=\"words\">the thesis</td><td>{}</td><td>{NONE}</td><td>{NONE}</td><td>{:.0} min</td></tr>",
+            "<tr><th>{}</th><td class=\"words\">Gegendorfer 2017</td><td>{}</td><td>{NONE}</td><td>{NONE}</td>\
+             <td>{:.0} min</td></tr>",
             scenario.creature,
             yes(scenario.usable),
             scenario.minutes
@@ -85,7 +86,7 @@ fn timed_of(outcome: &Outcome, movement: &str) -> String {
 }
 
 fn thesis_row(scenario: &Scenario, minutes: &[f64]) -> String {
-    let mut row = format!("<tr><th>{}</th><td class=\"words\">the thesis</td>", scenario.creature);
+    let mut row = format!("<tr><th>{}</th><td class=\"words\">Gegendorfer 2017</td>", scenario.creature);
     for &minutes in minutes {
         row += &match scenario.after(minutes) {
             Some(Some(timed)) => format!(

@@ -1,0 +1,93 @@
+//! The pieces of the default preset, left out one by one or replaced.
+
+use creatures::{Actuation, Sensor};
+use envs_rapier::Variation;
+use gambol::config::{LimbPhases, RunConfig, StrategySettings, strategy};
+use ne_net::Activation;
+
+/// A change to a configuration.
+pub(super) struct Variant {
+    /// What is different.
+    pub(super) name: &'static str,
+    /// Makes the change.
+    pub(super) change: fn(&mut RunConfig),
+}
+
+/// All variants; the first changes nothing.
+pub(super) const VARIANTS: &[Variant] = &[
+    Variant { name: "the default preset", change: |_| {} },
+    Variant {
+        name: "one net for the whole body",
+        change: |config| {
+            config.controller.limbs = None;
+            config.controller.hidden = vec![10];
+        },
+    },
+    Variant { name: "limbs begin together", change: |config| config.controller.limbs = Some(LimbPhases::Together) },
+    Variant {
+        name: "no clock",
+        change: |config| keep_sensors(config, |sensor| !matches!(sensor, Sensor::Clock { .. })),
+    },
+    Variant {
+        name: "no foot contacts",
+        change: |config| keep_sensors(config, |sensor| *sensor != Sensor::FootContacts),
+    },
+    Variant { name: "no torso spin", change: |config| keep_sensors(config, |sensor| *sensor != Sensor::TorsoSpin) },
+    Variant { name: "outputs are speeds", change: |config| config.controller.actuation = Actuation::Speed },
+    Variant { name: "no hidden neurons", change: |config| config.controller.hidden = Vec::new() },
+    Variant { name: "12 hidden neurons a limb", change: |config| config.controller.hidden = vec![12] },
+    Variant {
+        name: "rational tanh",
+        change: |config| {
+            config.controller.hidden_activation = Activation::RationalTanh;
+            config.controller.output_activation = Activation::RationalTanh;
+        },
+    },
+    Variant { name: "without the term headway", change: |config| drop_term(config, "headway") },
+    Variant { name: "without the term footfalls", change: |config| drop_term(config, "footfalls") },
+    Variant { name: "without the term upright", change: |config| drop_term(config, "upright") },
+    Variant { name: "without the term vibration", change: |config| drop_term(config, "vibration") },
+    Variant { name: "without the term honest", change: |config| drop_term(config, "honest") },
+    Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
+    Variant { name: "no terms at all", change: |config| config.movement.terms.clear() },
+    Variant { name: "whole episodes in training", change: |config| config.rehearsal = config.movement.steps },
+    Variant { name: "no variation", change: |config| config.variation = Variation::default() },
+    Variant { name: "strong variation", change: |config| config.variation = Variation::strong() },
+    Variant { name: "population 16", change: |config| config.strategy.set_population(16) },
+    Variant { name: "population 256", change: |config| config.strategy.set_population(256) },
+    Variant { name: "full covariance", change: |config| set_cma(config, "covariance", "full") },
+    Variant { name: "no restarts", change: |config| set_cma(config, "restart", "none") },
+    Variant { name: "restarts: BIPOP", change: |config| set_cma(config, "restart", "bipop") },
+    Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
+    Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },
+    Variant { name: "CoSyNE", change: |config| search_with(config, "cosyne") },
+    Variant { name: "NEAT (its own nets)", change: |config| search_with(config, "neat") },
+];
+
+fn keep_sensors(config: &mut RunConfig, keep: fn(&Sensor) -> bool) {
+    if let Some(sensors) = &mut config.sensors {
+        sensors.retain(keep);
+    }
+}
+
+fn drop_term(config: &mut RunConfig, name: &str) {
+    config.movement.terms.retain(|term| term.term != name);
+}
+
+fn search_with(config: &mut RunConfig, name: &str) {
+    if let Some(entry) = strategy(name) {
+        config.strategy = (entry.settings)();
+    }
+}
+
+/// Changes a choice of CMA-ES by its name in files.
+fn set_cma(config: &mut RunConfig, field: &str, choice: &str) {
+    let StrategySettings::CmaEs(settings) = &config.strategy else { return };
+    let changed = serde_json::to_value(settings).and_then(|mut value| {
+        value[field] = choice.into();
+        serde_json::from_value(value)
+    });
+    if let Ok(changed) = changed {
+        config.strategy = StrategySettings::CmaEs(changed);
+    }
+}

@@ -1,0 +1,299 @@
+use super::{
+    Outcome,
+    ablation::{VARIANTS, Variant},
+};
+use clap::Args;
+use creatures::Blueprint;
+use gambol::{
+    champion::Champion,
+    config::{PRESETS, Request, RunConfig},
+    gait,
+    robust::robustness,
+    training::{TrainOptions, train},
+};
+use ne_core::StopConditions;
+use ne_statistics::quantile;
+use serde::Serialize;
+use serde_json::json;
+use std::{error::Error, process::ExitCode, time::Instant};
+use tasks::{MovementCatalogue, gait::Kind};
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol bench gaits                                         14 scenarios, 10 seeds each, until usable or 10 s
+  gambol bench gaits --whole --seconds 60 --seeds 3          how good gaits are after a minute
+  gambol bench gaits --creatures biped-1 --movements running --set controller.limbs=null
+  gambol bench gaits --creatures examples/creatures/hopper.json --seconds 30 --robust
+
+bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height.
+A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier, or when the time is up; with
+--whole when the time is up. Seconds count from the start of the run, building the creature and the jury included.")]
+pub(super) struct Gaits {
+    /// Shipped creatures' names or creature files [default: all seven]
+    #[arg(long, value_delimiter = ',', value_name = "NAMES")]
+    creatures: Vec<String>,
+    /// Which movements
+    #[arg(long, value_delimiter = ',', value_name = "NAMES", default_value = "running,jumping")]
+    movements: Vec<String>,
+    /// How many seeds, from 1 on
+    #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    seeds: u64,
+    /// The seconds a run has
+    #[arg(long, default_value_t = 10.0, value_parser = above_zero)]
+    seconds: f64,
+    /// Do not end a run when its gait is usable
+    #[arg(long)]
+    whole: bool,
+    /// Replay every champion in 100 perturbed worlds (see: gambol robust)
+    #[arg(long)]
+    robust: bool,
+    /// Where runs start from
+    #[arg(long, value_name = "NAME", default_value = PRESETS[0].name)]
+    preset: String,
+    /// The strategy [default: the preset's]
+    #[arg(long, value_name = "NAME")]
+    strategy: Option<String>,
+    /// How the world varies in training: none, light, strong [default: the preset's]
+    #[arg(long, value_name = "NAME")]
+    variation: Option<String>,
+    /// Leave out the pieces of the default preset one by one, or put others in their place, and say what each is worth
+    #[arg(long)]
+    ablate: bool,
+    /// One setting, such as controller.limbs=null; can be given several times
+    #[arg(long, value_name = "KEY=VALUE")]
+    set: Vec<String>,
+    /// Count physics steps in place of seconds: the same on every machine
+    #[arg(long)]
+    steps: Option<u64>,
+    /// Threads [default: one for each core]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    threads: usize,
+    /// Print every run as a line of JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// What came of one run.
+#[derive(Serialize)]
+struct Run {
+    creature: String,
+    movement: String,
+    seed: u64,
+    /// Whether the saved champion is usable.
+    usable: bool,
+    /// What speaks against it.
+    reasons: Vec<String>,
+    /// Seconds until the champion was first usable.
+    seconds_to_usable: Option<f64>,
+    /// Physics steps until then.
+    steps_to_usable: Option<u64>,
+    seconds: f64,
+    generations: u64,
+    steps: u64,
+    /// Body lengths a second in the second half of the judged episode (running), or the torso's rise in its best flight
+    /// over its start height (jumping).
+    quality: Option<f64>,
+    /// Share of perturbed worlds in which it is usable.
+    robust: Option<f64>,
+}
+
+impl Gaits {
+    pub(super) fn run(self) -> Outcome {
+        let shipped = || creatures::shipped().iter().map(|creature| creature.name.to_owned()).collect();
+        let creatures = if self.creatures.is_empty() { shipped() } else { self.creatures.clone() };
+        if self.ablate {
+            return self.ablation(&creatures);
+        }
+        if !self.json {
+            let until = if self.whole { "" } else { ", or until usable" };
+            let budget = match self.steps {
+                Some(steps) => format!("{steps} physics steps"),
+                None => format!("{} s", self.seconds),
+            };
+            say!("{budget} a run{until}, {} seeds\n", self.seeds)?;
+            say!(
+                "{:<18} {:<9} {:>8} {:>12} {:>10} {:>12} {:>9}",
+                "",
+                "",
+                "usable",
+                "median to it",
+                "slowest",
+                "median",
+                "robust"
+            )?;
+        }
+        for creature in &creatures {
+            for movement in &self.movements {
+                let mut runs = Vec::new();
+                for seed in 1..=self.seeds {
+                    let run = self.measure(self.config(creature, movement, seed)?)?;
+                    if self.json {
+                        say!("{}", json!(run))?;
+                    }
+                    runs.push(run);
+                }
+                if !self.json {
+                    say!("{}", row(&runs))?;
+                }
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    /// Every variant on every scenario.
+    fn ablation(&self, creatures: &[String]) -> Outcome {
+        say!("{:<34} {:>8} {:>12} {:>9}", "", "usable", "median to it", "quality")?;
+        let mut usual: Vec<f64> = Vec::new();
+        for variant in VARIANTS {
+            let mut runs = Vec::new();
+            for creature in creatures {
+                for movement in &self.movements {
+                    for seed in 1..=self.seeds {
+                        let mut config = self.config(creature, movement, seed)?;
+                        (variant.change)(&mut config);
+                        let run = self.measure(config)?;
+                        if self.json {
+                            say!("{}", json!({ "variant": variant.name, "run": run }))?;
+                        }
+                        runs.push(run);
+                    }
+                }
+            }
+            let quality: Vec<f64> = runs.iter().map(|run| run.quality.unwrap_or(0.0).max(0.0)).collect();
+            if usual.is_empty() {
+                usual.clone_from(&quality);
+            }
+            if !self.json {
+                say!("{}", summary(variant, &runs, &quality, &usual))?;
+            }
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+
+    fn config(&self, creature: &str, movement: &str, seed: u64) -> Result<RunConfig, Box<dyn Error>> {
+        let request = Request {
+            creature: Some(creature.into()),
+            movement: Some(movement.into()),
+            preset: Some(self.preset.clone()),
+            strategy: self.strategy.clone(),
+            variation: self.variation.clone(),
+            set: self.set.clone(),
+            ..Request::default()
+        };
+        let mut config = request.resolve(&MovementCatalogue::default())?;
+        config.seed = seed;
+        let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
+        let grade = (!self.whole).then_some(gait::USABLE);
+        config.stop = StopConditions { minutes, steps: self.steps, grade, ..StopConditions::default() };
+        Ok(config)
+    }
+
+    fn measure(&self, config: RunConfig) -> Result<Run, Box<dyn Error>> {
+        let catalogue = MovementCatalogue::default();
+        let folder = tempfile::tempdir()?;
+        let began = Instant::now();
+        let mut first = None;
+        let options = TrainOptions {
+            threads: self.threads,
+            catalogue: catalogue.clone(),
+            signal: Default::default(),
+            on_generation: &mut |generation| {
+                if first.is_none() && generation.grade >= gait::USABLE {
+                    first = Some((began.elapsed().as_secs_f64(), generation.steps));
+                }
+            },
+        };
+        let outcome = train(&config, &folder.path().join("run"), options)?;
+        let seconds = began.elapsed().as_secs_f64();
+        let mut run = Run {
+            creature: config.creature.name.clone(),
+            movement: config.movement.name.clone(),
+            seed: config.seed,
+            usable: false,
+            reasons: vec!["every evaluation failed".into()],
+            seconds_to_usable: first.map(|(seconds, _)| seconds),
+            steps_to_usable: first.map(|(_, steps)| steps),
+            seconds,
+            generations: outcome.progress.generations,
+            steps: outcome.progress.steps,
+            quality: None,
+            robust: None,
+        };
+        if let Some(champion) = &outcome.champion {
+            self.judge(champion, &catalogue, &mut run)?;
+        }
+        Ok(run)
+    }
+
+    fn judge(&self, champion: &Champion, catalogue: &MovementCatalogue, run: &mut Run) -> Result<(), Box<dyn Error>> {
+        let report = gait::judge(champion, catalogue)?;
+        if let Some(verdict) = &report.verdict {
+            run.usable = verdict.usable;
+            run.reasons = verdict.reasons.iter().map(ToString::to_string).collect();
+        }
+        let start_height = f64::from(Blueprint::new(champion.creature.clone())?.start_height());
+        run.quality = match report.kind {
+            Some(Kind::Running) => Some(report.travel.second_half_relative_speed),
+            Some(Kind::Jumping) => Some(report.best_flight().map_or(0.0, |flight| flight.rise / start_height)),
+            None => None,
+        };
+        // A run whose champion is usable at the last hearing only, after the last generation.
+        if run.usable && run.seconds_to_usable.is_none() {
+            (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
+        }
+        if self.robust && report.kind.is_some() {
+            run.robust = Some(robustness(champion, catalogue, 100, 1)?.usable_share);
+        }
+        Ok(())
+    }
+}
+
+/// The runs of a scenario as a line of the table.
+fn row(runs: &[Run]) -> String {
+    let Some(Run { creature, movement, .. }) = runs.first() else { return String::new() };
+    let usable = runs.iter().filter(|run| run.usable).count();
+    let middle = |numbers: Vec<f64>| quantile(&numbers, 0.5);
+    let seconds: Vec<f64> = runs.iter().filter_map(|run| run.seconds_to_usable).collect();
+    let slowest = seconds.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
+    let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| "–".into(), |n| format!("{n:.2}{unit}"));
+    let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
+    let unit = if movement == "running" { " bl/s" } else { " sh" };
+    let robust = middle(runs.iter().filter_map(|run| run.robust).collect());
+    let robust = robust.map_or_else(|| "–".into(), |share| format!("{:.0} %", 100.0 * share));
+    let mut row = format!(
+        "{creature:<18} {movement:<9} {:>8} {:>12} {:>10} {:>12} {robust:>9}",
+        format!("{usable}/{}", runs.len()),
+        shown(middle(seconds), " s"),
+        shown(slowest, " s"),
+        shown(quality, unit),
+    );
+    for run in runs.iter().filter(|run| !run.usable) {
+        row.push_str(&format!("\n    seed {}: {}", run.seed, run.reasons.join("; ")));
+    }
+    row
+}
+
+/// A variant as a line of the table: how many runs are usable, the time to it, and the median of the quality over that of
+/// the same run of the first variant.
+fn summary(variant: &Variant, runs: &[Run], quality: &[f64], usual: &[f64]) -> String {
+    let usable = runs.iter().filter(|run| run.usable).count();
+    let steps: Vec<f64> =
+        runs.iter().map(|run| run.steps_to_usable.filter(|_| run.usable).map_or(f64::INFINITY, |n| n as f64)).collect();
+    let steps = match quantile(&steps, 0.5) {
+        Some(steps) if steps.is_finite() => format!("{:.2} M", steps / 1e6),
+        _ => "–".into(),
+    };
+    let ratios: Vec<f64> =
+        quality.iter().zip(usual).filter(|&(_, &usual)| usual > 0.0).map(|(mine, usual)| mine / usual).collect();
+    let ratio = quantile(&ratios, 0.5).map_or_else(|| "–".into(), |ratio| format!("× {ratio:.2}"));
+    format!("{:<34} {:>8} {steps:>12} {ratio:>9}", variant.name, format!("{usable}/{}", runs.len()))
+}
+
+fn above_zero(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(number) if number > 0.0 && number.is_finite() => Ok(number),
+        _ => Err("must be a number above 0".into()),
+    }
+}

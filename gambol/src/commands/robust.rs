@@ -1,0 +1,87 @@
+use super::{Outcome, gait::champion_file};
+use clap::Args;
+use gambol::{
+    champion::Champion,
+    robust::{FRICTION, HIGHEST_BUMP, MASS, Robustness, TORQUE, robustness},
+};
+use std::{io, path::PathBuf, process::ExitCode};
+use tasks::{MovementCatalogue, gait::Kind};
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol robust runs/biped-1-running
+  gambol robust champion.json --perturbations 1000 --seed 7 --json
+
+Every perturbed world has another friction (± 30 %), mass and motor torque (± 10 % each), time step (from 1/120 to
+1/40 s) and bumps on the ground, up to 2 cm high. In each the champion is replayed in rapier and judged as gambol gait
+does. Same seed, same worlds, on any number of threads.")]
+pub(crate) struct Robust {
+    /// A champion file, or the folder of a run
+    #[arg(value_name = "CHAMPION|FOLDER")]
+    champion: PathBuf,
+    /// How many perturbed worlds, up to 100000
+    #[arg(long, default_value_t = 100, allow_hyphen_values = true)]
+    #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    perturbations: u32,
+    /// The seed of the worlds
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Threads [default: one for each core]
+    #[arg(long, default_value_t = 0, hide_default_value = true)]
+    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    threads: usize,
+    /// Print everything as JSON, every world included
+    #[arg(long)]
+    json: bool,
+}
+
+impl Robust {
+    pub(crate) fn run(self) -> Outcome {
+        let path = champion_file(&self.champion)?;
+        let champion = Champion::read(&path)?;
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(self.threads)
+            .build()
+            .map_err(|error| format!("cannot start {} threads: {error}", self.threads))?;
+        let catalogue = MovementCatalogue::default();
+        let robustness = pool
+            .install(|| robustness(&champion, &catalogue, self.perturbations, self.seed))
+            .map_err(|error| format!("{}: {error}", path.display()))?;
+        if self.json {
+            say!("{}", serde_json::to_string(&robustness)?)?;
+        } else {
+            explain(&format!("{} {}", champion.creature.name, champion.movement.name), &robustness)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
+    let percent = |share: f64| format!("{:.0} %", 100.0 * share);
+    let worlds = robustness.trials.len();
+    say!("{name}: usable in {} of {worlds} perturbed worlds", percent(robustness.usable_share))?;
+    let what = match robustness.kind {
+        Kind::Running => "distance",
+        Kind::Jumping => "rise of the torso",
+    };
+    let progress = robustness.progress_unperturbed;
+    let usable = if robustness.usable_unperturbed { "usable" } else { "not usable" };
+    say!("\n  unperturbed      {usable}, {what} {progress:.2} m")?;
+    match robustness.fitness_kept {
+        Some(kept) => say!("  keeps            {} of the {what} (median)", percent(kept))?,
+        None => say!("  keeps            – (it gets nowhere unperturbed)")?,
+    }
+    let shares = [FRICTION, MASS, TORQUE].map(|share| percent(share.into()));
+    let [friction, mass, torque] = &shares;
+    let bumps = 100.0 * HIGHEST_BUMP;
+    say!("  worlds           friction ± {friction}, mass ± {mass}, torque ± {torque}, steps of 1/120 to 1/40 s,")?;
+    say!("                   bumps up to {bumps:.0} cm high")?;
+    if !robustness.reasons.is_empty() {
+        say!("\n  what fails, and in how many of the worlds")?;
+    }
+    for reason in &robustness.reasons {
+        say!("  {:>6}  {}", percent(reason.share), reason.reason.replace('-', " "))?;
+    }
+    Ok(())
+}
