@@ -37,6 +37,7 @@ impl Stage {
     /// # Errors
     /// If a field is out of range or the movement is unknown.
     pub fn new(parts: EpisodeParts<'_>, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+        parts.physics.validate().map_err(|error| error.within("physics"))?;
         let kind = Kind::of(&parts.movement.name);
         let steps = Some(judged_steps(kind, parts.physics.time_step));
         let movement = MovementSpec { name: parts.movement.name.clone(), steps, terms: Vec::new() };

@@ -19,7 +19,7 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.output_activation = Activation::Tanh;
     controller.hidden_scale = 1.0;
     controller.limbs = Some(LimbPhases::Alternating);
-    controller.actuation = Actuation::Angle { gain: movement.gain() };
+    controller.actuation = Actuation::Angle { gain: movement.gain(legless) };
     config.sensors = Some(sensors(&config.creature.sensors, movement, legless));
     config.movement.terms = movement.terms(legless);
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
@@ -46,11 +46,11 @@ impl Movement {
         }
     }
 
-    /// Of the motors' angle law, 1/s: a jump wants joints that snap, a stride ones that swing.
-    fn gain(self) -> f32 {
+    /// Of the motors' angle law, 1/s: a jump and a wave want joints that follow, a stride ones that swing.
+    fn gain(self, legless: bool) -> f32 {
         match self {
-            Self::Running | Self::Other => 10.0,
-            Self::Jumping => 40.0,
+            Self::Running | Self::Other if !legless => 10.0,
+            Self::Running | Self::Jumping | Self::Other => 20.0,
         }
     }
 

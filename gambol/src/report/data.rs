@@ -234,7 +234,8 @@ mod tests {
     fn settings_say_of_the_net_what_the_strategy_leaves_settled() {
         let request =
             Request { creature: Some("biped-1".into()), movement: Some("running".into()), ..Request::default() };
-        let base = request.resolve(&MovementCatalogue::default()).expect("a configuration");
+        let mut base = request.resolve(&MovementCatalogue::default()).expect("a configuration");
+        base.controller.hidden = vec![10];
         let said = |change: fn(&mut RunConfig)| {
             let mut config = base.clone();
             change(&mut config);

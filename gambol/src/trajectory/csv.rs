@@ -286,8 +286,8 @@ mod tests {
             "line 5: ground_contact is \"yes\", expected 0 or 1"
         );
         assert_eq!(
-            changed("0,0,leg", "0,0,lge"),
-            "line 3: there is no part \"lge\"; did you mean \"leg\"? (there are: torso, leg)"
+            changed("0,0,leg", "0,0,legs"),
+            "line 3: there is no part \"legs\"; did you mean \"leg\"? (there are: torso, leg)"
         );
         assert_eq!(changed("0,0,leg", "0,0,torso"), "line 3: step 0 has the part \"torso\" twice");
         assert_eq!(changed("0,0,leg,0,0,0,1\n", ""), "line 3: step 0 ends without the part \"leg\"");

@@ -1,11 +1,13 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 14] = [
     "train",
     "resume",
     "report",
     "verify",
     "replay",
+    "gait",
+    "robust",
     "check",
     "compare",
     "merge",

@@ -91,6 +91,7 @@ fn a_page_shows_the_replay_and_needs_no_network() -> Outcome {
     assert_stands_alone(&page);
     let data = data(&page);
     assert_eq!(data["creature"]["name"], "biped-1");
+    assert!(data["gait"]["verdict"]["usable"].is_boolean());
     let replay = &data["champion"]["replay"];
     assert_eq!((&replay["frames"], &replay["parts"]), (&101.into(), &3.into()));
     assert_eq!(replay["data"].as_array().map(Vec::len), Some(101 * 3 * 3));

@@ -35,6 +35,12 @@ fn a_report_stands_alone_and_holds_the_run() -> Outcome {
     assert_eq!(data["history"].as_array().map(Vec::len), Some(4));
     assert_eq!(data["champion"]["replay"]["frames"], 61);
     assert_eq!(data["config"]["seed"], 1);
+    let gait = &data["gait"];
+    assert_eq!((&gait["kind"], &gait["verdict"]["usable"]), (&"running".into(), &false.into()));
+    assert_eq!(gait["window_s"], serde_json::json!([10.0, gait["duration_s"]]));
+    assert_eq!(gait["legs"].as_array().map(Vec::len), Some(2));
+    let reasons = |list: &Value| list.as_array().map(Vec::len);
+    assert_eq!(reasons(&gait["against"]), reasons(&gait["verdict"]["reasons"]));
     assert!(data["strip"].as_array().is_some_and(|strip| !strip.is_empty()));
     let populations = data["populations"].as_array().expect("a list");
     assert_eq!(populations.len(), 2, "generations 1 and 3");
@@ -55,7 +61,7 @@ fn a_report_of_neat_holds_the_net_it_found_its_species_and_its_numbers() -> Outc
     let nodes = network["nodes"].as_array().map(Vec::len).expect("a list");
     assert!(network["connections"].as_array().is_some_and(|connections| !connections.is_empty()));
     let activations = network["activations"].as_array().expect("a list");
-    assert_eq!(activations.len(), 61);
+    assert_eq!(data["champion"]["replay"]["frames"], activations.len());
     assert!(activations.iter().all(|frame| frame.as_array().map(Vec::len) == Some(nodes)));
     let species = data["species"].as_array().expect("a list");
     for row in 0..6_usize {

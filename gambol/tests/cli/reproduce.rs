@@ -44,7 +44,16 @@ fn all_runs_are_done_and_shown_beside_the_thesis() -> Outcome {
     assert_says(&ended.stderr, &["4/4 after ", "thesis, biped-1 jumping, seed 2: fitness "]);
     assert_says(&ended.stdout, &["4 of 4 runs are there", "index.html", "results.csv"]);
     let shown = page(&out);
-    assert_says(&shown, &["<strong>4 runs</strong> of 3 generations", "1.93, 2.09, 1.90", "<svg", "of 2</td>"]);
+    assert_says(
+        &shown,
+        &[
+            "<strong>4 runs</strong> of 3 generations",
+            "Our runs have 3 generations",
+            "1.93, 2.09, 1.90",
+            "<svg",
+            "of 2</td>",
+        ],
+    );
     assert!(!shown.contains("missing"), "nothing is missing");
     let results = String::from_utf8(read(&out.join("results.csv")))?;
     let header =

@@ -1,11 +1,11 @@
 use super::{Movement, Verdict};
 use crate::{Body, BodyHinge, BodyPart, PartState, Snapshot};
 
-/// Fails the evaluation of a body that lives on the errors of its physics: whose joints come apart by more than 10 cm or
-/// turn more than 25° beyond their limits, whose parts turn by more than 40° in a step, or sink more than 8 cm into
+/// Fails the evaluation of a body that lives on the errors of its physics: whose joints come apart by more than 6 cm or
+/// turn more than 18° beyond their limits, whose parts turn by more than 40° in a step, or sink more than 6 cm into
 /// ground that is flat at height 0. Its value is 0.
 ///
-/// This is the cheap part of the [audit](crate::gait) that every champion undergoes, looked at every fifth step, so that
+/// This is the cheap part of the [audit](crate::gait) that every champion undergoes, looked at every third step, so that
 /// such bodies are no example to others.
 #[derive(Clone, Debug, Default)]
 pub struct Honest {
@@ -24,15 +24,15 @@ struct Hinge {
     least_cosine: f32,
 }
 
-const EVERY: u32 = 5;
+const EVERY: u32 = 3;
 /// m.
-const WIDEST: f32 = 0.1;
+const WIDEST: f32 = 0.06;
 /// rad.
-const TOLERANCE: f32 = 0.436;
+const TOLERANCE: f32 = 0.314;
 /// rad in a step; engines stop at 45°.
 const FASTEST: f32 = 0.7;
 /// m.
-const DEEPEST: f32 = 0.08;
+const DEEPEST: f32 = 0.06;
 
 impl Movement for Honest {
     fn name(&self) -> &str {

@@ -94,33 +94,45 @@ class FootfallDiagram {
     new ResizeObserver(() => this.draw()).observe(this.place);
   }
 
+  // Where there is little room, time goes on in a second band below the first, and if need be in a third and fourth.
   draw() {
     const width = Math.max(this.place.clientWidth, 120);
     if (width === this.width) return;
     this.width = width;
     const left = width < 560 ? 84 : 130;
-    const right = width - 12;
-    const bottom = this.rows.length * FOOTFALL_ROW + 4;
-    const { duration_s: duration, window_s: [from, to] } = this.gait;
-    const x = time => left + time / duration * (right - left);
-    const root = svg("svg", { width, height: bottom + 26, viewBox: `0 0 ${width} ${bottom + 26}`, role: "img" });
+    const room = width - 14 - left;
+    const duration = this.gait.duration_s;
+    const bands = [1, 2, 4].find(bands => room * bands / duration >= 22) ?? 4;
+    const height = this.rows.length * FOOTFALL_ROW + 30;
+    const root = svg("svg", { width, height: height * bands, viewBox: `0 0 ${width} ${height * bands}`, role: "img" });
     root.setAttribute("aria-label", "Footfall diagram: a row a leg, a bar while its foot stands, and a row for flights");
-    svg("rect", { class: "judged", x: x(from), y: 0, width: x(to) - x(from), height: bottom }, root);
+    for (let band = 0; band < bands; band++) {
+      const group = svg("g", { transform: `translate(0 ${band * height})` }, root);
+      this.drawBand(group, left, room, band * duration / bands, (band + 1) * duration / bands);
+    }
+    this.place.replaceChildren(root);
+  }
+
+  drawBand(root, left, room, first, last) {
+    const bottom = this.rows.length * FOOTFALL_ROW + 4;
+    const x = time => left + (Math.min(Math.max(time, first), last) - first) / (last - first) * room;
+    const [from, to] = this.gait.window_s;
+    if (from < last) svg("rect", { class: "judged", x: x(from), y: 0, width: x(to) - x(from), height: bottom }, root);
     this.rows.forEach((row, i) => {
       const y = i * FOOTFALL_ROW + 13;
       this.drawName(root, row.name, left - 10, y);
-      svg("line", { class: "grid", x1: left, x2: right, y1: y, y2: y }, root);
+      svg("line", { class: "grid", x1: left, x2: left + room, y1: y, y2: y }, root);
       row.spans.forEach((span, index) => {
+        if (span.to_s <= first || span.from_s >= last) return;
         const strong = row.kind === "stance" || index === row.best;
         svg("rect", { class: row.kind + (strong ? "" : " pale"), x: x(span.from_s), y: y - 6, height: 12, rx: 1.5,
           width: Math.max(x(span.to_s) - x(span.from_s), 0.8) }, root);
       });
     });
-    for (const tick of niceTicks(0, duration, width < 560 ? 4 : 10).ticks) {
+    for (const tick of niceTicks(first, last, room / 70).ticks) {
       svg("line", { class: "mark", x1: x(tick), x2: x(tick), y1: bottom, y2: bottom + 5 }, root);
       svg("text", { x: x(tick), y: bottom + 19, "text-anchor": "middle" }, root).textContent = `${+tick.toFixed(2)} s`;
     }
-    this.place.replaceChildren(root);
   }
 
   // A long name is pressed together rather than cut.

@@ -23,7 +23,7 @@ fn figure(outcome: &Outcome, scenario: &Scenario) -> String {
         .map(|cell| {
             let name = preset_name(outcome, cell.cell.preset.name);
             let fitness = number(cell.fitnesses().map(|[_, median, _]| median));
-            format!("<span class=\"legend-entry\">{name}, median of champions <b>{fitness}</b></span>")
+            format!("<span class=\"legend-entry\">{name} median of champions <b>{fitness}</b></span>")
         })
         .collect();
     let [first, second, third] = scenario.final_fitness;

@@ -7,7 +7,7 @@ mod chart;
 mod figures;
 mod tables;
 
-use super::Outcome;
+use super::{Outcome, thesis::GENERATIONS};
 
 const PAGE: &str = include_str!("../assets/page.html");
 const STYLES: &[&str] = &[
@@ -21,7 +21,7 @@ pub(super) fn render(outcome: &Outcome) -> String {
     let values = [
         ("{{STYLE}}", STYLES.join("\n")),
         ("{{LEAD}}", lead(outcome)),
-        ("{{MISSING}}", missing(outcome)),
+        ("{{REMARKS}}", shorter(outcome) + &missing(outcome)),
         ("{{GENERATIONS}}", outcome.generations.to_string()),
         ("{{USABLE}}", tables::usable(outcome)),
         ("{{TIMED}}", tables::timed(outcome)),
@@ -40,6 +40,18 @@ fn lead(outcome: &Outcome) -> String {
         outcome.generations,
         outcome.scenarios.len(),
         presets.join(", ")
+    )
+}
+
+/// That our runs are not as long as those of the thesis.
+fn shorter(outcome: &Outcome) -> String {
+    if outcome.generations == GENERATIONS {
+        return String::new();
+    }
+    format!(
+        "<p class=\"warning\">Our runs have {} generations. What the thesis reports of the end, and its minutes, are of \
+         {GENERATIONS}.</p>",
+        outcome.generations
     )
 }
 

@@ -1,0 +1,178 @@
+//! `gait`: what a champion or a trajectory does, and whether it is usable.
+
+use crate::program::{Ended, assert_says, fail, gambol, run, small_run_of, succeed, text};
+use serde_json::Value;
+use std::{
+    fmt::Write,
+    fs,
+    path::{Path, PathBuf},
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const NOT_USABLE: Option<i32> = Some(3);
+
+fn trained(folder: &Path, movement: &str) -> PathBuf {
+    let path = folder.join(movement);
+    succeed(small_run_of("biped-1", movement, &path, 2).args(["--preset", "thesis", "--quiet"]));
+    path
+}
+
+/// What the champion of a run does for so long, as CSV.
+fn trajectory(run: &Path, seconds: &str) -> Result<(PathBuf, String), std::io::Error> {
+    let csv = run.join("gait.csv");
+    let mut replay = gambol("replay");
+    succeed(replay.arg(run.join("champion.json")).args(["--force", "--seconds", seconds, "--trajectory"]).arg(&csv));
+    let text = fs::read_to_string(&csv)?;
+    Ok((csv, text))
+}
+
+fn of_trajectory(csv: &Path, arguments: &[&str]) -> Ended {
+    run(gambol("gait").arg(csv).args(["--creature", "biped-1"]).args(arguments))
+}
+
+fn json(printed: &str) -> Value {
+    serde_json::from_str(printed).expect("JSON")
+}
+
+/// What kind of reason it is; for a cheat, which.
+fn name(reason: &Value) -> String {
+    let tag = reason.as_object().and_then(|reason| reason.keys().next());
+    let tag = tag.map_or_else(|| reason.to_string(), String::clone);
+    reason.pointer("/cheat/kind").map_or(tag, Value::to_string)
+}
+
+/// The standing start of a trajectory, then a jump at 1 s, half a metre high: all parts move as one.
+fn jump(standing: &str) -> String {
+    let (header, rows) = standing.split_once('\n').expect("a header");
+    let start: Vec<Vec<&str>> =
+        rows.lines().map(|row| row.split(',').collect()).take_while(|row: &Vec<&str>| row[0] == "0").collect();
+    let mut csv = format!("{header}\n");
+    for step in 0..=250_u16 {
+        let time = f64::from(step) * 0.02;
+        let flight = time - 1.0;
+        let height = (flight * (3.2 - 0.5 * 9.81 * flight)).max(0.0);
+        for row in &start {
+            let y = row[4].parse::<f64>().expect("a number") + if flight > 0.0 { height } else { 0.0 };
+            let contact = if height > 0.0 && flight > 0.0 { "0" } else { row[6] };
+            let _ = writeln!(csv, "{step},{time},{},{},{y},{},{contact}", row[2], row[3], row[5]);
+        }
+    }
+    csv
+}
+
+#[test]
+fn a_champion_that_has_learned_nothing_is_not_usable_and_told_why() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = trained(folder.path(), "running");
+    let of_run = run(gambol("gait").arg(&path));
+    assert_eq!(of_run.code, NOT_USABLE, "{}", of_run.stderr);
+    let parts = ["biped-1 running: not usable:\n  ", "cost of transport", "footfalls, the last 3.0 s", "left leg"];
+    assert_says(&of_run.stdout, &parts);
+    let of_file = run(gambol("gait").arg(path.join("champion.json")));
+    assert_eq!(of_file.stdout, of_run.stdout);
+    let report = run(gambol("gait").arg(&path).arg("--json"));
+    assert_eq!(report.code, NOT_USABLE);
+    let report = json(&report.stdout);
+    assert_eq!((&report["kind"], &report["verdict"]["usable"]), (&"running".into(), &false.into()));
+    Ok(())
+}
+
+#[test]
+fn a_trajectory_is_judged_as_the_champion_it_came_from() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for (movement, seconds) in [("running", "20"), ("jumping", "5")] {
+        let path = trained(folder.path(), movement);
+        let (csv, _) = trajectory(&path, seconds)?;
+        let champion = run(gambol("gait").arg(&path).arg("--json"));
+        let read = of_trajectory(&csv, &["--movement", movement, "--json"]);
+        assert_eq!(read.code, champion.code, "{movement}: {}", read.stderr);
+        let (champion, read) = (json(&champion.stdout), json(&read.stdout));
+        let names = |report: &Value| -> Vec<String> {
+            let reasons = report["verdict"]["reasons"].as_array().expect("a list").iter();
+            // Torques are not recorded, so where energy comes from is not audited.
+            let energy = Some("energy-from-nowhere");
+            let audited = |reason: &&Value| reason.pointer("/cheat/kind").and_then(Value::as_str) != energy;
+            reasons.filter(audited).map(name).collect()
+        };
+        assert_eq!(names(&read), names(&champion), "{movement}");
+        for number in ["/travel/distance_m", "/torso/largest_tilt_deg", "/aloft/share", "/legs/0/duty_factor"] {
+            let [read, champion] = [&read, &champion].map(|report| report.pointer(number).and_then(Value::as_f64));
+            let difference = read.expect("a number") - champion.expect("a number");
+            assert!(difference.abs() < 1e-3, "{movement}{number}: {difference}");
+        }
+        assert!(read["travel"]["cost_of_transport"].is_null(), "torques are not recorded");
+    }
+    Ok(())
+}
+
+#[test]
+fn a_clean_jump_is_usable() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (csv, standing) = trajectory(&trained(folder.path(), "jumping"), "1")?;
+    fs::write(&csv, jump(&standing))?;
+    let ended = of_trajectory(&csv, &["--movement", "jumping"]);
+    assert_eq!(ended.code, Some(0), "{}{}", ended.stdout, ended.stderr);
+    assert_says(&ended.stdout, &["biped-1 jumping: usable\n", "best jump          at 1.00 s, 0.64 s in the air"]);
+    let ended = of_trajectory(&csv, &["--movement", "running"]);
+    assert_eq!(ended.code, NOT_USABLE);
+    assert_says(&ended.stdout, &["biped-1 running: not usable:", "the episode lasted 5.0 s", "0.00 body lengths/s"]);
+    let ended = of_trajectory(&csv, &[]);
+    assert_eq!(ended.code, Some(0), "what is not judged is not unusable");
+    assert_says(&ended.stdout, &["biped-1: not judged"]);
+    Ok(())
+}
+
+#[test]
+fn a_wrong_trajectory_is_an_error_with_file_and_line() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (csv, good) = trajectory(&trained(folder.path(), "running"), "1")?;
+    let refusal = |text: &str| {
+        fs::write(&csv, text).expect("a folder to write to");
+        fail(gambol("gait").arg(&csv).args(["--creature", "biped-1"]))
+    };
+    let rows: Vec<&str> = good.lines().collect();
+    let without = |line: usize| {
+        rows.iter()
+            .enumerate()
+            .filter(|&(index, _)| index + 1 != line)
+            .map(|(_, row)| format!("{row}\n"))
+            .collect::<String>()
+    };
+    let file = text(&csv);
+    assert_says(&refusal(""), &[file, "line 1: expected the columns step,time_s,part"]);
+    assert_says(
+        &refusal(&good.replace("ground_contact", "contact")),
+        &[file, "line 1: the column \"ground_contact\" is"],
+    );
+    assert_says(&refusal(&without(1)), &[file, "line 1: the column \"step\" is missing"]);
+    assert_says(&refusal(&good.replacen("left leg", "left arm", 1)), &[file, "line 3: there is no part \"left arm\""]);
+    assert_says(&refusal(&without(6)), &[file, "line 7: step 1 ends without the part \"left leg\""]);
+    assert_says(
+        &refusal(&good.replace("\n1,0.02,", "\n1,soon,")),
+        &[file, "line 5: time_s is \"soon\", expected a finite"],
+    );
+    assert_says(&refusal(&good.replace("\n1,", "\n2,")), &[file, "line 5: step 2 is out of order"]);
+    let time = rows[28].split(',').nth(1).expect("a time");
+    let late = good.replace(&format!("\n9,{time},"), "\n9,0.19,");
+    assert_says(&refusal(&late), &[file, "line 29: step 9 comes 0.0", "constant time step"]);
+    assert_says(&refusal(&rows[..4].join("\n")), &[file, "a gait needs the start and at least 1 step"]);
+    Ok(())
+}
+
+#[test]
+fn what_does_not_go_together_is_an_error() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = trained(folder.path(), "running");
+    let (csv, _) = trajectory(&path, "1")?;
+    assert_says(&fail(gambol("gait").arg(&csv)), &[text(&csv), "whose trajectory", "--creature NAME or FILE"]);
+    assert_says(&fail(gambol("gait").arg(&path).args(["--movement", "running"])), &["--movement is for trajectories"]);
+    let missing = folder.path().join("none.csv");
+    assert_says(&fail(gambol("gait").arg(&missing).args(["--creature", "apod"])), &["cannot read", text(&missing)]);
+    assert_says(&fail(gambol("gait").arg(&csv).args(["--creature", "bipde-1"])), &["did you mean `biped-1`?"]);
+    assert_says(&fail(gambol("gait").arg(folder.path())), &[text(folder.path()), "is not the folder of a run"]);
+    let ended = run(gambol("gait").arg(&csv).args(["--creature", "biped-1", "--movement", "flying"]));
+    assert_eq!(ended.code, Some(2));
+    assert_says(&ended.stderr, &["running, jumping"]);
+    Ok(())
+}
