@@ -25,7 +25,8 @@ pub struct Stage {
     flat: bool,
 }
 
-/// The [grade](ne_core::Judgement::grades) of a champion whose gait is usable; all others have 0.
+/// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those that keep more of their fitness in
+/// varied worlds have up to 10 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 /// A movement that is not judged is watched for so long, s.

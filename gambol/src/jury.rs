@@ -5,7 +5,7 @@ use crate::{
     gait::{Stage, USABLE},
     setup::Nominal,
 };
-use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
+use ne_core::{Evaluation, Evaluator, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
 
@@ -15,11 +15,16 @@ pub(crate) struct NominalJury {
     task: Box<dyn Task>,
     /// Rapier, if the task is not in rapier itself.
     reference: Option<Box<dyn Task>>,
+    /// The varied worlds in which fitness must be kept.
+    proof: Option<Box<dyn Task>>,
     /// Where gaits are judged, if those of this movement are.
     stage: Option<Stage>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
+
+/// Steps in which the share of fitness kept is told apart.
+const DEGREES: u8 = 10;
 
 /// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
 const JUDGED: usize = 4;
@@ -59,31 +64,42 @@ impl NominalJury {
         Self {
             task: Box::new(nominal.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
+            proof: nominal.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
             stage: nominal.stage.clone(),
             seed: nominal.seed,
             evaluator,
         }
     }
 
-    /// Looks, the best first, for one whose gait is usable: it gets a grade of its own. Those who would not become champion
-    /// even if theirs were are not looked at.
+    /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more of its fitness is kept in varied
+    /// worlds. Gaits are judged, the best first, until one is usable; who would not become champion even if its gait
+    /// were is not looked at.
     fn grades<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
         let mut grades = vec![0; finalists.len()];
         let Some(stage) = &self.stage else { return grades };
+        let kept = self.kept(finalists, evaluations);
+        let place = |index: usize| {
+            let grade = USABLE + (kept[index] * f64::from(DEGREES)).round() as u8;
+            Some(Standing { grade, fitness: evaluations[index].fitness()? })
+        };
+        let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| place(index) > standing).collect();
+        able.sort_by_key(|&index| Reverse(place(index)));
         let is_usable = |finalist: &G| network_of(&finalist.express()).is_some_and(|network| stage.is_usable(&network));
-        let above = |fitness| Some(Standing { grade: USABLE, fitness }) > standing;
-        let mut able: Vec<(usize, Fitness)> = evaluations
-            .iter()
-            .enumerate()
-            .filter_map(|(index, evaluation)| Some((index, evaluation.fitness()?)))
-            .collect();
-        able.retain(|&(_, fitness)| above(fitness));
-        able.sort_by_key(|&(_, fitness)| Reverse(fitness));
-        able.truncate(JUDGED);
-        if let Some(&(usable, _)) = able.iter().find(|&&(index, _)| is_usable(&finalists[index])) {
-            grades[usable] = USABLE;
+        if let Some(&usable) = able.iter().take(JUDGED).find(|&&index| is_usable(&finalists[index])) {
+            grades[usable] = place(usable).map_or(0, |standing| standing.grade);
         }
         grades
+    }
+
+    /// The share of its fitness that each keeps in varied worlds, 0 to 1.
+    fn kept<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation]) -> Vec<f64> {
+        let Some(proof) = &self.proof else { return vec![0.0; finalists.len()] };
+        let varied = self.evaluator.evaluate(&**proof, finalists, self.seed);
+        let share = |(varied, nominal): (&Evaluation, &Evaluation)| match (varied.fitness(), nominal.fitness()) {
+            (Some(varied), Some(nominal)) if nominal.get() > 0.0 => (varied.get() / nominal.get()).clamp(0.0, 1.0),
+            _ => 0.0,
+        };
+        varied.iter().zip(evaluations).map(share).collect()
     }
 
     /// Whether rapier finds the best of these as good as they say, if there is one that is to become champion.
@@ -157,6 +173,7 @@ mod tests {
         let jury = NominalJury {
             task: Box::new(Fake(lanes)),
             reference: rapier.map(|rapier| Box::new(Fake(rapier)) as Box<dyn Task>),
+            proof: None,
             stage: None,
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),

@@ -16,6 +16,9 @@ pub struct Nominal {
     pub episode: Episode<RapierEnvironment>,
     /// The seed of its one trial.
     pub seed: Seed,
+    /// The varied worlds of training, always the same few, in which a champion must keep its fitness; `None` if training
+    /// does not vary the world.
+    pub proof: Option<TrainingTask>,
     /// Where gaits are judged, if those of this movement are.
     pub stage: Option<Stage>,
     /// What was replayed last: the jury has a champion played in rapier just before its file is written.
@@ -30,9 +33,15 @@ struct Replay {
 }
 
 impl Nominal {
-    pub(crate) fn new(task: TrainingTask, episode: Episode<RapierEnvironment>, stage: Stage, seed: Seed) -> Self {
+    pub(crate) fn new(
+        task: TrainingTask,
+        episode: Episode<RapierEnvironment>,
+        proof: Option<TrainingTask>,
+        stage: Stage,
+        seed: Seed,
+    ) -> Self {
         let stage = Some(stage).filter(|stage| stage.kind().is_some());
-        Self { task, episode, seed, stage, last: Arc::default() }
+        Self { task, episode, seed, proof, stage, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.

@@ -10,7 +10,7 @@ use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::{Seed, SettingError};
 use ne_net::{DenseShape, Topology};
-use tasks::{Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
+use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
 
 pub use crate::{nominal::Nominal, training_task::TrainingTask};
 
@@ -85,6 +85,9 @@ pub struct EpisodeParts<'a> {
     pub actuation: Actuation,
 }
 
+/// Varied worlds a finalist is proved in.
+const PROOFS: u32 = 4;
+
 impl EpisodeParts<'_> {
     /// Builds the task.
     ///
@@ -119,6 +122,11 @@ impl EpisodeParts<'_> {
     #[must_use]
     pub fn nominal(self) -> Self {
         Self { trials: Trials::default(), variation: Variation::default(), ..self }
+    }
+
+    /// The same in as many varied worlds as a champion is proved in.
+    fn proof(self) -> Self {
+        Self { trials: Trials { count: PROOFS, combine: Combine::Mean }, ..self }
     }
 
     /// Builds the task in rapier, and in the engine of training.
@@ -181,7 +189,11 @@ impl Setup {
             false => {
                 let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
                 let stage = Stage::new(parts, catalogue)?;
-                Some(Nominal::new(task, episode, stage, Seed::of_run(config.seed)))
+                let proof = match config.variation.is_none() {
+                    true => None,
+                    false => Some(parts.proof().build_both(config.engine, catalogue)?.1),
+                };
+                Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
             }
         };
         let task = match config.rehearsal {

@@ -4,8 +4,8 @@ use crate::{Body, Snapshot};
 /// Ends the episode when a leg is not used: when its foot has not come down, or has not left the ground, for 1.5 s. Its
 /// value is the number of legs that had stopped.
 ///
-/// A foot counts as off the ground once it has been 1 cm above the lowest it ever was in this stance, so that a foot
-/// that shivers or drags does not count as stepping. Creatures without legs are left alone.
+/// A foot counts as off the ground once it is 3 cm above ground that is flat at height 0: feet that shiver or drag do not
+/// count as stepping, and feet that are lifted do not stumble over every bump. Creatures without legs are left alone.
 #[derive(Clone, Debug, Default)]
 pub struct Footfalls {
     legs: Vec<Leg>,
@@ -25,7 +25,7 @@ struct Leg {
 /// s.
 const PATIENCE: f32 = 1.5;
 /// m.
-const CLEARANCE: f32 = 0.01;
+const CLEARANCE: f32 = 0.03;
 
 impl Movement for Footfalls {
     fn name(&self) -> &str {
