@@ -37,6 +37,7 @@ fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2
             engine,
             variation: Default::default(),
             trials: Trials::default(),
+            rehearsal: None,
             ..config.clone()
         };
         let mut fallen = nominal.clone();

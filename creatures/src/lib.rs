@@ -10,7 +10,7 @@
 //! ```text
 //! creature.json ── Creature ── Blueprint ──┬── engine: bodies, hinges, motors
 //!                                          ├── Senses: BodyView → inputs of the net, in [-range, range]
-//!                                          └── Motors: outputs of the net, in [-1, 1] → rad/s
+//!                                          └── Motors: outputs of the net, in [-1, 1] → rad/s, or angles → rad/s
 //! ```
 //!
 //! # From body to brain
@@ -20,6 +20,7 @@
 //! - A *foot* is the last segment of a leg: an actuated part on which nothing hangs.
 //! - The file lists the *sensors*; by default the rotation of the torso and the angles of the actuated joints, both
 //!   relative to the start pose.
+//! - What an output asks of its motor, a speed or an angle, is the controller's [`Actuation`], and not the body's.
 //!
 //! # Example
 //! ```

@@ -18,7 +18,9 @@
 //!   never pays for settling, and nothing of an earlier one can be left. Only varied worlds settle for each trial.
 //! - **The ground is data.** A [`Ground`] is a list of shapes that any engine can build.
 //! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
-//!   can be shown and compared; engines draw nothing.
+//!   can be shown and compared; engines draw nothing. [`CreatureEnvironment::under`] builds a world of given conditions.
+//!
+//! What those who judge movements may know of a creature, [`body_of`] tells them.
 //!
 //! ```
 //! use envs_core::{Conditions, Ground, GroundShape, Variation};
@@ -31,7 +33,7 @@
 //!
 //! // The world of the first trial of a run, for a creature with two motors.
 //! let trial = Variation::light().draw(Seed::of_run(1), 2);
-//! assert!((0.8..=1.2).contains(&trial.friction));
+//! assert!((0.7..=1.3).contains(&trial.friction));
 //! assert!(trial.turns.iter().all(|turn| turn.abs() <= 0.05));
 //! assert_eq!(Variation::default().draw(Seed::of_run(1), 2), Conditions::nominal(2));
 //! # Ok::<(), ne_core::SettingError>(())

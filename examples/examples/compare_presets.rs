@@ -1,4 +1,4 @@
-//! Compares the two presets of conventional neuroevolution on paired seeds, and prints a table in Markdown.
+//! Compares the default preset with the algorithm of the thesis on paired seeds, and prints a table in Markdown.
 //!
 //! Without arguments it is a matter of a second. The whole comparison of all 14 scenarios, five seeds, 300 generations
 //! takes hours; it goes on where it was interrupted:
@@ -14,11 +14,12 @@ use gambol::{
     champion::Champion,
     config::preset,
     run_folder::RunFolder,
+    setup::EpisodeParts,
     training::{TrainOptions, resume, train},
 };
-use ne_core::StopConditions;
+use ne_core::{Seed, StopConditions, Task};
 use std::{error::Error, path::Path};
-use tasks::MovementCatalogue;
+use tasks::{MovementCatalogue, MovementSpec};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -57,7 +58,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The best fitness of one run; a run that is there already is read, one that was interrupted goes on.
+/// What the champion of one run is worth; a run that is there already is read, one that was interrupted goes on.
 fn best(
     preset_name: &str,
     creature: &str,
@@ -87,8 +88,14 @@ fn best(
         }
         Err(_) => train(&config, &path, options)?.folder,
     };
-    // What counts is what the champion is worth in rapier, whatever world it was trained in.
-    Ok(Champion::read(&folder.champion()).map_or(f64::NEG_INFINITY, |champion| champion.fitness.get()))
+    // What counts is how far or high it gets in rapier in an episode of the usual length, whatever it was trained for:
+    // presets differ in their terms and in the length of their episodes.
+    let Ok(champion) = Champion::read(&folder.champion()) else { return Ok(f64::NEG_INFINITY) };
+    let plain = MovementSpec { name: movement.into(), steps: None, terms: Vec::new() };
+    let parts = EpisodeParts { movement: &plain, ..champion.episode_parts() };
+    let episode = parts.nominal().build(&MovementCatalogue::default())?;
+    let evaluation = episode.evaluate(&mut champion.network.clone(), Seed::of_run(seed));
+    Ok(evaluation.fitness().map_or(f64::NEG_INFINITY, f64::from))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {

@@ -1,10 +1,6 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
-use crate::{
-    config::EngineChoice,
-    gait::{Stage, USABLE},
-    setup::Nominal,
-};
+use crate::{config::EngineChoice, gait::USABLE, setup::Nominal};
 use ne_core::{Evaluation, Evaluator, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
@@ -17,11 +13,14 @@ pub(crate) struct NominalJury {
     reference: Option<Box<dyn Task>>,
     /// The varied worlds in which fitness must be kept.
     proof: Option<Box<dyn Task>>,
-    /// Where gaits are judged, if those of this movement are.
-    stage: Option<Stage>,
+    /// Whether a gait is usable, if those of this movement are judged.
+    usable: Option<Box<Usable>>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
+
+/// Says whether the gait of a controller is usable.
+type Usable = dyn Fn(&dyn Phenotype) -> bool + Send + Sync;
 
 /// Steps in which the share of fitness kept is told apart.
 const DEGREES: u8 = 10;
@@ -65,7 +64,12 @@ impl NominalJury {
             task: Box::new(nominal.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
             proof: nominal.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
-            stage: nominal.stage.clone(),
+            usable: nominal.stage.clone().map(|stage| {
+                let usable = move |phenotype: &dyn Phenotype| {
+                    network_of(phenotype).is_some_and(|network| stage.is_usable(&network))
+                };
+                Box::new(usable) as Box<Usable>
+            }),
             seed: nominal.seed,
             evaluator,
         }
@@ -76,7 +80,7 @@ impl NominalJury {
     /// were is not looked at.
     fn grades<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
         let mut grades = vec![0; finalists.len()];
-        let Some(stage) = &self.stage else { return grades };
+        let Some(usable) = &self.usable else { return grades };
         let kept = self.kept(finalists, evaluations);
         let place = |index: usize| {
             let grade = USABLE + (kept[index] * f64::from(DEGREES)).round() as u8;
@@ -84,9 +88,8 @@ impl NominalJury {
         };
         let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| place(index) > standing).collect();
         able.sort_by_key(|&index| Reverse(place(index)));
-        let is_usable = |finalist: &G| network_of(&finalist.express()).is_some_and(|network| stage.is_usable(&network));
-        if let Some(&usable) = able.iter().take(JUDGED).find(|&&index| is_usable(&finalists[index])) {
-            grades[usable] = place(usable).map_or(0, |standing| standing.grade);
+        if let Some(&best) = able.iter().take(JUDGED).find(|&&index| usable(&finalists[index].express())) {
+            grades[best] = place(best).map_or(0, |standing| standing.grade);
         }
         grades
     }
@@ -144,65 +147,4 @@ impl<G: Genome> Jury<G> for NominalJury {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use ne_core::{Failure, conformance::Puppet};
-
-    /// Worth is what the puppet answers, as this engine sees it.
-    struct Fake(fn(f64) -> Evaluation);
-
-    impl Task for Fake {
-        fn inputs(&self) -> usize {
-            0
-        }
-
-        fn outputs(&self) -> usize {
-            1
-        }
-
-        fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-            assert_eq!(seed, Seed::of_run(7), "everybody is judged in one world");
-            let mut answer = [0.0];
-            phenotype.reset();
-            phenotype.activate(&[], &mut answer);
-            (self.0)(f64::from(answer[0]))
-        }
-    }
-
-    fn judge(lanes: fn(f64) -> Evaluation, rapier: Option<fn(f64) -> Evaluation>) -> (Vec<Evaluation>, bool) {
-        let jury = NominalJury {
-            task: Box::new(Fake(lanes)),
-            reference: rapier.map(|rapier| Box::new(Fake(rapier)) as Box<dyn Task>),
-            proof: None,
-            stage: None,
-            seed: Seed::of_run(7),
-            evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
-        };
-        let Judgement { evaluations, parted, .. } = jury.judge(&Puppet::sample(0, 1, 6), None);
-        (evaluations, parted)
-    }
-
-    fn all(engine: fn(f64) -> Evaluation) -> Vec<Evaluation> {
-        judge(engine, None).0
-    }
-
-    fn failed(_: f64) -> Evaluation {
-        Evaluation::failed(Failure::Other { what: "it fell apart".into() })
-    }
-
-    #[test]
-    fn what_rapier_confirms_stands() {
-        assert_eq!(judge(Evaluation::new, Some(Evaluation::new)), (all(Evaluation::new), false));
-        assert_eq!(judge(Evaluation::new, None), (all(Evaluation::new), false));
-        assert_eq!(judge(failed, Some(Evaluation::new)), (all(failed), false), "there is nobody to confirm");
-    }
-
-    #[test]
-    fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
-        let off: fn(f64) -> Evaluation = |worth| Evaluation::new(-worth);
-        assert_eq!(judge(Evaluation::new, Some(off)), (all(off), true));
-        assert_eq!(judge(Evaluation::new, Some(failed)), (all(failed), true));
-        let by_a_bit: fn(f64) -> Evaluation = |worth| Evaluation::new(worth.next_up());
-        assert_eq!(judge(Evaluation::new, Some(by_a_bit)), (all(by_a_bit), true));
-    }
-}
+mod tests;

@@ -16,7 +16,7 @@
 //! | [`champion`] | the saved champion; verifying it |
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
-//! | [`gait`] | a champion's gait, measured and judged |
+//! | [`gait`] | a champion's gait, measured and judged: whether it is usable |
 //! | [`robust`] | what is left of it in worlds that are not quite the same |
 //! | [`report`] | the HTML page |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
@@ -37,7 +37,7 @@
 //!     threads: 1,
 //!     catalogue: MovementCatalogue::default(),
 //!     signal: Default::default(),
-//!     on_generation: &mut |report| assert!(report.failures == 0),
+//!     on_generation: &mut |report| assert!(report.evaluations > 0),
 //! };
 //! let outcome = train(&config, &folder.path().join("run"), options)?;
 //! let champion = outcome.champion.expect("somebody jumped");

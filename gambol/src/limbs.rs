@@ -87,8 +87,6 @@ pub(crate) fn topology(
             copies.iter().map(|(_, limb)| sees(limb, senses.probes())).collect();
         // A copy may lack a sense that another has, but slots are the same in all of them.
         let slots = sights.iter().flatten().map(|&(_, _, slot)| slot + 1).max().unwrap_or(0);
-        let first_hidden = genes.group(0);
-        let _ = first_hidden;
         let hidden_genes: Vec<usize> = (0..hidden).map(|_| genes.group(2 + slots)).collect();
         let output_genes: Vec<usize> = (0..joints).map(|_| genes.group(2 + slots + hidden)).collect();
         for ((limb_index, limb), sights) in copies.iter().zip(&sights) {
@@ -175,6 +173,8 @@ fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
     let actuated = blueprint.actuated();
     let hinge_of = |part: usize| actuated.iter().copied().find(|&hinge| blueprint.hinges()[hinge].child == part);
     let mut chains: Vec<Vec<usize>> = Vec::new();
+    // The parts of each chain, passive ones of a leg among them: a foot that dangles feels the ground all the same.
+    let mut parts: Vec<Vec<usize>> = Vec::new();
     let mut taken = vec![false; blueprint.hinges().len()];
     if !blueprint.is_legless() {
         for leg in blueprint.legs() {
@@ -183,14 +183,18 @@ fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
             chain.iter().for_each(|&hinge| taken[hinge] = true);
             if !chain.is_empty() {
                 chains.push(chain);
+                parts.push(leg.clone());
             }
         }
     }
-    chains.extend(actuated.iter().filter(|&&hinge| !taken[hinge]).map(|&hinge| vec![hinge]));
+    for &hinge in actuated.iter().filter(|&&hinge| !taken[hinge]) {
+        chains.push(vec![hinge]);
+        parts.push(vec![blueprint.hinges()[hinge].child]);
+    }
     let places = places(blueprint, &chains);
     let mut kinds: Vec<usize> = Vec::new();
     let phase_of = phases_of(&places, phases, blueprint.is_legless());
-    let limb = |(chain, (&place, phase)): (Vec<usize>, (&f32, f32))| {
+    let limb = |((chain, parts), (&place, phase)): ((Vec<usize>, Vec<usize>), (&f32, f32))| {
         let joints = chain.len();
         let kind = kinds.iter().position(|&kind| kind == joints).unwrap_or_else(|| {
             kinds.push(joints);
@@ -200,10 +204,9 @@ fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
         let (parent, child) = (&blueprint.parts()[hinge.parent], &blueprint.parts()[hinge.child]);
         let across = (child.x - parent.x).abs() > (child.y - parent.y).abs();
         let sign = if across && child.x < parent.x { -1.0 } else { 1.0 };
-        let parts = chain.iter().map(|&hinge| blueprint.hinges()[hinge].child).collect();
         Limb { hinges: chain, parts, place, phase, sign, kind }
     };
-    chains.into_iter().zip(places.iter().zip(phase_of)).map(limb).collect()
+    chains.into_iter().zip(parts).zip(places.iter().zip(phase_of)).map(limb).collect()
 }
 
 /// Where along the body each chain's first joint is, from −1 to 1.
@@ -241,3 +244,6 @@ fn phases_of(places: &[f32], phases: LimbPhases, legless: bool) -> Vec<f32> {
     };
     places.iter().map(phase).collect()
 }
+
+#[cfg(test)]
+mod tests;

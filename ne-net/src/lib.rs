@@ -13,6 +13,7 @@
 //! | [`GraphShape`] | neurons and their connections, without weights |
 //! | [`GraphNet`] | a net of any graph, feed-forward or recurrent, ready to activate |
 //! | [`Network`] | a net of any kind: what a file stores |
+//! | [`TiedShape`] | a graph whose weights are computed from fewer genes, so that copies of a small net share them |
 //! | [`Topology`] | a net of any kind without its weights: what a search for weights keeps fixed |
 //!
 //! ```

@@ -7,9 +7,12 @@
 //! - a [`Movement`]: watches the snapshots of an episode and turns them into one number,
 //! - an [`Episode`]: puts a controller into the environment for a number of steps and trials, and is the task.
 //!
-//! The decision behind them: **a movement sees where the parts are, and nothing else.** It knows no engine, no creature
+//! The decision behind them: **a movement sees where the parts are, and little else.** It knows no engine, no creature
 //! file and no controller, so a movement written once works for every creature in every engine, and fits on a page
 //! ([`Running`] is one). Movements add up: [`Sum`] weighs several, so a penalty is a movement too.
+//!
+//! What a body is made of, its legs, hinges and masses, an environment may tell as a [`Body`]; a movement that wants to
+//! know is told once, by [`Movement::meet`], and one that does not need not look.
 //!
 //! Beside them stand the [`classic`] tasks, XOR and pole balancing, on which strategies are compared, and [`gait`], which
 //! measures what a body does in an episode, audits it for cheats and says whether it is usable.

@@ -136,6 +136,46 @@ fn a_failing_environment_fails_the_evaluation_and_says_how_far_it_came() {
     assert_eq!(evaluation.steps, 7);
 }
 
+/// Does not score what is beyond a place.
+#[derive(Clone)]
+struct Disqualifies(f32);
+
+impl Movement for Disqualifies {
+    fn name(&self) -> &str {
+        "disqualifies"
+    }
+    fn unit(&self) -> &str {
+        "m"
+    }
+    fn begin(&mut self, _: &Snapshot) {}
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        if now.torso().x > self.0 { Verdict::Fail("too far") } else { Verdict::GoOn }
+    }
+    fn value(&self) -> f64 {
+        1.0
+    }
+}
+
+#[test]
+fn a_movement_that_fails_fails_the_evaluation_and_says_why() {
+    let three = Trials { count: 3, ..ONE };
+    let too_far = Failure::Unstable { what: "too far".into() };
+    let summed = Sum::of(Until(0.1, Running::default())).plus(0.0, Disqualifies(0.1));
+    for (movement, what) in
+        [(Sum::of(Disqualifies(0.1)), "alone"), (summed, "beside a term that ends the episode in the same step")]
+    {
+        let episode = episode(PointMass::new(), movement, 1000, three);
+        let evaluation = episode.evaluate(&mut Constant(1.0), SEED);
+        assert_eq!((evaluation.outcome, evaluation.steps), (Err(too_far.clone()), 7), "{what}");
+        let played = episode.play(&mut Constant(1.0), SEED, &mut ());
+        assert_eq!((played.steps, played.failure), (7, Some(too_far.clone())), "{what}");
+    }
+    // In the last step it is as bad as in any other.
+    let last = episode(PointMass::new(), Disqualifies(0.1), 7, ONE).evaluate(&mut Constant(1.0), SEED);
+    assert_eq!((last.outcome, last.steps), (Err(too_far), 7));
+    assert!(episode(PointMass::new(), Disqualifies(0.1), 6, ONE).evaluate(&mut Constant(1.0), SEED).outcome.is_ok());
+}
+
 #[test]
 fn a_controller_without_numbers_fails() {
     let episode = episode(PointMass::new(), Running::default(), 10, ONE);

@@ -1,19 +1,35 @@
 //! Whatever a creature file can say, in whatever world: the lanes do what rapier does.
 
 use crate::{
-    any_creature::{any_creature, any_settings, any_variation},
-    stage::{all_sensors, drive, try_both},
+    any_creature::{any_actuation, any_creature, any_settings, any_variation},
+    stage::{all_sensors, assert_same_evaluations, drive, try_both},
 };
-use creatures::{Blueprint, Creature, Joint, Motor, Part, Shape};
+use creatures::{Actuation, Blueprint, Creature, Joint, Motor, Part, Shape};
 use envs_core::{PhysicsSettings, Variation};
 use proptest::{prelude::*, test_runner::RngSeed};
 
-/// Builds a creature in both engines and drives it. Errors must be the same.
-fn check(creature: Creature, settings: PhysicsSettings, variation: Variation, seed: u64, hold: u32) {
+/// A world, and what outputs mean there.
+#[derive(Clone, Copy, Debug)]
+struct World {
+    settings: PhysicsSettings,
+    variation: Variation,
+    actuation: Actuation,
+}
+
+fn any_world() -> impl Strategy<Value = World> {
+    let drawn = (any_settings(), any_variation(), any_actuation());
+    drawn.prop_map(|(settings, variation, actuation)| World { settings, variation, actuation })
+}
+
+/// Builds a creature in both engines, drives it, and evaluates a few nets. Errors must be the same.
+fn check(creature: Creature, world: World, seed: u64, hold: u32) {
     let blueprint = Blueprint::new(creature).expect("the generator makes valid creatures");
-    match try_both(&blueprint, &all_sensors(&blueprint), settings, variation) {
-        (Ok(mut rapier), Ok(mut lanes)) => {
+    match try_both(&blueprint, &all_sensors(&blueprint), world.settings, world.variation) {
+        (Ok(rapier), Ok(lanes)) => {
+            let mut rapier = rapier.with_actuation(world.actuation).expect("a gain in range");
+            let mut lanes = lanes.with_actuation(world.actuation).expect("a gain in range");
             drive(&mut rapier, &mut lanes, seed, 200, hold);
+            assert_same_evaluations(rapier, lanes, seed, 40);
         }
         (rapier, lanes) => {
             let (rapier, lanes) = (rapier.err().map(|error| error.to_string()), lanes.err().map(|e| e.to_string()));
@@ -34,12 +50,11 @@ proptest! {
     #[test]
     fn any_creature_in_any_world_moves_as_in_rapier(
         creature in any_creature(),
-        settings in any_settings(),
-        variation in any_variation(),
+        world in any_world(),
         seed in any::<u64>(),
         hold in 1..30_u32,
     ) {
-        check(creature, settings, variation, seed, hold);
+        check(creature, world, seed, hold);
     }
 }
 
@@ -69,7 +84,8 @@ fn a_snake_of_150_parts_moves_as_in_rapier() {
             });
         }
     }
-    for seed in 1..4 {
-        check(snake.clone(), PhysicsSettings::default(), Variation::light(), seed, 8);
+    for (seed, actuation) in [(1, Actuation::Speed), (2, Actuation::angle()), (3, Actuation::Speed)] {
+        let world = World { settings: PhysicsSettings::default(), variation: Variation::light(), actuation };
+        check(snake.clone(), world, seed, 8);
     }
 }

@@ -1,6 +1,6 @@
 //! Random creatures and worlds: whatever a creature file and the settings can say, within what makes any sense.
 
-use creatures::{Blueprint, Creature, Joint, Motor, Part, Shape};
+use creatures::{Actuation, Blueprint, Creature, Joint, Motor, Part, Shape};
 use envs_core::{PhysicsSettings, Variation};
 use proptest::{prelude::*, sample::Index};
 
@@ -181,6 +181,12 @@ pub(crate) fn any_settings() -> impl Strategy<Value = PhysicsSettings> {
     });
     let afloat = PhysicsSettings { settle_time: 0.0, ..PhysicsSettings::default() };
     prop_oneof![1 => Just(PhysicsSettings::default()), 1 => Just(afloat), 2 => drawn]
+}
+
+/// What outputs mean to motors.
+pub(crate) fn any_actuation() -> impl Strategy<Value = Actuation> {
+    let [low, high] = Actuation::GAINS;
+    prop_oneof![2 => Just(Actuation::Speed), 1 => Just(Actuation::angle()), 2 => (low..=high).prop_map(|gain| Actuation::Angle { gain })]
 }
 
 pub(crate) fn any_variation() -> impl Strategy<Value = Variation> {

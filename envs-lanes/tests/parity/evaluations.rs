@@ -1,26 +1,16 @@
 //! Whole evaluations: batches in lanes against one creature at a time in rapier.
 
-use crate::stage::{SHIPPED, both, shipped};
+use crate::stage::{SHIPPED, all_sensors, both, nets, shipped};
+use creatures::Actuation;
 use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::{Instructions, LaneEpisode};
-use ne_core::{Evaluation, Phenotype, Purpose, Seed, Task};
-use ne_net::{DenseNet, DenseShape};
-use rand::RngExt;
+use ne_core::{Evaluation, Phenotype, Seed, Task};
+use ne_net::DenseNet;
 use tasks::{Combine, Energy, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials};
 
 fn movement() -> Box<dyn Movement> {
     let all = Sum::of(Running::default()).plus(-1e-4, Energy::default()).plus(0.5, Jumping::default());
     Box::new(all.plus(-0.1, Rollovers::default()).plus(0.2, TimeAloft::default()))
-}
-
-fn nets(inputs: usize, outputs: usize, count: usize) -> Vec<DenseNet> {
-    let shape = DenseShape::new(inputs, vec![10], outputs);
-    let mut stream = Seed::of_run(5).stream(Purpose::new("weights"));
-    let weights = |_| {
-        let weights: Vec<f32> = (0..shape.weight_count()).map(|_| stream.random::<f32>() * 4.0 - 2.0).collect();
-        DenseNet::new(shape.clone(), &weights).expect("valid")
-    };
-    (0..count).map(weights).collect()
 }
 
 fn batch(task: &LaneEpisode, nets: &mut [DenseNet], seed: Seed) -> Vec<Evaluation> {
@@ -32,10 +22,14 @@ fn batch(task: &LaneEpisode, nets: &mut [DenseNet], seed: Seed) -> Vec<Evaluatio
 fn a_batch_gives_what_rapier_gives() {
     for name in SHIPPED {
         let blueprint = shipped(name);
-        let sensors = blueprint.creature().sensors.clone();
+        let sensors = all_sensors(&blueprint);
         let trials = Trials { count: 2, combine: Combine::Mean };
-        for variation in [Variation::default(), Variation::light()] {
+        let worlds = [Variation::default(), Variation::light(), Variation::strong()];
+        for (variation, actuation) in worlds.into_iter().zip([Actuation::Speed, Actuation::angle(), Actuation::angle()])
+        {
             let (rapier, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), variation);
+            let rapier = rapier.with_actuation(actuation).expect("a gain in range");
+            let lanes = lanes.with_actuation(actuation).expect("a gain in range");
             let rapier = Episode::new(rapier, movement(), 150, trials).expect("valid");
             let lanes = LaneEpisode::new(lanes, movement(), 150, trials).expect("valid");
             let mut nets = nets(rapier.inputs(), rapier.outputs(), 20);

@@ -5,7 +5,7 @@ use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::LaneEpisode;
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Failure, Phenotype, Seed, Task};
-use tasks::{Combine, Episode, Movement, Running, Snapshot, Trials, Verdict};
+use tasks::{Combine, Episode, Movement, Running, Snapshot, Sum, Trials, Verdict};
 
 /// Moves all its motors at full speed, and at one step puts out something else.
 #[derive(Clone)]
@@ -124,4 +124,52 @@ fn a_movement_that_ends_at_once_does_so_in_lanes() {
     let faults: Vec<(u32, f32)> = (1..40).map(|at| (at % 3, f32::NAN)).collect();
     let found = compare(&tasks("biped-1", PhysicsSettings::default(), Box::new(Over), trials), &faults);
     assert!(found.iter().any(|one| one.outcome.is_ok() && one.steps == 4));
+}
+
+/// Does not score torsos that sink by so much below their start, m, and ends the trial of those that rise by 20 cm.
+#[derive(Clone)]
+struct Disqualifies {
+    by: f32,
+    start: f32,
+}
+
+impl Movement for Disqualifies {
+    fn name(&self) -> &str {
+        "disqualifies"
+    }
+
+    fn unit(&self) -> &str {
+        "m"
+    }
+
+    fn begin(&mut self, start: &Snapshot) {
+        self.start = start.torso().y;
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        let rise = now.torso().y - self.start;
+        match rise {
+            _ if rise < -self.by => Verdict::Fail("it ducks"),
+            _ if rise > 0.2 => Verdict::End,
+            _ => Verdict::GoOn,
+        }
+    }
+
+    fn value(&self) -> f64 {
+        f64::from(self.start)
+    }
+}
+
+#[test]
+fn a_movement_that_fails_a_trial_does_so_in_lanes() {
+    let trials = Trials { count: 3, combine: Combine::Mean };
+    let ducks = Err(Failure::Unstable { what: "it ducks".into() });
+    for name in ["biped-1", "tetrapod-2"] {
+        for by in [0.0, 0.01, 0.05] {
+            let movement = Sum::of(Running::default()).plus(0.5, Disqualifies { by, start: 0.0 });
+            let faults: Vec<(u32, f32)> = (1..40).map(|at| (at, 0.3)).collect();
+            let found = compare(&tasks(name, PhysicsSettings::default(), Box::new(movement), trials), &faults);
+            assert!(by > 0.0 || found.iter().any(|one| one.outcome == ducks), "{name}: nobody ducks");
+        }
+    }
 }

@@ -2,11 +2,12 @@
 
 use creatures::{Blueprint, Sensor};
 use envs_core::{CreatureEnvironment, Engine, EnvironmentError, PhysicsSettings, Variation};
-use envs_lanes::LaneEnvironment;
+use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::RapierEnvironment;
-use ne_core::{Failure, Purpose, Seed};
+use ne_core::{Evaluation, Failure, Phenotype, Purpose, Seed, Task};
+use ne_net::{DenseNet, DenseShape};
 use rand::RngExt;
-use tasks::{Environment, Snapshot};
+use tasks::{Energy, Environment, Episode, Running, Snapshot, Sum, Trials};
 
 pub(crate) const SHIPPED: [&str; 7] =
     ["apod", "biped-1", "biped-2", "tetrapod-1", "tetrapod-2", "decapod-1", "decapod-2"];
@@ -22,6 +23,7 @@ pub(crate) fn all_sensors(blueprint: &Blueprint) -> Vec<Sensor> {
         Sensor::JointAngles,
         Sensor::JointSpeeds,
         Sensor::TorsoVelocity,
+        Sensor::TorsoSpin,
         Sensor::TorsoHeight,
         Sensor::Rangefinder { angles: vec![-90.0, -80.0, -45.0, -10.0, 0.0, 30.0, -135.0, 180.0], length: 2.0 },
         Sensor::Clock { period: 0.7 },
@@ -109,6 +111,29 @@ pub(crate) fn follow(
         look(rapier);
     }
     None
+}
+
+/// Nets of ten hidden neurons with random weights.
+pub(crate) fn nets(inputs: usize, outputs: usize, count: usize) -> Vec<DenseNet> {
+    let shape = DenseShape::new(inputs, vec![10], outputs);
+    let mut stream = Seed::of_run(5).stream(Purpose::new("weights"));
+    let weights = |_| {
+        let weights: Vec<f32> = (0..shape.weight_count()).map(|_| stream.random::<f32>() * 4.0 - 2.0).collect();
+        DenseNet::new(shape.clone(), &weights).expect("valid")
+    };
+    (0..count).map(weights).collect()
+}
+
+/// Evaluates the same nets in both, in lanes as one batch: lanes then sense, think and act for many at once.
+pub(crate) fn assert_same_evaluations(rapier: RapierEnvironment, lanes: LaneEnvironment, seed: u64, steps: u32) {
+    let name = rapier.blueprint().name().to_owned();
+    let movement = || Box::new(Sum::of(Running::default()).plus(-1e-4, Energy::default()));
+    let rapier = Episode::new(rapier, movement(), steps, Trials::default()).expect("valid");
+    let lanes = LaneEpisode::new(lanes, movement(), steps, Trials::default()).expect("valid");
+    let (seed, mut nets) = (Seed::of_run(seed), nets(rapier.inputs(), rapier.outputs(), 3));
+    let wanted: Vec<Evaluation> = nets.iter_mut().map(|net| rapier.evaluate(net, seed)).collect();
+    let mut batch: Vec<&mut dyn Phenotype> = nets.iter_mut().map(|net| net as &mut dyn Phenotype).collect();
+    assert_eq!(lanes.evaluate_batch(&mut batch, seed), wanted, "{name}, {seed:?}");
 }
 
 /// The numbers of one moment of a creature, told apart by their bits: −0 is not 0.

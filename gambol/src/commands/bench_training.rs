@@ -13,7 +13,7 @@ use tasks::MovementCatalogue;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  gambol bench training                                             four creatures, 300 generations of 50 × 2000 steps
+  gambol bench training                                             four creatures, 300 generations each
   gambol bench training --creature biped-1 --generations 50 --engine rapier
 
 Each creature learns to run with the default preset, from the start to the saved champion, in a temporary folder. Steps

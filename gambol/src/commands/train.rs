@@ -18,12 +18,14 @@ use tasks::MovementCatalogue;
 #[command(after_help = "\
 Examples:
   gambol train biped-1 running
+  gambol train biped-1 jumping --until usable
+  gambol train decapod-1 running --budget 10s --variation strong
   gambol train tetrapod-2 jumping --generations 100 --seed 7 --out runs/leap
   gambol train biped-1 running --preset thesis
   gambol train biped-1 running --strategy neat
   gambol train biped-1 running --variation none --engine rapier
-  gambol train biped-1 running --strategy cma-es --topology-from runs/biped-1-running/champion.json
-  gambol train apod running --set strategy.conventional.population=200 --set physics.time_step=0.01
+  gambol train biped-1 running --strategy ga --topology-from runs/biped-1-running/champion.json
+  gambol train apod running --set strategy.cma-es.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
   gambol train --config runs/leap/config.json --out runs/leap-again
 

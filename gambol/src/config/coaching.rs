@@ -95,6 +95,7 @@ fn sensors(own: &[Sensor], movement: Movement, legless: bool) -> Vec<Sensor> {
         if !legless {
             sensors.push(Sensor::FootContacts);
         }
+        sensors.extend([Sensor::TorsoVelocity, Sensor::TorsoHeight]);
     }
     if !sensors.iter().any(|sensor| matches!(sensor, Sensor::Clock { .. })) {
         sensors.push(Sensor::Clock { period: movement.period() });

@@ -28,7 +28,7 @@ pub const PRESETS: &[Preset] = &[
     Preset {
         name: "default",
         description: "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and a coach's eye for gaits",
-        strategy: || StrategySettings::CmaEs(CmaEsSettings { population: Some(64), ..CmaEsSettings::default() }),
+        strategy: || StrategySettings::CmaEs(CmaEsSettings::gaits()),
         activation: Activation::Tanh,
         variation: Variation::light,
         equip: coaching::equip,

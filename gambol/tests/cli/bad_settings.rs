@@ -8,8 +8,8 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 /// After `train biped-1 running`.
 #[rustfmt::skip]
 const FLAGS: &[(&[&str], &[&str])] = &[
-    (&["--population", "0"],     &["strategy.conventional.population = 0: must be from 2 to 1000000"]),
-    (&["--population", "1"],     &["strategy.conventional.population = 1: must be from 2 to 1000000"]),
+    (&["--population", "0", "--strategy", "ga"], &["strategy.conventional.population = 0: must be from 2 to 1000000"]),
+    (&["--population", "1", "--strategy", "ga"], &["strategy.conventional.population = 1: must be from 2 to 1000000"]),
     (&["--generations", "0"],    &["stop.generations = 0: must be at least 1"]),
     (&["--evaluations", "0"],    &["stop.evaluations = 0: must be at least 1"]),
     (&["--steps", "0"],          &["stop.steps = 0: must be at least 1"]),
@@ -19,11 +19,11 @@ const FLAGS: &[(&[&str], &[&str])] = &[
     (&["--target", "NaN"],       &["stop.target = NaN: must be a finite number"]),
     (&["--target", "-inf"],      &["stop.target = -inf: must be a finite number"]),
     (&["--engine", "lnaes"],     &["there is no engine \"lnaes\"; did you mean \"lanes\"? (there are: lanes, rapier)"]),
-    (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, light)"]),
+    (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, light, strong)"]),
     (&["--preset", "thesys"],    &["there is no preset \"thesys\"", "did you mean \"thesis\"?"]),
 ];
 
-/// After `train biped-1 running --set`.
+/// After `train biped-1 running --strategy ga --set`.
 #[rustfmt::skip]
 const SETTINGS: &[(&str, &[&str])] = &[
     // Keys.
@@ -55,6 +55,19 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("controller.hidden=[0]",                       &["controller.hidden[0] = 0: must be from 1 to 4096"]),
     ("controller.hidden_scale=-1",                  &["controller.hidden_scale = -1: must be"]),
     ("controller.input_range=0",                    &["controller.input_range = 0: must be from 0.001 to 1000"]),
+    ("controller.limbs=3",                          &["controller.limbs", "invalid"]),
+    ("controller.limbs=altrenating",                &["controller.limbs: unknown variant `altrenating`", "did you mean `alternating`?"]),
+    ("controller.actuation=angel",                  &["controller.actuation: unknown variant `angel`", "did you mean `angle`?"]),
+    ("controller.actuation=angle",                  &["controller.actuation", "invalid type"]),
+    ("controller.actuation={\"angle\":{}}",         &["controller.actuation", "missing field `gain`"]),
+    ("controller.actuation={\"angle\":{\"gian\":8}}", &["controller.actuation.angle", "did you mean `gain`?"]),
+    ("controller.actuation={\"angle\":{\"gain\":0}}", &["controller.actuation.angle.gain = 0: must be from 0.1 to 50"]),
+    ("controller.actuation={\"angle\":{\"gain\":51}}", &["controller.actuation.angle.gain = 51: must be from 0.1 to 50"]),
+    ("rehearsal=0",                                 &["rehearsal = 0: must be from 1 to 1000000"]),
+    ("rehearsal=-1",                                &["rehearsal: invalid value: integer `-1`"]),
+    ("rehearsal=short",                             &["rehearsal: invalid type: string \"short\""]),
+    ("movement.terms=[{\"term\":\"uprihgt\"}]",     &["movement.terms[0].term", "\"uprihgt\"", "did you mean \"upright\"?"]),
+    ("sensors=[\"torso-spni\"]",                    &["sensors[0]: unknown variant", "did you mean `torso-spin`?"]),
     ("preset=thesis",                               &["a preset is chosen with --preset"]),
     ("movement.terms=[{\"term\":\"energy\"},{\"term\":\"energy\"}]", &["movement.terms[1].term = energy", "named once"]),
     ("physics.time_step=0",                         &["physics.time_step = 0: must be from 0.001 to 0.05"]),
@@ -130,7 +143,7 @@ fn a_wrong_flag_is_named() -> Outcome {
 #[test]
 fn a_wrong_setting_is_named() -> Outcome {
     for (setting, says) in SETTINGS {
-        refused(&["biped-1", "running", "--generations", "1", "--set", setting], says)?;
+        refused(&["biped-1", "running", "--strategy", "ga", "--generations", "1", "--set", setting], says)?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use crate::{
     damage::{edit, flip, json, places, raise_version, truncate, write},
     folder::{assert_same_run, assert_untouched, contents, read},
-    program::{assert_says, fail, gambol, small_run, succeed, text},
+    program::{WITHOUT_JURY, assert_says, fail, gambol, small_run, succeed, text},
 };
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
@@ -75,8 +75,8 @@ fn same_value(one: &[u8], other: &[u8]) -> bool {
 fn a_lost_line_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
-    // Without variation each new best has a line in the gallery at once.
-    succeed(small_run(&run, 4).args(["--variation", "none"]));
+    // Without a jury each new best has a line in the gallery at once.
+    succeed(small_run(&run, 4).args(WITHOUT_JURY));
     for name in ["log.jsonl", "gallery.jsonl", "timing.jsonl"] {
         let file = run.join(name);
         let whole = fs::read_to_string(&file)?;
@@ -183,7 +183,7 @@ fn the_checkpoint_of_another_run_is_refused() -> Outcome {
     let (run, other) = (folder.path().join("run"), folder.path().join("other"));
     succeed(&mut small_run(&run, 4));
     let foreign: [(&[&str], &str); 2] =
-        [(&["--seed", "9"], "the seed"), (&["--set", "strategy.conventional.elites=1"], "the strategy's settings")];
+        [(&["--seed", "9"], "the seed"), (&["--set", "strategy.cma-es.step_size=0.77"], "the strategy's settings")];
     for (flags, says) in foreign {
         succeed(small_run(&other, 4).args(flags));
         fs::copy(other.join("checkpoint"), run.join("checkpoint"))?;

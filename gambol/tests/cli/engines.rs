@@ -3,7 +3,7 @@
 use crate::{
     damage::{edit_and_seal, json},
     folder::{assert_same_run, read},
-    program::{assert_says, fail, gambol, small_run, succeed, text},
+    program::{WITHOUT_JURY, assert_says, fail, gambol, small_run, succeed, text},
 };
 use serde_json::Value;
 use std::fs;
@@ -15,7 +15,8 @@ fn lanes_are_the_default_and_rapier_finds_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     for variation in ["none", "light"] {
         let [plain, lanes, rapier] = ["plain", "lanes", "rapier"].map(|it| folder.path().join(variation).join(it));
-        let run = |path, flags: &[&str]| succeed(small_run(path, 12).args(["--variation", variation]).args(flags));
+        let varies: &[&str] = if variation == "none" { &WITHOUT_JURY } else { &["--variation", variation] };
+        let run = |path, flags: &[&str]| succeed(small_run(path, 12).args(varies).args(flags));
         run(&plain, &[]);
         run(&lanes, &["--engine", "lanes", "--threads", "1"]);
         run(&rapier, &["--engine", "rapier", "--threads", "3"]);
@@ -59,16 +60,26 @@ fn a_creature_that_lanes_cannot_simulate_is_refused_and_rapier_trains_it() -> Ou
     };
     let refusal = "engine: lanes cannot simulate this creature: its parts collide with each other (self_collision); \
                    train it with --engine rapier";
-    assert_says(&fail(&mut train(&[])), &[refusal]);
-    assert!(!run.exists(), "nothing was begun");
-    succeed(&mut train(&["--engine", "rapier"]));
+    for flags in [&["--engine", "lanes"][..], &["--preset", "thesis"]] {
+        assert_says(&fail(&mut train(flags)), &[refusal]);
+        assert!(!run.exists(), "nothing was begun");
+    }
+    succeed(&mut train(&["--engine", "rapier", "--preset", "thesis"]));
+    fs::remove_dir_all(&run)?;
+    // The default preset knows.
+    succeed(&mut train(&[]));
+    assert_eq!(json(&run.join("config.json"))["content"]["engine"], "rapier");
     assert_says(&succeed(gambol("verify").arg(run.join("champion.json"))), &["identical: "]);
 
     let config = folder.path().join("config.json");
-    fs::write(&config, format!(r#"{{"creature": "{}", "movement": {{"name": "running"}}}}"#, text(&creature)))?;
+    fs::write(
+        &config,
+        format!(r#"{{"preset": "thesis", "creature": "{}", "movement": {{"name": "running"}}}}"#, text(&creature)),
+    )?;
     assert_says(&fail(gambol("check").arg(&config)), &[text(&config), refusal]);
     let mut compare = gambol("compare");
     compare.args(["--strategies", "ga", "--creatures", text(&creature), "--evaluations", "10", "--out", text(&config)]);
+    compare.args(["--engine", "lanes"]);
     assert_says(&fail(&mut compare), &["ga on ", refusal]);
     Ok(())
 }
@@ -99,7 +110,8 @@ fn a_comparison_can_choose_engine_and_variation() -> Outcome {
         let out = folder.path().join(name);
         let mut compare = gambol("compare");
         compare.args(["--strategies", "ga,cosyne", "--creatures", "biped-1", "--seeds", "2", "--evaluations", "200"]);
-        compare.args(["--set", "movement.steps=40", "--quiet", "--out", text(&out)]);
+        // Nothing ends an episode early, so that all take as many steps.
+        compare.args(["--set", "movement.steps=40", "--set", "movement.terms=[]", "--quiet", "--out", text(&out)]);
         succeed(compare.args(flags));
         let scores = fs::read_to_string(out.join("scores.csv"))?;
         // All but the seconds.
@@ -131,13 +143,18 @@ fn variation_of(arguments: &[&str], file: Option<&str>) -> serde_json::Value {
 
 #[test]
 fn single_settings_come_after_options_and_files_say_all_that_varies() {
-    let light = variation_of(&[], None);
-    assert_eq!(light["friction"], 0.2);
+    let light = variation_of(&["--variation", "light"], None);
+    assert_eq!(variation_of(&[], None), light, "of the default preset");
+    assert!(light["friction"].as_f64() > Some(0.0));
     let mut rougher = variation_of(&["--set", "variation.friction=0.5", "--variation", "light"], None);
     assert_eq!(rougher["friction"].take(), 0.5);
     assert_eq!(rougher["start_pose"], light["start_pose"]);
-    let file = variation_of(&[], Some(r#"{ "variation": { "friction": 0.3 } }"#));
-    assert_eq!((&file["friction"], &file["mass"], &file["start_pose"]), (&0.3.into(), &0.0.into(), &0.0.into()));
-    assert_eq!(variation_of(&["--variation", "light"], Some(r#"{ "variation": { "friction": 0.3 } }"#)), light);
+    let file = variation_of(&[], Some(r#"{ "variation": { "friction": 0.45 } }"#));
+    assert_eq!((&file["friction"], &file["mass"], &file["start_pose"]), (&0.45.into(), &0.0.into(), &0.0.into()));
+    assert_eq!(variation_of(&["--variation", "light"], Some(r#"{ "variation": { "friction": 0.45 } }"#)), light);
+    let strong = variation_of(&["--variation", "strong"], None);
+    for (name, amount) in light.as_object().expect("an object") {
+        assert!(strong[name].as_f64() > amount.as_f64(), "{name}: strong is more than light");
+    }
     assert_eq!(variation_of(&[], Some(r#"{ "trials": { "count": 1 } }"#)), light);
 }

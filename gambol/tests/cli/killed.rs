@@ -17,7 +17,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Kills the program once it has told of so many generations; it goes on meanwhile, so that the kill lands anywhere in
 /// a generation. With none it is killed as soon as there is a checkpoint.
-fn kill_after(command: &mut Command, folder: &Path, generations: usize) {
+pub(crate) fn kill_after(command: &mut Command, folder: &Path, generations: usize) {
     let (mut child, output) = start_and_read(command, generations);
     while !folder.join("checkpoint").exists() {
         thread::sleep(Duration::from_millis(1));

@@ -7,6 +7,7 @@ mod bad_files;
 mod bad_settings;
 mod broken_runs;
 mod checking;
+mod coaching;
 mod comparing;
 mod damage;
 mod engines;

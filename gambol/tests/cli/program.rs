@@ -27,6 +27,9 @@ pub(crate) fn small_run_of(creature: &str, movement: &str, folder: &Path, genera
     train
 }
 
+/// Flags of a run without a jury: what is found in training is what is found.
+pub(crate) const WITHOUT_JURY: [&str; 4] = ["--variation", "none", "--set", "rehearsal=null"];
+
 /// The generations of a [`long_run`].
 pub(crate) const LONG: usize = 200;
 

@@ -126,7 +126,7 @@ fn a_wrong_setting_is_named_with_its_range() {
         assert_says(&fail(&mut train), &[says]);
     }
     let mut train = gambol("train");
-    train.args(["biped-1", "running", "--set", "strategy.neat.recurrent=true"]);
+    train.args(["biped-1", "running", "--strategy", "ga", "--set", "strategy.neat.recurrent=true"]);
     assert_says(&fail(&mut train), &["the strategy is \"conventional\"; choose the other one with --strategy neat"]);
 }
 
@@ -139,7 +139,7 @@ fn topology(file: &Path, what: &str, into: &str) -> Command {
     assert!(text.contains(what), "{what}");
     std::fs::write(file, text.replacen(what, into, 1)).expect("a file");
     let mut train = gambol("train");
-    train.args(["biped-1", "running", "--strategy", "cma-es", "--config"]).arg(file);
+    train.args(["biped-1", "running", "--preset", "thesis", "--strategy", "cma-es", "--config"]).arg(file);
     train
 }
 
@@ -191,11 +191,13 @@ fn the_weights_of_a_found_topology_can_be_searched() -> Outcome {
 fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
     let folder = tempfile::tempdir()?;
     let found = folder.path().join("found");
-    succeed(small_run("neat", &found, 1).arg("--no-report"));
+    succeed(small_run("neat", &found, 1).args(["--preset", "thesis", "--no-report"]));
     let champion = found.join("champion.json");
     let train = |creature: &str, strategy: &str| {
         let mut train = gambol("train");
-        train.args([creature, "running", "--strategy", strategy, "--topology-from"]).arg(&champion);
+        train
+            .args([creature, "running", "--preset", "thesis", "--strategy", strategy, "--topology-from"])
+            .arg(&champion);
         train
     };
     let message = fail(&mut train("biped-2", "cma-es"));
@@ -237,6 +239,7 @@ fn searches_too_large_for_any_machine_are_refused_at_once() {
             "strategy.neat.population = 1000000: must be at most 3275, since each starts with up to 20486 connections",
         ),
     ] {
-        assert_says(&fail(gambol("train").args(["biped-1", "running"]).args(arguments)), &[says]);
+        let train = ["biped-1", "running", "--preset", "thesis"];
+        assert_says(&fail(gambol("train").args(train).args(arguments)), &[says]);
     }
 }

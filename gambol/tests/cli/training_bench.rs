@@ -25,7 +25,9 @@ fn json_has_the_figures() -> Outcome {
     let measured: Value = serde_json::from_str(&succeed(bench(&flags).arg("--json")))?;
     assert_eq!((&measured["engine"], &measured["threads"]), (&"rapier".into(), &1.into()));
     let run = &measured["runs"][0];
-    assert_eq!((&run["creature"], &run["generations"], &run["steps"]), (&"biped-1".into(), &3.into(), &4500.into()));
+    assert_eq!((&run["creature"], &run["generations"]), (&"biped-1".into(), &3.into()));
+    // At most as many steps as planned, for each of at least two individuals a generation at least one.
+    assert!((6..=3 * 30 * 1000).contains(&run["steps"].as_u64().unwrap_or(0)), "{run}");
     for figure in ["seconds", "generations_per_second", "microseconds_per_step_and_core"] {
         assert!(run[figure].as_f64() > Some(0.0), "{figure}: {run}");
     }

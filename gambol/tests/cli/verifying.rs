@@ -44,7 +44,7 @@ fn every_trained_champion_is_identical() -> Outcome {
         succeed(small_run_of(creature, ["running", "jumping"][index % 2], &path, 2).arg("--quiet"));
         let ended = verify(&path.join("champion.json"), &[]);
         assert_eq!(ended.code, Some(0), "{creature}: {}{}", ended.stdout, ended.stderr);
-        assert_says(&ended.stdout, &["identical: fitness ", "60 steps, to the bit"]);
+        assert_says(&ended.stdout, &["identical: fitness ", " steps, to the bit"]);
     }
     Ok(())
 }

@@ -21,6 +21,8 @@ const WORLD: Seed = Seed::of_run(99);
 struct Known {
     /// The same shape as the script.
     worth: Vec<Vec<f64>>,
+    /// The same shape, or shorter: who is not in it has grade 0.
+    grades: Vec<Vec<u8>>,
     heard: Arc<Mutex<Vec<Vec<Puppet>>>>,
     parted: bool,
 }
@@ -36,14 +38,19 @@ impl Jury<Puppet> for Known {
 
     fn judge(&self, finalists: &[Puppet], _: Option<Standing>) -> Judgement {
         self.heard.lock().expect("no test panics here").push(finalists.to_vec());
-        let worth = |finalist: &Puppet| {
-            let lines = (1..).zip(&self.worth);
-            let all = lines.flat_map(|(line, worth)| (0..).zip(worth).map(move |(index, worth)| (line, index, worth)));
-            let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *finalist);
-            Evaluation::new(mine.next().map_or(FAILED, |(_, _, &worth)| worth))
-        };
-        Judgement { evaluations: finalists.iter().map(worth).collect(), grades: Vec::new(), parted: self.parted }
+        let worth = |finalist: &Puppet| Evaluation::new(entry(&self.worth, finalist).unwrap_or(FAILED));
+        let grade = |finalist: &Puppet| entry(&self.grades, finalist).unwrap_or(0);
+        let grades = if self.grades.is_empty() { Vec::new() } else { finalists.iter().map(grade).collect() };
+        Judgement { evaluations: finalists.iter().map(worth).collect(), grades, parted: self.parted }
     }
+}
+
+/// What a table of the script's shape says of a genome.
+fn entry<T: Copy>(table: &[Vec<T>], finalist: &Puppet) -> Option<T> {
+    let lines = (1..).zip(table);
+    let all = lines.flat_map(|(line, entries)| (0..).zip(entries).map(move |(index, entry)| (line, index, entry)));
+    let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *finalist);
+    mine.next().map(|(_, _, &entry)| entry)
 }
 
 /// A run of these fitnesses in training before a jury to which they are worth `worth`.
@@ -114,6 +121,100 @@ fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_jury() {
     assert_eq!(next(), (3, 7.0, Some(7.0), 0));
     assert_eq!(next(), (3, 7.0, None, 1));
     assert_eq!(next(), (3, 7.0, Some(1.0), 2));
+}
+
+/// A run of equals in training, one a generation, each heard at once, with these worths and grades.
+fn graded(worth: &[f64], grades: &[u8], stop: StopConditions) -> Evolution<Script> {
+    let worth = worth.iter().map(|&worth| vec![worth]).collect();
+    let grades = grades.iter().map(|&grade| vec![grade]).collect();
+    let known = Known { worth, grades, ..Known::default() };
+    Script::evolution(&[&[1.0]], stop).with_jury(Hearings { every: 1, finalists: 1 }, known)
+}
+
+#[test]
+fn a_higher_grade_dethrones_a_fitter_champion_and_no_fitness_a_higher_grade() {
+    let mut evolution = graded(&[9.0, 2.0, 100.0, 3.0, FAILED, 1.0], &[0, 1, 0, 1, 200, 2], StopConditions::default());
+    let prompter = Prompter::of(&evolution);
+    let mut next = || {
+        let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        let champion = evolution.champion().expect("somebody");
+        assert_eq!((report.best_so_far, report.grade), (Some(champion.fitness), champion.grade));
+        (champion.generation, champion.grade, champion.fitness.get(), evolution.progress().stagnation)
+    };
+    assert_eq!(next(), (1, 0, 9.0, 0));
+    assert_eq!(next(), (2, 1, 2.0, 0), "less fit, of a higher grade");
+    assert_eq!(next(), (2, 1, 2.0, 1), "fitter, of a lower grade");
+    assert_eq!(next(), (4, 1, 3.0, 0), "of the same grade, and fitter");
+    assert_eq!(next(), (4, 1, 3.0, 1), "who failed has no grade");
+    assert_eq!(next(), (6, 2, 1.0, 0));
+}
+
+#[test]
+fn at_one_hearing_the_highest_grade_wins_and_then_fitness() {
+    let grades = vec![vec![0, 1, 1, 0]];
+    let known = Known { worth: vec![vec![9.0, 2.0, 3.0, 8.0]], grades, ..Known::default() };
+    let hearings = Hearings { every: 1, finalists: 4 };
+    let mut evolution = Script::evolution(&[&[4.0, 3.0, 2.0, 1.0]], StopConditions::default());
+    evolution = evolution.with_jury(hearings, known);
+    let prompter = Prompter::of(&evolution);
+    let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+    let champion = evolution.champion().expect("somebody");
+    assert_eq!((champion.genome.clone(), champion.grade), (genome(1, 2), 1));
+    assert_eq!(report.hearing.and_then(|hearing| hearing.judged), Some(fitness(3.0)), "of who stood highest");
+}
+
+#[test]
+fn a_grade_that_is_good_enough_ends_the_run() {
+    let run = |stop: StopConditions| {
+        let mut evolution = graded(&[9.0, 8.0, 7.0, 6.0], &[0, 1, 0, 3], stop);
+        let prompter = Prompter::of(&evolution);
+        let reason = evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
+        (reason, evolution.progress().generations)
+    };
+    let none = StopConditions::default();
+    assert_eq!(run(StopConditions { grade: Some(1), ..none }), (StopReason::Grade, 2));
+    assert_eq!(run(StopConditions { grade: Some(2), ..none }), (StopReason::Grade, 4));
+    assert_eq!(run(StopConditions { grade: Some(1), target: Some(9.0), ..none }), (StopReason::Target, 1));
+    assert_eq!(run(StopConditions { grade: Some(4), generations: Some(6), ..none }), (StopReason::Generations, 6));
+    let overlaid = StopConditions { grade: Some(1), generations: Some(9), ..none };
+    let overlaid = overlaid.overlaid(StopConditions { grade: Some(2), ..none });
+    assert_eq!((overlaid.grade, overlaid.generations), (Some(2), Some(9)));
+    assert_eq!(
+        format!("it ended because {}", StopReason::Grade),
+        "it ended because the champion has the grade asked for"
+    );
+}
+
+#[test]
+fn a_resumed_run_knows_the_grade_of_its_champion() -> Result<(), Box<dyn std::error::Error>> {
+    let (worth, grades) = ([2.0, 100.0, 3.0], [1, 0, 1]);
+    let stop = |generations| StopConditions { generations: Some(generations), ..Default::default() };
+    let mut first = graded(&worth, &grades, stop(1));
+    let prompter = Prompter::of(&first);
+    first.run(&Unused, &prompter, &mut [])?;
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("checkpoint");
+    first.write_checkpoint(&path)?;
+    let known = Known {
+        worth: worth.iter().map(|&worth| vec![worth]).collect(),
+        grades: grades.iter().map(|&grade| vec![grade]).collect(),
+        ..Known::default()
+    };
+    let resumed = |stop| -> Result<Evolution<Script>, Box<dyn std::error::Error>> {
+        let resumed = Evolution::resume(Checkpoint::<Script>::read(&path)?, stop);
+        Ok(resumed.with_jury(Hearings { every: 1, finalists: 1 }, known.clone()))
+    };
+    let mut second = resumed(stop(3))?;
+    assert_eq!(second.champion(), first.champion());
+    let report = second.generation(&Unused, &prompter, &mut [])?;
+    assert_eq!((report.best_so_far, report.grade), (Some(fitness(2.0)), 1), "a fitter one of a lower grade is none");
+    second.run(&Unused, &prompter, &mut [])?;
+    assert_eq!(second.champion().map(|champion| (champion.generation, champion.grade)), Some((3, 1)));
+    // A run whose champion is good enough already has ended.
+    let mut good_enough = resumed(StopConditions { grade: Some(1), ..Default::default() })?;
+    assert_eq!(good_enough.run(&Unused, &prompter, &mut [])?, StopReason::Grade);
+    assert_eq!(good_enough.progress().generations, 1);
+    Ok(())
 }
 
 /// Between hearings nobody can know whether there is progress.
@@ -273,20 +374,25 @@ fn borrowed(lines: &[Vec<f64>]) -> Vec<&[f64]> {
 }
 
 proptest! {
-    /// Against the rule, written down naively: of all who were heard the first with the highest worth.
+    /// Against the rule, written down naively: of all who were heard the first with the highest worth among those of the
+    /// highest grade.
     #[test]
     fn the_champion_is_the_best_of_all_who_were_heard(
-        run in prop::collection::vec(prop::collection::vec((-3..4_i8, -3..4_i8), 1..5), 1..12),
+        run in prop::collection::vec(prop::collection::vec((-3..4_i8, -3..4_i8, 0..3_u8), 1..5), 1..12),
         every in 1..5_u64,
         finalists in 1..4_usize,
     ) {
         // −3 stands for a failure.
         let value = |number: i8| if number == -3 { FAILED } else { f64::from(number) };
-        let column = |of: fn(&(i8, i8)) -> i8| -> Vec<Vec<f64>> {
-            run.iter().map(|line| line.iter().map(|pair| value(of(pair))).collect()).collect()
+        let column = |of: fn(&(i8, i8, u8)) -> i8| -> Vec<Vec<f64>> {
+            run.iter().map(|line| line.iter().map(|one| value(of(one))).collect()).collect()
         };
-        let (lines, worth) = (column(|pair| pair.0), column(|pair| pair.1));
-        let (mut evolution, _) = scripted(&borrowed(&lines), &borrowed(&worth), Hearings { every, finalists });
+        let (lines, worth) = (column(|one| one.0), column(|one| one.1));
+        let grades: Vec<Vec<u8>> = run.iter().map(|line| line.iter().map(|one| one.2).collect()).collect();
+        let known = Known { worth: worth.clone(), grades: grades.clone(), ..Known::default() };
+        let stop = StopConditions { generations: Some(lines.len() as u64), ..Default::default() };
+        let mut evolution =
+            Script::evolution(&borrowed(&lines), stop).with_jury(Hearings { every, finalists }, known);
         let prompter = Prompter::of(&evolution);
         evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
 
@@ -298,17 +404,18 @@ proptest! {
             heard.extend(ranks.into_iter().map(|index| (generation, index)));
         }
         let best = |until: u64| {
-            let mut best: Option<(u64, usize, f64)> = None;
+            let mut best: Option<(u64, usize, (u8, f64))> = None;
             for &(generation, index) in heard.iter().filter(|(generation, _)| *generation <= until) {
                 let worth = worth[generation as usize - 1][index];
-                if worth.is_finite() && best.is_none_or(|(_, _, best)| worth > best) {
-                    best = Some((generation, index, worth));
+                let standing = (grades[generation as usize - 1][index], worth);
+                if worth.is_finite() && best.is_none_or(|(_, _, best)| standing > best) {
+                    best = Some((generation, index, standing));
                 }
             }
-            best.map(|(generation, index, worth)| (genome(generation, index as u64), generation, worth))
+            best.map(|(generation, index, standing)| (genome(generation, index as u64), generation, standing))
         };
         let seen = |champion: Option<Champion<Puppet>>| {
-            champion.map(|champion| (champion.genome, champion.generation, champion.fitness.get()))
+            champion.map(|champion| (champion.genome, champion.generation, (champion.grade, champion.fitness.get())))
         };
         let last_hearing = lines.len() as u64 / every * every;
         prop_assert_eq!(seen(evolution.champion().cloned()), best(last_hearing));

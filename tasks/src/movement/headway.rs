@@ -1,8 +1,8 @@
 use super::{Movement, Verdict};
 use crate::{Body, Snapshot};
 
-/// Ends the episode when there is no headway: less than 0.2 body lengths a second forwards over 1 s, at any time after
-/// the first second. Its value is 1 if that happened and 0 if not.
+/// Ends the episode when there is no headway: less than 0.2 body lengths forwards in any one of its seconds, the first
+/// among them. Its value is 1 if that happened and 0 if not.
 ///
 /// Standing safely on the spot is where searches for running get stuck; with this it lasts a second and earns nothing.
 #[derive(Clone, Debug, Default)]

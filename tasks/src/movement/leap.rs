@@ -1,8 +1,8 @@
 use super::{Movement, Verdict};
 use crate::{Body, Snapshot};
 
-/// How high the torso rises above its start in a true leap, m: in a flight that all legs began together, each losing the
-/// ground within 0.3 s of the others. 0 without one.
+/// How high the torso rises above its start in a true leap, m: in a flight of at least 0.18 s that all legs began together,
+/// each losing the ground within 0.25 s of the others. 0 without one.
 ///
 /// [`Jumping`](super::Jumping) also counts a torso that is lifted by a body that only stretches.
 #[derive(Clone, Debug, Default)]

@@ -1,0 +1,326 @@
+use super::*;
+use crate::config::preset;
+use creatures::{Creature, Joint, Motor, Part, Sensor, Shape};
+use ne_core::Phenotype;
+use ne_net::Topology;
+
+const EXAMPLES: [&str; 5] = [
+    include_str!("../../../examples/creatures/biped-with-feet.json"),
+    include_str!("../../../examples/creatures/hexapod.json"),
+    include_str!("../../../examples/creatures/hopper.json"),
+    include_str!("../../../examples/creatures/long-apod.json"),
+    include_str!("../../../examples/creatures/tripod.json"),
+];
+
+fn all_creatures() -> Vec<Blueprint> {
+    let shipped = creatures::shipped().iter().map(|creature| creatures::find(creature.name).expect("shipped"));
+    let shipped = shipped.map(|creature| Blueprint::new(creature).expect("valid"));
+    shipped.chain(EXAMPLES.iter().map(|text| Blueprint::from_json(text).expect("valid"))).collect()
+}
+
+/// A creature's senses, motors and limbs, and the topology made of them.
+struct Made {
+    name: String,
+    senses: Senses,
+    motors: Motors,
+    limbs: Vec<Limb>,
+    shape: TiedShape,
+}
+
+impl Made {
+    fn new(blueprint: &Blueprint, phases: LimbPhases) -> Self {
+        let mut sensors = vec![
+            Sensor::TorsoRotation,
+            Sensor::JointAngles,
+            Sensor::JointSpeeds,
+            Sensor::TorsoSpin,
+            Sensor::Clock { period: 1.0 },
+        ];
+        if !blueprint.feet().is_empty() {
+            sensors.insert(1, Sensor::FootContacts);
+        }
+        let senses = Senses::new(blueprint, &sensors, 1.0).expect("it has what is sensed");
+        let motors = Motors::new(blueprint);
+        let config = preset("default").expect("there").config(blueprint.creature().clone(), "running");
+        let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
+        let shape = topology(blueprint, &senses, &motors, &controller, phases);
+        Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape }
+    }
+
+    /// The ties of each limb's copy, as they follow each other.
+    fn copies(&self) -> Vec<(&Limb, &[Tie])> {
+        let kinds = self.limbs.iter().map(|limb| limb.kind).max().unwrap_or(0) + 1;
+        let in_order = (0..kinds).flat_map(|kind| self.limbs.iter().filter(move |limb| limb.kind == kind));
+        let (mut neurons, mut ties) = (&self.shape.net.neurons[..], &self.shape.weights[..]);
+        let mut copies = Vec::new();
+        for limb in in_order {
+            let (mine, rest) = neurons.split_at(3 + limb.hinges.len());
+            let count = mine.iter().map(|neuron| neuron.sources.len() + usize::from(neuron.bias)).sum();
+            let (mine, other_ties) = ties.split_at(count);
+            copies.push((limb, mine));
+            (neurons, ties) = (rest, other_ties);
+        }
+        assert!(neurons.is_empty() && ties.is_empty(), "{}: more than the copies", self.name);
+        copies
+    }
+
+    /// Genes of which the copies have each their own: the wave along the body and the phase of each limb.
+    fn own(&self) -> usize {
+        1 + self.limbs.len()
+    }
+
+    /// Genes that look like chance; those of waves, phases and places are 0 if limbs are to be `alike`.
+    fn genes(&self, alike: bool) -> Vec<f32> {
+        let mut genes: Vec<f32> =
+            (0..self.shape.gene_count()).map(|index| libm::sinf(3.7 * index as f32 + 1.0)).collect();
+        if alike {
+            genes[..self.own()].fill(0.0);
+            // The first of a neuron's group is its threshold, the second what its place along the body adds to that.
+            let mut first = 0;
+            for &size in &self.shape.groups {
+                if first >= self.own() {
+                    genes[first + 1] = 0.0;
+                }
+                first += size;
+            }
+        }
+        genes
+    }
+
+    /// What a limb's motors get when its clock stands at `phase`, its joints and its feet say `felt`, the first joint the
+    /// first, and all other limbs are silent.
+    fn answer(&self, limb: &Limb, phase: f32, felt: [f32; 2]) -> Vec<f32> {
+        let sense = |source: Source| match source {
+            Source::TorsoRotation => 0.3,
+            Source::TorsoSpin => -0.2,
+            Source::ClockSine { .. } => libm::sinf(phase),
+            Source::ClockCosine { .. } => libm::cosf(phase),
+            Source::JointAngle(hinge) | Source::JointSpeed(hinge) => {
+                let place = limb.hinges.iter().position(|&mine| mine == hinge);
+                place.map_or(0.0, |place| limb.sign * felt[0] / (1.0 + place as f32))
+            }
+            Source::Contact(part) => f32::from(u8::from(limb.parts.contains(&part))) * felt[1],
+            other => unreachable!("{other:?}"),
+        };
+        let inputs: Vec<f32> = self.senses.probes().iter().map(|probe| sense(probe.source)).collect();
+        let mut outputs = vec![0.0; self.motors.len()];
+        Topology::from(self.shape.clone()).network(&self.genes(true)).activate(&inputs, &mut outputs);
+        let of = |&hinge: &usize| {
+            let output = self.motors.drives().iter().position(|drive| drive.hinge == hinge).expect("a motor");
+            limb.sign * outputs[output]
+        };
+        limb.hinges.iter().map(of).collect()
+    }
+}
+
+/// Whether a gene counts in a weight.
+fn mentions(tie: &Tie, gene: usize) -> bool {
+    let has = |terms: &[(usize, f32)]| terms.iter().any(|&(mine, _)| mine == gene);
+    match tie {
+        Tie::Sum(terms) => has(terms),
+        Tie::Sine(turn) | Tie::Cosine(turn) => turn.genes.contains(&gene) || has(&turn.phase_genes),
+    }
+}
+
+#[track_caller]
+fn assert_close(found: &[f32], expected: &[f32], what: &str) {
+    let close = found.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-5);
+    assert!(found.len() == expected.len() && close, "{what}: {found:?}, expected {expected:?}");
+}
+
+#[test]
+fn every_motor_has_an_output_of_its_own_and_every_gene_a_weight() {
+    for blueprint in all_creatures() {
+        for phases in [LimbPhases::Alternating, LimbPhases::Together] {
+            let made = Made::new(&blueprint, phases);
+            let name = &made.name;
+            assert_eq!(made.shape.validate(), Ok(()), "{name}");
+            let net = &made.shape.net;
+            assert_eq!((net.inputs, net.outputs.len()), (made.senses.len(), blueprint.actuated().len()), "{name}");
+            let mut outputs = net.outputs.clone();
+            outputs.sort_unstable();
+            outputs.dedup();
+            assert_eq!(outputs.len(), blueprint.actuated().len(), "{name}: two motors have one neuron");
+            assert!(outputs[0] >= net.inputs, "{name}: a motor gets an input");
+            let counts = |gene: usize| made.shape.weights.iter().any(|tie| mentions(tie, gene));
+            assert!((0..made.shape.gene_count()).all(counts), "{name}: a gene counts in no weight");
+            // Every input is heard by somebody.
+            let heard = |input: usize| net.neurons.iter().any(|neuron| neuron.sources.contains(&input));
+            assert!((0..net.inputs).all(heard), "{name}");
+        }
+    }
+}
+
+#[test]
+fn limbs_of_one_kind_share_all_genes_but_their_phases() {
+    for blueprint in all_creatures() {
+        let made = Made::new(&blueprint, LimbPhases::Alternating);
+        let copies = made.copies();
+        let genes = made.genes(false);
+        let weights_of = |genes: &[f32]| -> Vec<Vec<f32>> {
+            let shape = |ties: &[Tie]| TiedShape { weights: ties.to_vec(), ..made.shape.clone() };
+            copies.iter().map(|(_, ties)| shape(ties).weights(genes)).collect()
+        };
+        let before = weights_of(&genes);
+        for gene in 0..genes.len() {
+            let mut changed = genes.clone();
+            changed[gene] += 0.5;
+            let after = weights_of(&changed);
+            let mentioning: Vec<usize> =
+                (0..copies.len()).filter(|&copy| copies[copy].1.iter().any(|tie| mentions(tie, gene))).collect();
+            for copy in 0..copies.len() {
+                // What a place adds is nothing in the middle.
+                let may_stay = !mentioning.contains(&copy) || copies[copy].0.place == 0.0;
+                let name = &made.name;
+                assert!(before[copy] != after[copy] || may_stay, "{name}: gene {gene} does not count in copy {copy}");
+                assert!(before[copy] == after[copy] || mentioning.contains(&copy), "{name}: gene {gene}, copy {copy}");
+            }
+            let of_kind =
+                |kind: usize| -> Vec<usize> { (0..copies.len()).filter(|&copy| copies[copy].0.kind == kind).collect() };
+            match gene {
+                0 => assert_eq!(mentioning.len(), copies.len(), "{}: the wave goes through all", made.name),
+                gene if gene < made.own() => assert_eq!(mentioning.len(), 1, "{}: phase gene {gene}", made.name),
+                gene => {
+                    let kind = copies[mentioning[0]].0.kind;
+                    assert_eq!(mentioning, of_kind(kind), "{}: gene {gene} is not shared", made.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn neighbours_do_the_same_half_a_turn_apart_or_together() {
+    for blueprint in all_creatures() {
+        for phases in [LimbPhases::Alternating, LimbPhases::Together] {
+            let made = Made::new(&blueprint, phases);
+            for one in &made.limbs {
+                for other in made.limbs.iter().filter(|other| other.kind == one.kind) {
+                    for clock in [0.0, 0.4, 2.5, 4.0] {
+                        let felt = [0.6 - clock, 1.0];
+                        let ahead = one.phase - other.phase;
+                        let (found, expected) =
+                            (made.answer(other, clock + ahead, felt), made.answer(one, clock, felt));
+                        assert_close(&found, &expected, &format!("{}, {clock}: {one:?}, {other:?}", made.name));
+                    }
+                }
+            }
+            let alternates = phases == LimbPhases::Alternating && !blueprint.is_legless();
+            let phases_seen = made.limbs.iter().map(|limb| limb.phase);
+            if alternates && made.limbs.len() > 1 {
+                let halves = phases_seen.filter(|&phase| phase == PI).count();
+                assert_eq!(halves, made.limbs.len() / 2, "{}", made.name);
+            } else {
+                assert!(phases_seen.clone().all(|phase| phase == 0.0), "{}", made.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn legs_beside_each_other_and_next_to_each_other_along_the_body_are_half_a_turn_apart() {
+    let (front, middle, back) = (0.8, 0.0, -0.8);
+    let phases = |places: &[f32]| phases_of(places, LimbPhases::Alternating, false);
+    assert_eq!(phases(&[middle, middle]), [0.0, PI]);
+    assert_eq!(phases(&[back, front]), [0.0, PI]);
+    assert_eq!(phases(&[front, back]), [PI, 0.0], "from the back on, whatever the order");
+    assert_eq!(phases(&[back, back, front, front]), [0.0, PI, PI, 0.0], "crosswise");
+    assert_eq!(phases(&[back, middle, front]), [0.0, PI, 0.0]);
+    assert_eq!(phases(&[back, front, back + 0.005]), [0.0, PI, PI], "as good as beside each other");
+    assert_eq!(phases_of(&[back, front], LimbPhases::Together, false), [0.0, 0.0]);
+    assert_eq!(phases_of(&[back, front], LimbPhases::Alternating, true), [0.0, 0.0]);
+}
+
+/// What bends a caterpillar up before its middle turns the other way behind it.
+#[test]
+fn the_joints_of_apods_behind_the_torso_are_mirrored() {
+    for blueprint in all_creatures().into_iter().filter(Blueprint::is_legless) {
+        let made = Made::new(&blueprint, LimbPhases::Alternating);
+        let (parts, hinges) = (blueprint.parts(), blueprint.hinges());
+        assert_eq!(made.limbs.len(), blueprint.actuated().len(), "each joint is a limb");
+        let mut mirrored = 0;
+        for limb in &made.limbs {
+            let hinge = &hinges[limb.hinges[0]];
+            let behind = parts[hinge.child].x < parts[hinge.parent].x;
+            assert_eq!(limb.sign, if behind { -1.0 } else { 1.0 }, "{}: {}", made.name, parts[hinge.child].name);
+            assert_eq!(behind, limb.place < 0.0, "{}: {}", made.name, parts[hinge.child].name);
+            mirrored += usize::from(behind);
+        }
+        assert_eq!(mirrored * 2, made.limbs.len(), "{}", made.name);
+    }
+    // Legs hang down, before and behind the middle.
+    let tetrapod = Made::new(
+        &Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid"),
+        LimbPhases::Together,
+    );
+    assert!(tetrapod.limbs.iter().all(|limb| limb.sign == 1.0));
+    assert!(tetrapod.limbs.iter().any(|limb| limb.place < -0.1) && tetrapod.limbs.iter().any(|limb| limb.place > 0.1));
+}
+
+/// A torso, and parts of 0.2 m that hang below each other: parent, tag, and whether there is a motor.
+fn hanging(chain: &[(&str, &str, &str, bool)]) -> Blueprint {
+    let mut creature = Creature::new("hanging");
+    let part = |name: &str, tag: &str, position| Part {
+        name: name.into(),
+        tag: tag.into(),
+        shape: Shape::Box { width: 0.1, height: 0.2 },
+        density: 50.0,
+        friction: 1.0,
+        position,
+        angle: 0.0,
+        look: Default::default(),
+    };
+    creature.parts.push(part("torso", "torso", [0.0, 0.9]));
+    for &(name, parent, tag, motor) in chain {
+        let above = creature.parts.iter().find(|part| part.name == parent).expect("it comes before").position;
+        creature.parts.push(part(name, tag, [above[0], above[1] - 0.2]));
+        creature.joints.push(Joint {
+            parent: parent.into(),
+            child: name.into(),
+            anchor: [above[0], above[1] - 0.1],
+            limits: [-60.0, 60.0],
+            motor: motor.then_some(Motor { top_speed: 8.0, top_torque: 30.0 }),
+        });
+    }
+    Blueprint::new(creature).expect("valid")
+}
+
+/// The hinges of each limb, and the names of its parts.
+fn limbs_of(blueprint: &Blueprint) -> Vec<(Vec<usize>, Vec<&str>, usize)> {
+    let names = |parts: &[usize]| parts.iter().map(|&part| blueprint.parts()[part].name.as_str()).collect();
+    let limbs = limbs(blueprint, LimbPhases::Alternating);
+    let made = Made::new(blueprint, LimbPhases::Alternating);
+    assert_eq!(made.shape.validate(), Ok(()));
+    assert!(made.shape.net.outputs.iter().all(|&output| output >= made.shape.net.inputs));
+    limbs.iter().map(|limb| (limb.hinges.clone(), names(&limb.parts), limb.kind)).collect()
+}
+
+#[test]
+fn passive_joints_are_no_ones_and_a_dangling_foot_is_felt_by_its_leg() {
+    let leg = [
+        ("thigh", "torso", "leg", true),
+        ("shin", "thigh", "leg", false),
+        ("foot", "shin", "leg", false),
+        ("tail", "torso", "tail", true),
+        ("horn", "torso", "leg", true),
+    ];
+    let blueprint = hanging(&leg);
+    assert_eq!(limbs_of(&blueprint), [(vec![0], vec!["thigh", "shin", "foot"], 0), (vec![4], vec!["horn"], 0)]);
+    let made = Made::new(&blueprint, LimbPhases::Alternating);
+    assert!(made.answer(&made.limbs[0], 0.0, [0.0, 1.0]) != made.answer(&made.limbs[0], 0.0, [0.0, 0.0]));
+}
+
+#[test]
+fn where_legs_branch_each_joint_is_moved_by_one_limb() {
+    let branching = [
+        ("thigh", "torso", "leg", true),
+        ("left shin", "thigh", "leg", true),
+        ("right shin", "thigh", "leg", true),
+        ("right foot", "right shin", "leg", true),
+    ];
+    let left = (vec![0, 1], vec!["thigh", "left shin"], 0);
+    let right = (vec![2, 3], vec!["thigh", "right shin", "right foot"], 0);
+    assert_eq!(limbs_of(&hanging(&branching)), [left.clone(), right]);
+    let alone = (vec![2], vec!["thigh", "right shin"], 1);
+    assert_eq!(limbs_of(&hanging(&branching[..3])), [left, alone], "legs of two joints and of one are of two kinds");
+}

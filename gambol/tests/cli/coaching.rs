@@ -1,0 +1,181 @@
+//! What the default preset adds, and the flags that ask for it: usable gaits, within a time, the same bits each time.
+
+use crate::{
+    damage::json,
+    folder::assert_same_run,
+    killed::kill_after,
+    program::{assert_says, gambol, run, succeed, text},
+};
+use serde_json::Value;
+use std::{path::Path, process::Command, time::Instant};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// The four-legged jumper learns within a few generations. Nothing of the default preset is changed but the population,
+/// which would take a test too long, and how often the jury sits.
+fn easy(folder: &Path) -> Command {
+    let mut train = gambol("train");
+    train.args(["tetrapod-1", "jumping", "--population", "24", "--set", "record.checkpoint_every=4", "--no-report"]);
+    train.arg("--out").arg(folder);
+    train
+}
+
+/// What the program printed last, as JSON.
+fn result(stdout: &str) -> Value {
+    let line = stdout.lines().last().expect("a result");
+    serde_json::from_str::<Value>(line).expect("JSON")["result"].take()
+}
+
+fn grade(folder: &Path) -> Option<u64> {
+    json(&folder.join("checkpoint"))["content"]["champion"]["grade"].as_u64()
+}
+
+#[test]
+fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let told = succeed(easy(&path).args(["--until", "usable", "--generations", "400", "--json"]));
+    assert_eq!(result(&told)["reason"], "grade", "the champion is usable before 400 generations are done");
+    assert!(grade(&path) >= Some(1));
+    assert_says(&succeed(gambol("gait").arg(&path)), &["tetrapod-1 jumping: usable"]);
+    assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
+    // It was long enough ago: resumed, it ends where it was, and to go on one asks for more.
+    let generations = result(&told)["progress"]["generations"].clone();
+    let again = succeed(gambol("resume").arg(&path).args(["--json", "--no-report"]));
+    assert_eq!(
+        (&result(&again)["reason"], &result(&again)["progress"]["generations"]),
+        (&"grade".into(), &generations)
+    );
+    Ok(())
+}
+
+#[test]
+fn a_run_with_a_budget_of_time_ends_in_time_with_a_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let began = Instant::now();
+    let told = succeed(easy(&path).args(["--budget", "300ms", "--json"]));
+    // A generation and a hearing are finished, on a machine that may be busy; 300 generations would take far longer.
+    assert!(began.elapsed().as_secs() < 60);
+    let result = result(&told);
+    assert_eq!(result["reason"], "minutes");
+    assert!(result["progress"]["generations"].as_u64() < Some(300) && result["fitness"].is_number(), "{result}");
+    assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
+    assert_eq!(json(&path.join("config.json"))["content"]["stop"]["generations"], Value::Null, "time is the budget");
+    Ok(())
+}
+
+#[test]
+fn the_default_preset_gives_the_same_bytes_on_any_number_of_threads_and_after_being_killed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    let train = |name: &str, threads: &str| {
+        let mut train = easy(&path(name));
+        // More generations than lines fit into a pipe that nobody reads: the run cannot end before it is killed.
+        train.args(["--generations", "130", "--threads", threads]);
+        train
+    };
+    succeed(train("one", "1").arg("--quiet"));
+    succeed(train("two", "2").arg("--quiet"));
+    assert_same_run(&path("one"), &path("two"));
+    assert!(grade(&path("one")) >= Some(1), "the jury has found a usable one, so its grades are compared too");
+    kill_after(&mut train("killed", "1"), &path("killed"), 9);
+    succeed(gambol("resume").arg(path("killed")).args(["--threads", "2", "--no-report"]));
+    assert_same_run(&path("one"), &path("killed"));
+    Ok(())
+}
+
+#[test]
+fn wrong_times_and_ends_are_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let train = ["train", "biped-1", "running"];
+    let gaits = ["bench", "gaits"];
+    for (command, flags, says) in [
+        (&train[..], &["--budget", "10"][..], "'--budget <TIME>': must be a number and a unit: 500ms, 10s, 5m or 1h"),
+        (&train, &["--budget", "10x"], "'--budget <TIME>': must be a number and a unit"),
+        (&train, &["--budget", "x"], "'--budget <TIME>': must be"),
+        (&train, &["--budget", ""], "'--budget <TIME>'"),
+        (&train, &["--budget", "s"], "'--budget <TIME>': must begin with a number"),
+        (&train, &["--budget", "1.2.3s"], "'--budget <TIME>': must begin with a number"),
+        (&train, &["--budget=-5s"], "'--budget <TIME>': must be"),
+        (&train, &["--budget", "0s"], "'--budget <TIME>': must be longer than nothing"),
+        (&train, &["--budget", "10s", "--minutes", "1"], "'--budget <TIME>' cannot be used with"),
+        (&train, &["--until", "perfect"], "invalid value 'perfect' for '--until <WHAT>'\n  [possible values: usable]"),
+        (&gaits, &["--seconds", "0"], "'--seconds <SECONDS>': must be a number above 0"),
+        (&gaits, &["--seconds", "soon"], "'--seconds <SECONDS>': must be a number above 0"),
+        (&gaits, &["--seconds", "inf"], "'--seconds <SECONDS>': must be a number above 0"),
+        (&gaits, &["--seeds", "0"], "'--seeds <SEEDS>': 0 is not in 1..=10000"),
+    ] {
+        let ended = run(gambol(command[0]).args(&command[1..]).args(flags).current_dir(folder.path()));
+        assert_eq!(ended.code, Some(2), "{flags:?}: {}{}", ended.stdout, ended.stderr);
+        assert_says(&ended.stderr, &[says]);
+    }
+    let bench = |flags: &[&str]| run(gambol("bench").arg("gaits").args(flags));
+    for (flags, says) in [
+        (&["--creatures", "bipde-1"][..], "did you mean `biped-1`?"),
+        (&["--movements", "runing"], "did you mean \"running\"?"),
+        (&["--preset", "defualt"], "did you mean \"default\"?"),
+        (&["--set", "rehearsal=0"], "rehearsal = 0: must be from 1 to 1000000"),
+        (&["--steps", "0"], "stop.steps = 0: must be at least 1"),
+    ] {
+        let ended = bench(flags);
+        assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
+        assert_says(&ended.stderr, &[says]);
+    }
+    assert_eq!(std::fs::read_dir(folder.path())?.count(), 0, "nothing was begun");
+    Ok(())
+}
+
+/// Counted in steps it is the same on every machine.
+#[test]
+fn bench_gaits_tells_every_run() -> Outcome {
+    let arguments = ["--creatures", "tetrapod-1", "--movements", "jumping", "--seeds", "2", "--steps", "20000"];
+    let bench = |flags: &[&str]| {
+        let mut bench = gambol("bench");
+        bench.arg("gaits").args(arguments).args(flags);
+        succeed(&mut bench)
+    };
+    let runs = || -> Result<Vec<Value>, serde_json::Error> {
+        let mut runs = bench(&["--json"]).lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>()?;
+        for run in &mut runs {
+            assert!(run["seconds"].as_f64() > Some(0.0), "{run}");
+            for clock in ["seconds", "seconds_to_usable"] {
+                run.as_object_mut().expect("an object").remove(clock);
+            }
+        }
+        Ok(runs)
+    };
+    let first = runs()?;
+    assert_eq!(first, runs()?);
+    for (run, seed) in first.iter().zip(1_u64..) {
+        assert_eq!(
+            (&run["creature"], &run["movement"], &run["seed"]),
+            (&"tetrapod-1".into(), &"jumping".into(), &seed.into())
+        );
+        assert_eq!(run["usable"] == true, run["reasons"].as_array().is_some_and(Vec::is_empty), "{run}");
+    }
+    assert_says(&bench(&[]), &["20000 physics steps a run, or until usable, 2 seeds", "tetrapod-1", "jumping", "/2"]);
+    Ok(())
+}
+
+/// What the limbs share is a topology like any other: kept by a champion, searched anew, and drawn.
+#[test]
+fn the_net_of_limbs_can_be_kept_and_left_out() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(easy(&path("limbs")).args(["--generations", "2", "--quiet"]));
+    let champion = path("limbs").join("champion.json");
+    let mut train = easy(&path("again"));
+    train.args(["--generations", "2", "--quiet", "--topology-from", text(&champion)]);
+    succeed(&mut train);
+    let whole =
+        ["--generations", "2", "--quiet", "--set", "controller.limbs=null", "--set", "controller.actuation=speed"];
+    succeed(easy(&path("whole")).args(whole));
+    for name in ["limbs", "again", "whole"] {
+        assert_says(&succeed(gambol("verify").arg(path(name).join("champion.json"))), &["identical: "]);
+    }
+    let shape = |name: &str| json(&path(name).join("champion.json"))["content"]["network"]["shape"].take();
+    assert_eq!(shape("limbs"), shape("again"));
+    assert_ne!(shape("limbs"), shape("whole"));
+    Ok(())
+}

@@ -1,0 +1,399 @@
+//! The terms that steer a search to usable gaits, on a puppet with two legs whose every move is written by hand.
+
+use std::f32::consts::TAU;
+use tasks::{
+    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement,
+    MovementCatalogue, MovementSpec, PartState, Running, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration,
+    conformance::check_movement,
+};
+
+const TIME_STEP: f32 = 0.02;
+/// The hinges turn this far either way, rad.
+const LIMIT: f32 = 1.0;
+/// Hips of the left and of the right leg in the frame of the torso, m.
+const HIPS: [[f32; 2]; 2] = [[-0.2, -0.1], [0.2, -0.1]];
+
+/// A torso 0.4 m wide, its centre 0.5 m high at first, with two legs 0.4 m long.
+fn puppet() -> Body {
+    let part = |name: &str, corners: &[[f32; 2]]| BodyPart {
+        name: name.into(),
+        mass: 1.0,
+        inertia: 0.01,
+        corners: corners.to_vec(),
+        radius: 0.0,
+    };
+    let leg = |name| part(name, &[[0.0, -0.2], [0.0, 0.2]]);
+    let hinge = |(index, parent_anchor): (usize, [f32; 2])| BodyHinge {
+        parent: 0,
+        child: index + 1,
+        parent_anchor,
+        child_anchor: [0.0, 0.2],
+        start_angle: 0.0,
+        limits: [-LIMIT, LIMIT],
+        motor: Some(BodyMotor { top_speed: 10.0, top_torque: 10.0 }),
+    };
+    Body {
+        body_length: 1.0,
+        start_height: 0.5,
+        parts: vec![part("torso", &[[-0.2, -0.1], [0.2, 0.1]]), leg("left leg"), leg("right leg")],
+        hinges: HIPS.into_iter().enumerate().map(hinge).collect(),
+        legs: vec![vec![1], vec![2]],
+        legless: false,
+    }
+}
+
+/// The puppet at one moment.
+#[derive(Clone, Copy, Default)]
+struct Pose {
+    /// The torso's way forward and above its start, m, and its turn, rad.
+    x: f32,
+    rise: f32,
+    turn: f32,
+    /// The angles of the hips, rad.
+    hips: [f32; 2],
+    /// How high each foot is held above where the leg would reach, m; a leg that is held up touches nothing.
+    lifted: [f32; 2],
+    /// Of the torso, rad/s.
+    spin: f32,
+    torso_touches: bool,
+}
+
+impl Pose {
+    fn snapshot(&self, time: f32) -> Snapshot {
+        let (sin, cos) = libm::sincosf(self.turn);
+        let torso = PartState {
+            x: self.x,
+            y: 0.5 + self.rise,
+            cos,
+            sin,
+            spin: self.spin,
+            touching: self.torso_touches,
+            ..PartState::default()
+        };
+        let leg = |index: usize| {
+            let [hip_x, hip_y] = HIPS[index];
+            let (sin, cos) = libm::sincosf(self.turn + self.hips[index]);
+            let x = torso.x + torso.cos * hip_x - torso.sin * hip_y + 0.2 * sin;
+            let y = torso.y + torso.sin * hip_x + torso.cos * hip_y - 0.2 * cos + self.lifted[index];
+            PartState { x, y, cos, sin, touching: self.lifted[index] == 0.0, ..PartState::default() }
+        };
+        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: 0.0 }
+    }
+}
+
+/// Snapshots of so many seconds, a time step apart.
+fn script(seconds: f32, pose: impl Fn(f32) -> Pose) -> Vec<Snapshot> {
+    let steps = (seconds / TIME_STEP).round() as u16;
+    let time = |step: u16| f32::from(step) * TIME_STEP;
+    (0..=steps).map(|step| pose(time(step)).snapshot(time(step))).collect()
+}
+
+/// What a movement said.
+#[derive(Debug, PartialEq)]
+struct Seen {
+    value: f64,
+    /// When it ended the episode, s, and how.
+    end: Option<(f32, Verdict)>,
+}
+
+/// Shows a movement that has met this body the script, until it has seen enough. Its value must stay the same on a
+/// second showing.
+fn watch(mut movement: impl Movement, body: &Body, script: &[Snapshot]) -> Seen {
+    movement.meet(body);
+    let mut show = || {
+        movement.begin(&script[0]);
+        let mut verdicts = script[1..].iter().map(|now| (now.time, movement.observe(now)));
+        let end = verdicts.find(|&(_, verdict)| verdict != Verdict::GoOn);
+        Seen { value: movement.value(), end }
+    };
+    let seen = show();
+    assert_eq!(show(), seen, "the second time it is another");
+    seen
+}
+
+/// The value of a movement that never ends the episode.
+fn value(movement: impl Movement, body: &Body, script: &[Snapshot]) -> f64 {
+    let Seen { value, end } = watch(movement, body, script);
+    assert_eq!(end, None);
+    value
+}
+
+/// The value of a movement that ends the episode at this time.
+#[track_caller]
+fn assert_ends(seen: Seen, at: f32, value: f64) {
+    let (time, verdict) = seen.end.expect("it ends the episode");
+    assert_eq!((verdict, seen.value), (Verdict::End, value));
+    assert!((time - at).abs() < 1.5 * TIME_STEP, "ends at {time} s, expected {at} s");
+}
+
+fn sine(frequency: f32, time: f32) -> f32 {
+    libm::sinf(TAU * frequency * time)
+}
+
+#[test]
+fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
+    let torso = BodyPart { corners: vec![[0.0, 0.0]], ..BodyPart::default() };
+    let motor = Some(BodyMotor::default());
+    // All that fits every body the check shows: one part, that is its own leg.
+    let hinge = BodyHinge { limits: [-1.0, 1.0], motor, ..BodyHinge::default() };
+    let simple = Body { parts: vec![torso], hinges: vec![hinge], legs: vec![vec![0]], ..Body::default() };
+    let movements: [Box<dyn Movement>; 7] = [
+        Box::new(Upright::default()),
+        Box::new(Footfalls::default()),
+        Box::new(Headway::default()),
+        Box::new(Vibration::default()),
+        Box::new(Idleness::default()),
+        Box::new(Leap::default()),
+        Box::new(Honest::default()),
+    ];
+    let catalogue = MovementCatalogue::default();
+    for mut movement in movements {
+        let name = movement.name().to_owned();
+        assert_eq!(check_movement(&*movement), Ok(()), "{name}, unmet");
+        movement.meet(&simple);
+        assert_eq!(check_movement(&*movement), Ok(()), "{name}, met");
+        let spec = MovementSpec { name: name.clone(), steps: Some(10), terms: Vec::new() };
+        assert_eq!(catalogue.build(&spec).expect("it is in the catalogue").name(), name);
+    }
+}
+
+#[test]
+fn upright_ends_an_episode_beyond_60_degrees_from_the_start() {
+    let degrees = |speed: f32, from: f32| {
+        script(2.0, move |time| Pose { turn: (from + speed * time).to_radians(), ..Pose::default() })
+    };
+    let body = puppet();
+    assert_eq!(value(Upright::default(), &body, &degrees(29.0, 0.0)), 0.0);
+    assert_eq!(value(Upright::default(), &body, &degrees(-29.0, 80.0)), 0.0, "what counts is the turn since the start");
+    assert_ends(watch(Upright::default(), &body, &degrees(60.0, 0.0)), 1.0, 1.0);
+    assert_ends(watch(Upright::default(), &body, &degrees(-60.0, 0.0)), 1.0, 1.0);
+    // A whole turn is not where it began.
+    assert_ends(watch(Upright::within(1.75 * TAU), &body, &degrees(360.0, 0.0)), 1.75, 1.0);
+    assert_eq!(value(Upright::within(2.1 * TAU), &body, &degrees(-360.0, 0.0)), 0.0);
+}
+
+#[test]
+fn headway_ends_an_episode_after_a_second_with_too_little_of_it() {
+    let at = |speed: f32, until: f32| script(5.0, move |time| Pose { x: speed * time.min(until), ..Pose::default() });
+    let body = puppet();
+    assert_eq!(value(Headway::default(), &body, &at(0.25, 5.0)), 0.0);
+    assert_ends(watch(Headway::default(), &body, &at(0.15, 5.0)), 1.0, 1.0);
+    assert_ends(watch(Headway::default(), &body, &at(0.0, 5.0)), 1.0, 1.0);
+    assert_ends(watch(Headway::default(), &body, &at(-3.0, 5.0)), 1.0, 1.0);
+    assert_ends(watch(Headway::default(), &body, &at(1.0, 2.5)), 4.0, 1.0);
+    // What is much for a small body is little for a large one.
+    let large = Body { body_length: 2.0, ..puppet() };
+    assert_ends(watch(Headway::default(), &large, &at(0.25, 5.0)), 1.0, 1.0);
+}
+
+#[test]
+fn footfalls_ends_an_episode_when_a_leg_rests_or_hangs() {
+    /// Lifts its foot so high, m, in every second half second, from `phase` seconds on.
+    fn steps(height: f32, phase: f32) -> impl Fn(f32) -> f32 {
+        move |time| if (time + phase) % 1.0 < 0.5 { 0.0 } else { height }
+    }
+    let walk = |left: &dyn Fn(f32) -> f32, right: &dyn Fn(f32) -> f32| {
+        script(6.0, |time| Pose { lifted: [left(time), right(time)], ..Pose::default() })
+    };
+    let (good, other, rests, hangs) = (steps(0.05, 0.0), steps(0.05, 0.5), |_: f32| 0.0, |_: f32| 0.05);
+    let body = puppet();
+    let footfalls =
+        |left: &dyn Fn(f32) -> f32, right: &dyn Fn(f32) -> f32| watch(Footfalls::default(), &body, &walk(left, right));
+    assert_eq!(footfalls(&good, &other), Seen { value: 0.0, end: None });
+    assert_ends(footfalls(&good, &rests), 1.5, 1.0);
+    assert_ends(footfalls(&hangs, &good), 1.5, 1.0);
+    assert_ends(footfalls(&rests, &hangs), 1.5, 2.0);
+    // From 2 s on it drags its foot: it was last down at 2 s, and never more than 2 cm up since 1.5 s.
+    let drags = |time: f32| if time < 2.0 { good(time) } else { steps(0.02, 0.0)(time) };
+    assert_ends(footfalls(&drags, &good), 3.0, 1.0);
+    assert_ends(footfalls(&good, &|time| if time < 3.2 { good(time) } else { 0.0 }), 4.0, 1.0);
+    // Who has no legs cannot rest them.
+    let legless = Body { legless: true, ..puppet() };
+    assert_eq!(value(Footfalls::default(), &legless, &walk(&rests, &rests)), 0.0);
+}
+
+#[test]
+fn vibration_is_the_reversals_a_second_beyond_8() {
+    let swing = |[left, right]: [f32; 2], amplitude: f32| {
+        script(4.0, move |time| Pose {
+            hips: [amplitude * sine(left, time), amplitude * sine(right, time)],
+            turn: 0.3 * sine(0.5, time),
+            ..Pose::default()
+        })
+    };
+    let (body, vibration) = (puppet(), |body: &Body, script: &[Snapshot]| value(Vibration::default(), body, script));
+    assert_eq!(vibration(&body, &swing([0.0, 0.0], 0.4)), 0.0);
+    assert_eq!(vibration(&body, &swing([3.5, 1.0], 0.4)), 0.0);
+    // 12 reversals a second in one of two joints: 4 too many; the first and the last may be cut off.
+    let one = vibration(&body, &swing([6.0, 1.0], 0.4));
+    assert!((one - 2.0).abs() < 0.3, "{one}");
+    let both = vibration(&body, &swing([6.0, 6.0], 0.4));
+    assert!((both - 2.0 * one).abs() < 1e-9, "{both}");
+    let degree = TAU / 360.0;
+    assert_eq!(vibration(&body, &swing([6.0, 6.0], 0.9 * degree)), 0.0, "it shivers by less than 2°");
+    let mut passive = puppet();
+    passive.hinges.iter_mut().for_each(|hinge| hinge.motor = None);
+    assert_eq!(vibration(&passive, &swing([6.0, 6.0], 0.4)), 0.0);
+}
+
+#[test]
+fn idleness_is_the_share_of_motion_left_out_since_the_first_second() {
+    let swing = |left: f32, right: f32, from: f32, until: f32| {
+        script(4.0, move |time| {
+            let moved = if time < from || time > until { 0.0 } else { sine(1.0, time) };
+            Pose { hips: [left.to_radians() * moved, right.to_radians() * moved], turn: time, ..Pose::default() }
+        })
+    };
+    let body = puppet();
+    let assert_idle = |script: &[Snapshot], expected: f64| {
+        let found = value(Idleness::default(), &body, script);
+        assert!((found - expected).abs() < 0.01, "{found}, expected {expected}");
+    };
+    assert_idle(&swing(0.0, 0.0, 0.0, 4.0), 1.0);
+    assert_idle(&swing(15.5, 40.0, 0.0, 4.0), 0.0);
+    assert_idle(&swing(40.0, 0.0, 0.0, 4.0), 0.5);
+    assert_idle(&swing(7.5, 7.5, 0.0, 4.0), 0.5);
+    assert_idle(&swing(40.0, 40.0, 0.0, 0.98), 1.0);
+    assert_eq!(value(Idleness::default(), &body, &swing(40.0, 40.0, 0.0, 4.0)[..40]), 1.0, "over within a second");
+    assert_eq!(value(Idleness::default(), &Body::default(), &swing(0.0, 0.0, 0.0, 4.0)), 0.0, "nothing is expected");
+}
+
+#[test]
+fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
+    /// From `up` to `down` nothing touches the ground, and the torso rises to 0.3 m and back; the left leg left the
+    /// ground `earlier` seconds before.
+    fn jump(up: f32, down: f32, earlier: f32) -> Vec<Snapshot> {
+        script(3.0, move |time| {
+            let share = ((time - up) / (down - up)).clamp(0.0, 1.0);
+            let flies = time > up && time < down;
+            let lifted = |flies: bool| if flies { 0.1 } else { 0.0 };
+            let rise = 1.2 * share * (1.0 - share);
+            Pose { rise, lifted: [lifted(time > up - earlier && time < down), lifted(flies)], ..Pose::default() }
+        })
+    }
+    let body = puppet();
+    let leap = |script: &[Snapshot]| value(Leap::default(), &body, script);
+    let high = leap(&jump(1.0, 1.5, 0.0));
+    assert!((high - 0.3).abs() < 0.01, "{high}");
+    assert!((leap(&jump(1.0, 1.5, 0.2)) - high).abs() < 1e-6);
+    assert_eq!(leap(&jump(1.0, 1.5, 0.3)), 0.0, "one leg after the other");
+    assert_eq!(leap(&jump(1.0, 1.14, 0.0)), 0.0, "a stumble");
+    // Two leaps: the higher one counts, and landing in between ends the first.
+    let twice: Vec<Snapshot> = jump(1.0, 1.5, 0.0).into_iter().chain(jump(1.0, 1.3, 0.3)).collect();
+    assert_eq!(leap(&twice), high);
+    let stretches = script(2.0, |time| Pose { rise: 0.3 * sine(0.5, time), ..Pose::default() });
+    assert_eq!(leap(&stretches), 0.0);
+    assert!(value(Jumping::default(), &body, &stretches) > 0.29);
+    let on_its_belly = script(2.0, |_| Pose { lifted: [0.1; 2], rise: 0.3, torso_touches: true, ..Pose::default() });
+    assert_eq!(leap(&on_its_belly), 0.0);
+    let legless = Body { legless: true, ..puppet() };
+    assert!((value(Leap::default(), &legless, &jump(1.0, 1.5, 0.4)) - high).abs() < 1e-6, "it has no legs to push off");
+}
+
+#[test]
+fn honest_fails_what_lives_on_errors_of_the_physics() {
+    let body = puppet();
+    // The flaw is there from 1 s on; it is seen within three steps.
+    let honest = |flaw: &dyn Fn(&mut Pose, &mut Vec<PartState>)| {
+        let snapshots = script(2.0, |_| Pose::default()).into_iter().map(|snapshot| {
+            if snapshot.time < 0.99 {
+                return snapshot;
+            }
+            let mut pose = Pose::default();
+            flaw(&mut pose, &mut Vec::new());
+            let mut flawed = pose.snapshot(snapshot.time);
+            flaw(&mut pose, &mut flawed.parts);
+            flawed
+        });
+        let seen = watch(Honest::default(), &body, &snapshots.collect::<Vec<_>>());
+        assert_eq!(seen.value, 0.0);
+        seen.end.map(|(time, verdict)| {
+            assert!((0.99..1.05).contains(&time), "{time}");
+            verdict
+        })
+    };
+    let leg_apart = |by: f32| {
+        move |_: &mut Pose, parts: &mut Vec<PartState>| {
+            if let Some(leg) = parts.get_mut(2) {
+                leg.x += by;
+            }
+        }
+    };
+    assert_eq!(honest(&leg_apart(0.055)), None);
+    assert_eq!(honest(&leg_apart(-0.065)), Some(Verdict::Fail("a joint comes apart")));
+    let bent = |angle: f32| {
+        move |pose: &mut Pose, _: &mut Vec<PartState>| {
+            pose.hips[0] = angle;
+            pose.rise = 0.2;
+        }
+    };
+    let degree = TAU / 360.0;
+    assert_eq!(honest(&bent(LIMIT + 17.0 * degree)), None);
+    assert_eq!(honest(&bent(-LIMIT - 17.0 * degree)), None);
+    let beyond = Some(Verdict::Fail("a joint is turned beyond its limits"));
+    assert_eq!((honest(&bent(LIMIT + 19.0 * degree)), honest(&bent(-LIMIT - 19.0 * degree))), (beyond, beyond));
+    let spinning = |spin: f32| move |pose: &mut Pose, _: &mut Vec<PartState>| pose.spin = spin;
+    assert_eq!(honest(&spinning(34.0)), None);
+    assert_eq!(honest(&spinning(-36.0)), Some(Verdict::Fail("a part turns faster than the engine can follow")));
+    let sunk = |by: f32| move |pose: &mut Pose, _: &mut Vec<PartState>| pose.rise = -by;
+    assert_eq!(honest(&sunk(0.055)), None);
+    assert_eq!(honest(&sunk(0.065)), Some(Verdict::Fail("a part sinks into the ground")));
+}
+
+/// Says what it is told to at one step.
+#[derive(Clone)]
+struct Says(Verdict, u32, u32);
+
+impl Movement for Says {
+    fn name(&self) -> &str {
+        "says"
+    }
+    fn unit(&self) -> &str {
+        "1"
+    }
+    fn begin(&mut self, _: &Snapshot) {
+        self.2 = 0;
+    }
+    fn observe(&mut self, _: &Snapshot) -> Verdict {
+        self.2 += 1;
+        if self.2 == self.1 { self.0 } else { Verdict::GoOn }
+    }
+    fn value(&self) -> f64 {
+        0.0
+    }
+}
+
+#[test]
+fn a_sum_passes_on_the_strictest_verdict() {
+    let says = |verdict, at| Says(verdict, at, 0);
+    let (fail, end) = (Verdict::Fail("first"), Verdict::End);
+    let verdict = |terms: &[Says]| {
+        let sum = terms.iter().fold(Sum::of(Running::default()), |sum, term| sum.plus(1.0, term.clone()));
+        watch(sum, &puppet(), &script(1.0, |_| Pose::default())).end.map(|(_, verdict)| verdict)
+    };
+    assert_eq!(verdict(&[says(fail, 3)]), Some(fail));
+    assert_eq!(verdict(&[says(end, 3), says(fail, 3)]), Some(fail));
+    assert_eq!(verdict(&[says(fail, 3), says(end, 3)]), Some(fail));
+    assert_eq!(verdict(&[says(fail, 3), says(Verdict::Fail("second"), 3)]), Some(fail));
+    assert_eq!(verdict(&[says(end, 2), says(fail, 3)]), Some(end), "it was over before");
+    assert_eq!(verdict(&[says(fail, 100)]), None);
+}
+
+/// A sum has all its terms meet the body; one that had not would find nothing wrong.
+#[test]
+fn terms_of_a_sum_meet_the_body() {
+    let rests = script(3.0, |_| Pose::default());
+    let spec = |term: &str| MovementSpec {
+        name: "running".into(),
+        steps: None,
+        terms: vec![TermSpec { term: term.into(), weight: -1.0 }],
+    };
+    let catalogue = MovementCatalogue::default();
+    for (term, at) in [("footfalls", 1.5), ("headway", 1.0)] {
+        let mut movement = catalogue.build(&spec(term)).expect("it is in the catalogue");
+        movement.meet(&puppet());
+        movement.begin(&rests[0]);
+        let end = rests[1..].iter().find(|now| movement.observe(now) != Verdict::GoOn).expect("it ends");
+        assert!((end.time - at).abs() < 1.5 * TIME_STEP, "{term}: {}", end.time);
+    }
+}
