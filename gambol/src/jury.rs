@@ -88,7 +88,11 @@ impl NominalJury {
         };
         let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| place(index) > standing).collect();
         able.sort_by_key(|&index| Reverse(place(index)));
-        if let Some(&best) = able.iter().take(JUDGED).find(|&&index| usable(&finalists[index].express())) {
+        // Those who keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
+        let mut fittest = able.clone();
+        fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
+        let mut candidates = able.iter().take(JUDGED).chain(fittest.iter().take(JUDGED));
+        if let Some(&best) = candidates.find(|&&index| usable(&finalists[index].express())) {
             grades[best] = place(best).map_or(0, |standing| standing.grade);
         }
         grades

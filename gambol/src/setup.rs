@@ -196,6 +196,11 @@ impl Setup {
                 Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
             }
         };
+        if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+            let allowed = "null where no gaits are judged during training: only those of running and jumping are, and only \
+                           in runs with a variation or a rehearsal";
+            return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
+        }
         let task = match config.rehearsal {
             Some(steps) => task.shortened(steps),
             None => task,

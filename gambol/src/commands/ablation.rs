@@ -25,6 +25,10 @@ pub(super) const VARIANTS: &[Variant] = &[
     },
     Variant { name: "limbs begin together", change: |config| config.controller.limbs = Some(LimbPhases::Together) },
     Variant {
+        name: "limbs begin alternating",
+        change: |config| config.controller.limbs = Some(LimbPhases::Alternating),
+    },
+    Variant {
         name: "no clock",
         change: |config| keep_sensors(config, |sensor| !matches!(sensor, Sensor::Clock { .. })),
     },
@@ -33,6 +37,12 @@ pub(super) const VARIANTS: &[Variant] = &[
         change: |config| keep_sensors(config, |sensor| *sensor != Sensor::FootContacts),
     },
     Variant { name: "no torso spin", change: |config| keep_sensors(config, |sensor| *sensor != Sensor::TorsoSpin) },
+    Variant {
+        name: "no torso velocity and height",
+        change: |config| {
+            keep_sensors(config, |sensor| !matches!(sensor, Sensor::TorsoVelocity | Sensor::TorsoHeight));
+        },
+    },
     Variant { name: "outputs are speeds", change: |config| config.controller.actuation = Actuation::Speed },
     Variant { name: "no hidden neurons", change: |config| config.controller.hidden = Vec::new() },
     Variant { name: "12 hidden neurons a limb", change: |config| config.controller.hidden = vec![12] },
@@ -48,6 +58,7 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "without the term upright", change: |config| drop_term(config, "upright") },
     Variant { name: "without the term vibration", change: |config| drop_term(config, "vibration") },
     Variant { name: "without the term honest", change: |config| drop_term(config, "honest") },
+    Variant { name: "without the term idleness", change: |config| drop_term(config, "idleness") },
     Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
     Variant { name: "no terms at all", change: |config| config.movement.terms.clear() },
     Variant { name: "whole episodes in training", change: |config| config.rehearsal = config.movement.steps },
@@ -57,7 +68,7 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "population 256", change: |config| config.strategy.set_population(256) },
     Variant { name: "full covariance", change: |config| set_cma(config, "covariance", "full") },
     Variant { name: "no restarts", change: |config| set_cma(config, "restart", "none") },
-    Variant { name: "restarts: BIPOP", change: |config| set_cma(config, "restart", "bipop") },
+    Variant { name: "restarts as in IPOP", change: |config| set_cma(config, "restart", "ipop") },
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },
     Variant { name: "CoSyNE", change: |config| search_with(config, "cosyne") },

@@ -107,6 +107,7 @@ impl Training {
         let mut config = request.resolve(&catalogue)?;
         config.stop.generations = Some(self.generations);
         config.movement.steps = Some(self.steps);
+        config.rehearsal = None;
         let folder = tempfile::tempdir()?;
         let options =
             TrainOptions { threads: self.threads, catalogue, signal: Default::default(), on_generation: &mut |_| {} };

@@ -12,14 +12,15 @@ use tasks::TermSpec;
 pub(super) fn equip(config: &mut RunConfig) {
     let movement = Movement::of(&config.movement.name);
     let blueprint = Blueprint::new(config.creature.clone()).ok();
-    let legless = blueprint.as_ref().is_some_and(Blueprint::is_legless);
+    let legs = blueprint.filter(|blueprint| !blueprint.is_legless()).map_or(0, |blueprint| blueprint.legs().len());
+    let legless = legs == 0;
     let controller = &mut config.controller;
     controller.hidden = vec![4];
     controller.hidden_activation = Activation::Tanh;
     controller.output_activation = Activation::Tanh;
     controller.hidden_scale = 1.0;
-    controller.limbs = Some(LimbPhases::Alternating);
-    controller.actuation = Actuation::Angle { gain: movement.gain(legless) };
+    controller.limbs = Some(movement.phases(legs));
+    controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
     config.sensors = Some(sensors(&config.creature.sensors, movement, legless));
     config.movement.terms = movement.terms(legless);
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
@@ -46,11 +47,22 @@ impl Movement {
         }
     }
 
-    /// Of the motors' angle law, 1/s: a jump and a wave want joints that follow, a stride ones that swing.
-    fn gain(self, legless: bool) -> f32 {
+    /// Of the motors' angle law, 1/s: strides swing, waves and the leap of a biped must follow closely, and many legs that
+    /// snap at once tear at their joints.
+    fn gain(self, legs: usize) -> f32 {
+        match (self, legs) {
+            (_, 0) => 20.0,
+            (Self::Jumping, 1..=2) => 20.0,
+            (Self::Jumping, _) => 15.0,
+            (Self::Running | Self::Other, _) => 10.0,
+        }
+    }
+
+    /// Many legs leap together; of two, one goes forwards and one backwards, and closing them lifts the body.
+    fn phases(self, legs: usize) -> LimbPhases {
         match self {
-            Self::Running | Self::Other if !legless => 10.0,
-            Self::Running | Self::Jumping | Self::Other => 20.0,
+            Self::Jumping if legs > 2 => LimbPhases::Together,
+            Self::Running | Self::Jumping | Self::Other => LimbPhases::Alternating,
         }
     }
 
@@ -93,9 +105,8 @@ fn sensors(own: &[Sensor], movement: Movement, legless: bool) -> Vec<Sensor> {
     if sensors == Sensor::defaults() {
         sensors.insert(1, Sensor::TorsoSpin);
         if !legless {
-            sensors.push(Sensor::FootContacts);
+            sensors.extend([Sensor::FootContacts, Sensor::TorsoVelocity, Sensor::TorsoHeight]);
         }
-        sensors.extend([Sensor::TorsoVelocity, Sensor::TorsoHeight]);
     }
     if !sensors.iter().any(|sensor| matches!(sensor, Sensor::Clock { .. })) {
         sensors.push(Sensor::Clock { period: movement.period() });

@@ -113,6 +113,10 @@ impl Made {
     }
 }
 
+fn has_foot(blueprint: &Blueprint, limb: &Limb) -> bool {
+    limb.parts.iter().any(|part| blueprint.feet().contains(part))
+}
+
 /// Whether a gene counts in a weight.
 fn mentions(tie: &Tie, gene: usize) -> bool {
     let has = |terms: &[(usize, f32)]| terms.iter().any(|&(mine, _)| mine == gene);
@@ -177,12 +181,17 @@ fn limbs_of_one_kind_share_all_genes_but_their_phases() {
             }
             let of_kind =
                 |kind: usize| -> Vec<usize> { (0..copies.len()).filter(|&copy| copies[copy].0.kind == kind).collect() };
+            // In a caterpillar only the ends are feet: what weighs the ground counts in them alone.
+            let with_feet = |kind: usize| -> Vec<usize> {
+                of_kind(kind).into_iter().filter(|&copy| has_foot(&blueprint, copies[copy].0)).collect()
+            };
             match gene {
                 0 => assert_eq!(mentioning.len(), copies.len(), "{}: the wave goes through all", made.name),
                 gene if gene < made.own() => assert_eq!(mentioning.len(), 1, "{}: phase gene {gene}", made.name),
                 gene => {
                     let kind = copies[mentioning[0]].0.kind;
-                    assert_eq!(mentioning, of_kind(kind), "{}: gene {gene} is not shared", made.name);
+                    let shared = mentioning == of_kind(kind) || mentioning == with_feet(kind);
+                    assert!(shared, "{}: gene {gene} counts only in {mentioning:?}", made.name);
                 }
             }
         }
@@ -197,7 +206,8 @@ fn neighbours_do_the_same_half_a_turn_apart_or_together() {
             for one in &made.limbs {
                 for other in made.limbs.iter().filter(|other| other.kind == one.kind) {
                     for clock in [0.0, 0.4, 2.5, 4.0] {
-                        let felt = [0.6 - clock, 1.0];
+                        let feet = has_foot(&blueprint, one) && has_foot(&blueprint, other);
+                        let felt = [0.6 - clock, f32::from(u8::from(feet))];
                         let ahead = one.phase - other.phase;
                         let (found, expected) =
                             (made.answer(other, clock + ahead, felt), made.answer(one, clock, felt));
@@ -243,10 +253,9 @@ fn the_joints_of_apods_behind_the_torso_are_mirrored() {
             let hinge = &hinges[limb.hinges[0]];
             let behind = parts[hinge.child].x < parts[hinge.parent].x;
             assert_eq!(limb.sign, if behind { -1.0 } else { 1.0 }, "{}: {}", made.name, parts[hinge.child].name);
-            assert_eq!(behind, limb.place < 0.0, "{}: {}", made.name, parts[hinge.child].name);
             mirrored += usize::from(behind);
         }
-        assert_eq!(mirrored * 2, made.limbs.len(), "{}", made.name);
+        assert!(mirrored > 0 && mirrored < made.limbs.len(), "{}: its torso is in the middle", made.name);
     }
     // Legs hang down, before and behind the middle.
     let tetrapod = Made::new(

@@ -59,7 +59,6 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("controller.limbs=altrenating",                &["controller.limbs: unknown variant `altrenating`", "did you mean `alternating`?"]),
     ("controller.actuation=angel",                  &["controller.actuation: unknown variant `angel`", "did you mean `angle`?"]),
     ("controller.actuation=angle",                  &["controller.actuation", "invalid type"]),
-    ("controller.actuation={\"angle\":{}}",         &["controller.actuation", "missing field `gain`"]),
     ("controller.actuation={\"angle\":{\"gian\":8}}", &["controller.actuation.angle", "did you mean `gain`?"]),
     ("controller.actuation={\"angle\":{\"gain\":0}}", &["controller.actuation.angle.gain = 0: must be from 0.1 to 50"]),
     ("controller.actuation={\"angle\":{\"gain\":51}}", &["controller.actuation.angle.gain = 51: must be from 0.1 to 50"]),

@@ -23,11 +23,13 @@ fn run_limited(command: &Command, blocks: usize) -> Ended {
     run(Command::new("sh").args(["-c", &script, "sh"]).arg(command.get_program()).args(command.get_args()))
 }
 
-/// A run of a creature without looks: its configuration is small, and every other file grows beyond it.
+/// A run of a creature without looks, with few settings: its configuration is small, and every other file grows beyond
+/// it.
 fn train(folder: &Path, generations: u32) -> Command {
     let creature = folder.with_file_name("stroller.json");
     fs::write(&creature, bad_creatures::creature().to_string()).expect("a writable folder");
     let mut train = small_run_of(text(&creature), "running", folder, generations);
+    train.args(["--preset", "thesis", "--variation", "light"]);
     train.args(["--quiet", "--set", "record.checkpoint_every=4", "--set", "record.populations_at=[9,30]"]);
     train
 }
