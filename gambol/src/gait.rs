@@ -26,7 +26,7 @@ pub struct Stage {
 }
 
 /// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those that keep more of their fitness in
-/// varied worlds have up to 10 more; a champion that is not usable has 0.
+/// varied worlds have up to 2 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 /// A movement that is not judged is watched for so long, s.

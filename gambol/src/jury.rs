@@ -1,7 +1,7 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
 use crate::{config::EngineChoice, gait::USABLE, setup::Nominal};
-use ne_core::{Evaluation, Evaluator, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
+use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
 
@@ -22,8 +22,9 @@ pub(crate) struct NominalJury {
 /// Says whether the gait of a controller is usable.
 type Usable = dyn Fn(&dyn Phenotype) -> bool + Send + Sync;
 
-/// Steps in which the share of fitness kept is told apart.
-const DEGREES: u8 = 10;
+/// Steps in which the share of fitness kept is told apart: little, half, and three quarters or more. Finer ones would have
+/// a slow champion that keeps everything stand above one ten times as fast that keeps nearly everything.
+const DEGREES: u8 = 2;
 
 /// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
 const JUDGED: usize = 4;
@@ -91,19 +92,24 @@ impl NominalJury {
         // Those who keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-        let mut candidates = able.iter().take(JUDGED).chain(fittest.iter().take(JUDGED));
+        let first = &able[..able.len().min(JUDGED)];
+        let mut candidates = first.iter().chain(fittest.iter().take(JUDGED).filter(|index| !first.contains(index)));
         if let Some(&best) = candidates.find(|&&index| usable(&finalists[index].express())) {
             grades[best] = place(best).map_or(0, |standing| standing.grade);
         }
         grades
     }
 
-    /// The share of its fitness that each keeps in varied worlds, 0 to 1.
+    /// The share of its fitness that each keeps in varied worlds, 0 to 1; 0 for whoever has less than half of the best
+    /// fitness here, since it is easy to keep little.
     fn kept<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation]) -> Vec<f64> {
         let Some(proof) = &self.proof else { return vec![0.0; finalists.len()] };
         let varied = self.evaluator.evaluate(&**proof, finalists, self.seed);
+        let best = evaluations.iter().filter_map(Evaluation::fitness).max().map_or(0.0, Fitness::get);
         let share = |(varied, nominal): (&Evaluation, &Evaluation)| match (varied.fitness(), nominal.fitness()) {
-            (Some(varied), Some(nominal)) if nominal.get() > 0.0 => (varied.get() / nominal.get()).clamp(0.0, 1.0),
+            (Some(varied), Some(nominal)) if nominal.get() > 0.0 && nominal.get() >= 0.5 * best => {
+                (varied.get() / nominal.get()).clamp(0.0, 1.0)
+            }
             _ => 0.0,
         };
         varied.iter().zip(evaluations).map(share).collect()

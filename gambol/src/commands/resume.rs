@@ -26,7 +26,7 @@ pub(crate) struct Resume {
 impl Resume {
     pub(crate) fn run(self) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
-        config.stop = self.limits.over(config.stop);
+        config.stop = self.limits.beyond(config.stop);
         carry_out(&self.manner, &config, MovementCatalogue::default(), |options| {
             training::resume(&self.folder, Some(config.stop), options)
         })

@@ -129,6 +129,13 @@ impl Limits {
         planned.overlaid(limits)
     }
 
+    /// As [`over`](Self::over), for a run that may have ended: one whose champion is usable goes on if it is given more
+    /// of anything.
+    pub(super) fn beyond(self, planned: StopConditions) -> StopConditions {
+        let more = self.conditions() != StopConditions::default();
+        self.over(StopConditions { grade: planned.grade.filter(|_| !more), ..planned })
+    }
+
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);

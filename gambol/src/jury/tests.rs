@@ -165,7 +165,18 @@ fn of_usable_finalists_the_one_that_keeps_more_of_its_fitness_stands_above_the_f
 }
 
 #[test]
-fn only_who_could_become_champion_is_looked_at_and_at_most_four() {
+fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
+    let court = Court::new(nominal, None);
+    let slow = [(1.0, 1.0, false), (2.0, 2.0, false), (3.0, 3.0, false), (4.0, 4.0, false), (5.0, 5.0, true)];
+    let all = candidates(&[&slow[..], &[(9.0, 2.7, true), (10.0, 2.0, false)]].concat());
+    assert_eq!(court.grades(&all, None), (vec![0, 0, 0, 0, USABLE + 10, 0, 0], vec![5.0]), "the safest that is usable");
+    let without = [&all[..4], &all[5..]].concat();
+    let seen = vec![4.0, 3.0, 2.0, 1.0, 10.0, 9.0];
+    assert_eq!(court.grades(&without, None), (vec![0, 0, 0, 0, USABLE + 3, 0], seen), "nobody is looked at twice");
+}
+
+#[test]
+fn only_who_could_become_champion_is_looked_at_and_four_of_the_best_and_four_of_the_fittest() {
     let court = Court::new(nominal, None);
     let all: Vec<(f64, f64, bool)> = (1..=6).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);

@@ -4,7 +4,7 @@ use crate::{
     damage::json,
     folder::assert_same_run,
     killed::kill_after,
-    program::{assert_says, gambol, run, succeed, text},
+    program::{assert_says, fail, gambol, run, succeed, text},
 };
 use serde_json::Value;
 use std::{path::Path, process::Command, time::Instant};
@@ -39,13 +39,16 @@ fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
     assert!(grade(&path) >= Some(1));
     assert_says(&succeed(gambol("gait").arg(&path)), &["tetrapod-1 jumping: usable"]);
     assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
-    // It was long enough ago: resumed, it ends where it was, and to go on one asks for more.
-    let generations = result(&told)["progress"]["generations"].clone();
-    let again = succeed(gambol("resume").arg(&path).args(["--json", "--no-report"]));
-    assert_eq!(
-        (&result(&again)["reason"], &result(&again)["progress"]["generations"]),
-        (&"grade".into(), &generations)
-    );
+    // It has ended; with more generations it goes on, and its champion stays usable.
+    let before = grade(&path);
+    let over = fail(gambol("resume").arg(&path));
+    assert_says(&over, &["has ended: the champion has the grade asked for", "such as --generations"]);
+    let generations = result(&told)["progress"]["generations"].as_u64().ok_or("a number")? + 2;
+    let mut resume = gambol("resume");
+    resume.arg(&path).args(["--json", "--no-report", "--generations"]).arg(generations.to_string());
+    let further = result(&succeed(&mut resume));
+    assert_eq!((&further["reason"], &further["progress"]["generations"]), (&"generations".into(), &generations.into()));
+    assert!(grade(&path) >= before);
     Ok(())
 }
 
@@ -121,6 +124,17 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         let ended = bench(flags);
         assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
         assert_says(&ended.stderr, &[says]);
+    }
+    // Where no gaits are judged nobody ever gets to be usable.
+    for flags in
+        [&["running", "--set", "rehearsal=null", "--variation", "none"][..], &["running", "--preset", "thesis"]]
+    {
+        let mut train = gambol("train");
+        train.args(["biped-1", "--until", "usable"]).args(flags).current_dir(folder.path());
+        assert_says(
+            &fail(&mut train),
+            &["stop.grade = a grade (--until usable): must be null where no gaits are judged"],
+        );
     }
     assert_eq!(std::fs::read_dir(folder.path())?.count(), 0, "nothing was begun");
     Ok(())
