@@ -28,6 +28,14 @@ struct Limb {
     kind: usize,
 }
 
+/// What a limb is made of.
+struct Chain {
+    /// Its actuated hinges, from the body outwards; at least one.
+    hinges: Vec<usize>,
+    /// Its parts, passive ones among them: a foot that dangles feels the ground all the same.
+    parts: Vec<usize>,
+}
+
 /// What a copy of the net sees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Sight {
@@ -172,49 +180,45 @@ fn sees(limb: &Limb, probes: &[Probe]) -> Vec<(usize, Sight, usize)> {
 fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
     let actuated = blueprint.actuated();
     let hinge_of = |part: usize| actuated.iter().copied().find(|&hinge| blueprint.hinges()[hinge].child == part);
-    let mut chains: Vec<Vec<usize>> = Vec::new();
-    // The parts of each chain, passive ones of a leg among them: a foot that dangles feels the ground all the same.
-    let mut parts: Vec<Vec<usize>> = Vec::new();
+    let mut chains: Vec<Chain> = Vec::new();
     let mut taken = vec![false; blueprint.hinges().len()];
     if !blueprint.is_legless() {
         for leg in blueprint.legs() {
-            let chain: Vec<usize> =
+            let hinges: Vec<usize> =
                 leg.iter().filter_map(|&part| hinge_of(part)).filter(|&hinge| !taken[hinge]).collect();
-            chain.iter().for_each(|&hinge| taken[hinge] = true);
-            if !chain.is_empty() {
-                chains.push(chain);
-                parts.push(leg.clone());
+            hinges.iter().for_each(|&hinge| taken[hinge] = true);
+            if !hinges.is_empty() {
+                chains.push(Chain { hinges, parts: leg.clone() });
             }
         }
     }
     for &hinge in actuated.iter().filter(|&&hinge| !taken[hinge]) {
-        chains.push(vec![hinge]);
-        parts.push(vec![blueprint.hinges()[hinge].child]);
+        chains.push(Chain { hinges: vec![hinge], parts: vec![blueprint.hinges()[hinge].child] });
     }
     let places = places(blueprint, &chains);
     let mut kinds: Vec<usize> = Vec::new();
     let phase_of = phases_of(&places, phases, blueprint.is_legless());
-    let limb = |((chain, parts), (&place, phase)): ((Vec<usize>, Vec<usize>), (&f32, f32))| {
-        let joints = chain.len();
+    let limb = |(Chain { hinges, parts }, (&place, phase)): (Chain, (&f32, f32))| {
+        let joints = hinges.len();
         let kind = kinds.iter().position(|&kind| kind == joints).unwrap_or_else(|| {
             kinds.push(joints);
             kinds.len() - 1
         });
-        let hinge = &blueprint.hinges()[chain[0]];
+        let hinge = &blueprint.hinges()[hinges[0]];
         let (parent, child) = (&blueprint.parts()[hinge.parent], &blueprint.parts()[hinge.child]);
         let across = (child.x - parent.x).abs() > (child.y - parent.y).abs();
         let sign = if across && child.x < parent.x { -1.0 } else { 1.0 };
-        Limb { hinges: chain, parts, place, phase, sign, kind }
+        Limb { hinges, parts, place, phase, sign, kind }
     };
-    chains.into_iter().zip(parts).zip(places.iter().zip(phase_of)).map(limb).collect()
+    chains.into_iter().zip(places.iter().zip(phase_of)).map(limb).collect()
 }
 
 /// Where along the body each chain's first joint is, from −1 to 1.
-fn places(blueprint: &Blueprint, chains: &[Vec<usize>]) -> Vec<f32> {
+fn places(blueprint: &Blueprint, chains: &[Chain]) -> Vec<f32> {
     let [left, _, right, _] = blueprint.bounding_box();
     let (middle, half) = (0.5 * (left + right), 0.5 * (right - left));
-    let place = |chain: &Vec<usize>| {
-        let hinge = &blueprint.hinges()[chain[0]];
+    let place = |chain: &Chain| {
+        let hinge = &blueprint.hinges()[chain.hinges[0]];
         let parent = &blueprint.parts()[hinge.parent];
         let [x, y] = hinge.parent_anchor;
         let anchor = parent.x + libm::cosf(parent.angle) * x - libm::sinf(parent.angle) * y;

@@ -136,13 +136,16 @@ fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
     }
 }
 
+/// Usable, and keeps all of its fitness.
+const BEST: u8 = USABLE + DEGREES;
+
 /// Who is graded best is champion: so a usable one, and of those the one that keeps more.
 #[test]
 fn a_usable_finalist_stands_above_a_fitter_one_that_is_not() {
     let court = Court::new(nominal, None);
     let all = candidates(&[(9.0, 9.0, false), (5.0, 5.0, true), (7.0, 7.0, false), (6.0, 6.0, true)]);
     let (grades, seen) = court.grades(&all, None);
-    assert_eq!(grades, [0, 0, 0, USABLE + 10]);
+    assert_eq!(grades, [0, 0, 0, BEST]);
     assert_eq!(seen, [9.0, 7.0, 6.0], "the best first, until one is usable");
     let nobody = candidates(&[(9.0, 9.0, false), (7.0, 7.0, false)]);
     assert_eq!(court.grades(&nobody, None), (vec![0, 0], vec![9.0, 7.0]));
@@ -151,39 +154,47 @@ fn a_usable_finalist_stands_above_a_fitter_one_that_is_not() {
 #[test]
 fn of_usable_finalists_the_one_that_keeps_more_of_its_fitness_stands_above_the_fitter() {
     let court = Court::new(nominal, None);
-    let all = candidates(&[(9.0, 3.6, true), (5.0, 4.0, true), (7.0, f64::NAN, true), (3.0, 2.0, true)]);
-    assert_eq!(court.grades(&all, None), (vec![0, USABLE + 8, 0, 0], vec![5.0]));
-    // Kept to the same tenth, fitness decides.
-    let alike = candidates(&[(5.0, 4.0, true), (10.0, 7.9, true)]);
-    assert_eq!(court.grades(&alike, None).0, [0, USABLE + 8]);
+    let all = candidates(&[(9.0, 0.9, true), (5.0, 4.9, true), (7.0, f64::NAN, true), (6.0, 0.6, true)]);
+    assert_eq!(court.grades(&all, None), (vec![0, BEST, 0, 0], vec![5.0]));
+    // Where they keep as much, fitness decides.
+    let alike = candidates(&[(5.0, 5.0, true), (9.0, 8.9, true)]);
+    assert_eq!(court.grades(&alike, None).0, [0, BEST]);
     // More than all of it cannot be kept, and of nothing, or less, nothing.
     let grade = |one: (f64, f64, bool)| court.grades(&candidates(&[one]), None).0[0];
-    assert_eq!(grade((2.0, 6.0, true)), USABLE + 10);
+    assert_eq!(grade((2.0, 6.0, true)), BEST);
+    assert!((USABLE..BEST).contains(&grade((2.0, 1.0, true))), "half is less than all");
     for worthless in [(2.0, -6.0, true), (0.0, 1.0, true), (-2.0, -1.0, true), (2.0, f64::NAN, true)] {
         assert_eq!(grade(worthless), USABLE, "{worthless:?}");
     }
 }
 
 #[test]
-fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
+fn who_has_less_than_half_of_the_best_fitness_is_not_credited_for_keeping_it() {
     let court = Court::new(nominal, None);
-    let slow = [(1.0, 1.0, false), (2.0, 2.0, false), (3.0, 3.0, false), (4.0, 4.0, false), (5.0, 5.0, true)];
-    let all = candidates(&[&slow[..], &[(9.0, 2.7, true), (10.0, 2.0, false)]].concat());
-    assert_eq!(court.grades(&all, None), (vec![0, 0, 0, 0, USABLE + 10, 0, 0], vec![5.0]), "the safest that is usable");
-    let without = [&all[..4], &all[5..]].concat();
-    let seen = vec![4.0, 3.0, 2.0, 1.0, 10.0, 9.0];
-    assert_eq!(court.grades(&without, None), (vec![0, 0, 0, 0, USABLE + 3, 0], seen), "nobody is looked at twice");
+    let grades = |slow: f64| court.grades(&candidates(&[(10.0, 0.1, true), (slow, slow, true)]), None).0;
+    assert_eq!((grades(4.9), grades(5.0)), (vec![USABLE, 0], vec![0, BEST]));
 }
 
 #[test]
-fn only_who_could_become_champion_is_looked_at_and_four_of_the_best_and_four_of_the_fittest() {
+fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
+    let court = Court::new(nominal, None);
+    let safe = [(6.0, 6.0, false), (6.1, 6.1, false), (6.2, 6.2, false), (6.3, 6.3, false), (6.4, 6.4, true)];
+    let all = candidates(&[&safe[..], &[(9.0, 0.9, true), (10.0, 1.0, false)]].concat());
+    assert_eq!(court.grades(&all, None), (vec![0, 0, 0, 0, BEST, 0, 0], vec![6.4]));
+    let without = [&all[..4], &all[5..]].concat();
+    let seen = vec![6.3, 6.2, 6.1, 6.0, 10.0, 9.0];
+    assert_eq!(court.grades(&without, None), (vec![0, 0, 0, 0, USABLE, 0], seen), "nobody is looked at twice");
+}
+
+#[test]
+fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
     let court = Court::new(nominal, None);
     let all: Vec<(f64, f64, bool)> = (1..=6).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);
     assert_eq!(court.grades(&all, None), (vec![0; 6], vec![6.0, 5.0, 4.0, 3.0]));
-    assert_eq!(court.grades(&all, standing(USABLE + 10, 6.0)), (vec![0; 6], vec![]));
-    assert_eq!(court.grades(&all, standing(USABLE + 10, 4.5)), (vec![0; 6], vec![6.0, 5.0]));
-    assert_eq!(court.grades(&all[..3], standing(USABLE + 9, 100.0)), (vec![0, USABLE + 10, 0], vec![3.0, 2.0]));
+    assert_eq!(court.grades(&all, standing(BEST, 6.0)), (vec![0; 6], vec![]));
+    assert_eq!(court.grades(&all, standing(BEST, 4.5)), (vec![0; 6], vec![6.0, 5.0]));
+    assert_eq!(court.grades(&all[..3], standing(BEST - 1, 100.0)), (vec![0, BEST, 0], vec![3.0, 2.0]));
     let failed = Court::new(failed, None);
     assert_eq!(failed.grades(&all, None), (vec![0; 6], vec![]), "who failed has no gait");
 }

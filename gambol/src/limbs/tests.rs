@@ -174,7 +174,7 @@ fn limbs_of_one_kind_share_all_genes_but_their_phases() {
                 (0..copies.len()).filter(|&copy| copies[copy].1.iter().any(|tie| mentions(tie, gene))).collect();
             for copy in 0..copies.len() {
                 // What a place adds is nothing in the middle.
-                let may_stay = !mentioning.contains(&copy) || copies[copy].0.place == 0.0;
+                let may_stay = !mentioning.contains(&copy) || copies[copy].0.place.abs() < 1e-4;
                 let name = &made.name;
                 assert!(before[copy] != after[copy] || may_stay, "{name}: gene {gene} does not count in copy {copy}");
                 assert!(before[copy] == after[copy] || mentioning.contains(&copy), "{name}: gene {gene}, copy {copy}");
@@ -257,13 +257,6 @@ fn the_joints_of_apods_behind_the_torso_are_mirrored() {
         }
         assert!(mirrored > 0 && mirrored < made.limbs.len(), "{}: its torso is in the middle", made.name);
     }
-    // Legs hang down, before and behind the middle.
-    let tetrapod = Made::new(
-        &Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid"),
-        LimbPhases::Together,
-    );
-    assert!(tetrapod.limbs.iter().all(|limb| limb.sign == 1.0));
-    assert!(tetrapod.limbs.iter().any(|limb| limb.place < -0.1) && tetrapod.limbs.iter().any(|limb| limb.place > 0.1));
 }
 
 /// A torso, and parts of 0.2 m that hang below each other: parent, tag, and whether there is a motor.
