@@ -22,7 +22,8 @@ struct Limb {
     place: f32,
     /// Of its clock, rad, before genes.
     phase: f32,
-    /// −1 for a joint whose child lies behind its parent, where bending up means turning the other way.
+    /// −1 for a limb whose first part lies rather behind its parent than below it: the rear half of a caterpillar, the hind
+    /// legs of a long body. It is a mirror image, and bends the other way, as knees do where elbows bend.
     sign: f32,
     /// Limbs with equally many joints share a net: which.
     kind: usize,

@@ -156,6 +156,13 @@ impl Setup {
         let input_range = f64::from(config.controller.input_range);
         SettingError::check_range("input_range", input_range, 0.001, 1000.0)
             .map_err(|error| error.within("controller"))?;
+        if let Actuation::Angle { gain } = config.controller.actuation
+            && !config.controller.actuation.is_valid()
+        {
+            let [low, high] = Actuation::GAINS;
+            let error = SettingError::new("actuation.angle.gain", gain, format!("from {low} to {high}"));
+            return Err(error.within("controller").into());
+        }
         let parts = config.episode_parts();
         let (episode, task) = parts.build_both(config.engine, catalogue)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
