@@ -51,15 +51,15 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let preset = preset("default").ok_or("there is a default preset")?;
     let mut config = preset.config(creatures::find("biped-2")?, "moonwalk");
-    config.stop.generations = Some(12);
+    config.stop.generations = Some(100);
     let folder = std::env::temp_dir().join(format!("gambol-moonwalk-{}", std::process::id()));
     let options = TrainOptions {
         threads: 0,
         catalogue: catalogue.clone(),
         signal: Default::default(),
         on_generation: &mut |report| {
-            if let Some(fitness) = report.fitness {
-                println!("generation {:2}: {:.2} m", report.generation, fitness.best);
+            if let Some(fitness) = report.fitness.filter(|_| report.generation.is_multiple_of(10)) {
+                println!("generation {:3}: {:.2} m", report.generation, fitness.best);
             }
         },
     };

@@ -1,6 +1,6 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 14] = [
+const COMMANDS: [&str; 15] = [
     "train",
     "resume",
     "report",
@@ -10,6 +10,7 @@ const COMMANDS: [&str; 14] = [
     "robust",
     "check",
     "compare",
+    "reproduce",
     "merge",
     "bench",
     "creatures",
