@@ -36,7 +36,7 @@ fn a_run_in_lanes_is_the_run_in_rapier() -> Result<(), Box<dyn Error>> {
         ("tetrapod-1", "jumping", Variation::default(), worst_of_three),
         ("tetrapod-2", "running", Variation::light(), worst_of_three),
         ("decapod-1", "running", Variation::light(), Trials::default()),
-        ("decapod-2", "jumping", Variation { time_step: 0.5, ..Variation::default() }, Trials::default()),
+        ("decapod-2", "jumping", Variation { time_step: [0.5, 1.5], ..Variation::default() }, Trials::default()),
     ] {
         let mut config = preset("default").ok_or("there is a default")?.config(creatures::find(creature)?, movement);
         (config.variation, config.trials) = (variation, trials);

@@ -2,12 +2,16 @@ use creatures::{Blueprint, BodyPart, Hinge, Shape};
 use std::f32::consts::PI;
 use tasks::{Body, BodyHinge, BodyMotor};
 
-/// What the judges of movements need to know of a creature.
+/// m/s².
+const STANDARD_GRAVITY: f32 = 9.81;
+
+/// What the judges of movements need to know of a creature, on Earth.
 pub fn body_of(blueprint: &Blueprint) -> Body {
     let parts = blueprint.parts();
     Body {
         body_length: blueprint.body_length(),
         start_height: blueprint.start_height(),
+        gravity: STANDARD_GRAVITY,
         parts: parts.iter().map(part).collect(),
         hinges: blueprint.hinges().iter().map(|hinge_| hinge(hinge_, parts)).collect(),
         legs: blueprint.legs().to_vec(),

@@ -4,7 +4,7 @@ use crate::{
 };
 use creatures::{Actuation, Blueprint, Motors, Senses, Sensor};
 use ne_core::{Failure, Seed, SettingError};
-use std::sync::Arc;
+use std::{borrow::Cow, sync::Arc};
 use tasks::{Environment, Snapshot};
 
 /// A creature on its ground in a physics engine.
@@ -110,7 +110,7 @@ impl<E: Engine> CreatureEnvironment<E> {
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
         let plan = Plan {
-            body: body_of(&blueprint),
+            body: tasks::Body { gravity: settings.gravity, ..body_of(&blueprint) },
             blueprint,
             senses,
             motors,
@@ -139,7 +139,8 @@ impl<E: Engine> CreatureEnvironment<E> {
     }
 
     /// The same environment in one world alone: every trial has these conditions, on this ground, and nothing varies.
-    /// The settings are then those of that world's trials, its time step in them.
+    /// The settings are then those of that world's trials, its time step in them, and so are the masses of
+    /// [`body`](Environment::body).
     ///
     /// # Errors
     /// If a condition is out of range, the ground is not valid, the engine cannot build it, or the creature does not
@@ -155,7 +156,11 @@ impl<E: Engine> CreatureEnvironment<E> {
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), self.plan.motors.len());
         let variation = Variation::default();
-        let plan = Plan { settings, variation, ground, settled, ..(*self.plan).clone() };
+        let mut plan = Plan { settings, variation, ground, settled, ..(*self.plan).clone() };
+        for part in &mut plan.body.parts {
+            part.mass *= conditions.mass;
+            part.inertia *= conditions.mass;
+        }
         Ok(Self { plan: Arc::new(plan), state })
     }
 
@@ -211,7 +216,13 @@ impl<E: Engine> CreatureEnvironment<E> {
         }
         let conditions = variation.draw(seed, motors.len());
         let settings = conditions.settings(settings);
-        let engine = E::new(blueprint, &settings, ground, &conditions)
+        let [left, _, right, _] = blueprint.bounding_box();
+        let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
+        let ground = match bumps.is_empty() {
+            true => Cow::Borrowed(ground),
+            false => Cow::Owned(Ground { shapes: ground.shapes.iter().copied().chain(bumps).collect() }),
+        };
+        let engine = E::new(blueprint, &settings, &ground, &conditions)
             .map_err(|error| Failure::Other { what: error.to_string() })?;
         Settled::new(engine, blueprint, &settings, &conditions)
     }

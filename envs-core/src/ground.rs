@@ -26,6 +26,15 @@ pub enum GroundShape {
         /// Full height, m; positive.
         height: f32,
     },
+    /// A disc. Where its top looks out of other ground it is a mound, without an edge that a sunken foot could hit.
+    Circle {
+        /// Of its centre, m.
+        x: f32,
+        /// Of its centre, m.
+        y: f32,
+        /// m; positive.
+        radius: f32,
+    },
 }
 
 impl Default for Ground {
@@ -58,17 +67,20 @@ impl Ground {
 
 impl GroundShape {
     fn validate(&self) -> Result<(), SettingError> {
-        let Self::Box { x, y, width, height } = *self else { return Ok(()) };
-        for (field, place) in [("x", x), ("y", y)] {
-            if !place.is_finite() {
-                return Err(SettingError::new(field, place, "finite"));
+        let place = |field, place: f32| match place.is_finite() {
+            true => Ok(()),
+            false => Err(SettingError::new(field, place, "finite")),
+        };
+        let size = |field, size: f32| match size.is_finite() && size > 0.0 {
+            true => Ok(()),
+            false => Err(SettingError::new(field, size, "finite and above 0")),
+        };
+        match *self {
+            Self::HalfSpace => Ok(()),
+            Self::Box { x, y, width, height } => {
+                place("x", x).and(place("y", y)).and(size("width", width)).and(size("height", height))
             }
+            Self::Circle { x, y, radius } => place("x", x).and(place("y", y)).and(size("radius", radius)),
         }
-        for (field, size) in [("width", width), ("height", height)] {
-            if !(size.is_finite() && size > 0.0) {
-                return Err(SettingError::new(field, size, "finite and above 0"));
-            }
-        }
-        Ok(())
     }
 }

@@ -41,6 +41,7 @@
 
 mod anatomy;
 mod body;
+mod bumps;
 mod engine;
 mod environment;
 mod error;
@@ -51,6 +52,7 @@ mod variation;
 
 pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose};
+pub use bumps::bumps;
 pub use engine::Engine;
 pub use environment::{ActuatedHinge, CreatureEnvironment};
 pub use error::EnvironmentError;

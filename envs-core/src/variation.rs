@@ -1,13 +1,17 @@
-use crate::PhysicsSettings;
+use crate::{GroundShape, PhysicsSettings, bumps};
 use ne_core::{Purpose, Seed, SettingError};
 use rand::RngExt;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 const TRIAL_VARIATION: Purpose = Purpose::new("trial variation");
+const TRIAL_BUMPS: Purpose = Purpose::new("trial bumps");
 
-/// How much the world differs from trial to trial, so that a gait cannot lean on one exact world. Each field but
-/// `start_pose` is a share: 0.2 draws a factor uniformly from 0.8 to 1.2. From 0 to 0.9; default 0, no variation.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+/// Body lengths.
+const BUMPS_REACH: f32 = 20.0;
+
+/// How much the world differs from trial to trial, so that a gait cannot lean on one exact world. Friction, mass and torque
+/// are shares: 0.2 draws a factor uniformly from 0.8 to 1.2. From 0 to 0.9; default 0, no variation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Variation {
     /// Of the ground's friction coefficient.
@@ -16,11 +20,17 @@ pub struct Variation {
     pub mass: f32,
     /// Of the top torque of all motors together.
     pub torque: f32,
-    /// Of [`PhysicsSettings::time_step`]: a gait that needs steps of one length leans on the engine's errors.
-    pub time_step: f32,
+    /// The least and the greatest factor on [`PhysicsSettings::time_step`], drawn log-uniformly: a gait that needs steps
+    /// of one length leans on the engine's errors. From 0.1 to 1 and from 1 to 2; default 1 and 1. A file may have a
+    /// share in its place: 0.2 is read as 0.8 and 1.2.
+    #[serde(deserialize_with = "factors")]
+    pub time_step: [f32; 2],
     /// By up to this much, rad, each actuated joint is turned, either way, before the clock starts. Its own motor turns
     /// it, so a leg that bears weight turns less far. From 0 to 1; default 0.
     pub start_pose: f32,
+    /// The highest of the [bumps](crate::bumps()) on the ground, m, for as far as 20 body lengths; the lowest are a tenth
+    /// as high. 0, or from 0.01 to 0.1; default 0, none.
+    pub bumps: f32,
 }
 
 /// The world of one trial, against that of the settings.
@@ -76,18 +86,40 @@ impl Conditions {
     }
 }
 
+impl Default for Variation {
+    /// None.
+    fn default() -> Self {
+        Self { friction: 0.0, mass: 0.0, torque: 0.0, time_step: [1.0, 1.0], start_pose: 0.0, bumps: 0.0 }
+    }
+}
+
+/// Two factors, or the share they are off 1.
+fn factors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f32; 2], D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "expected the least and the greatest factor, such as [0.8, 1.2]")]
+    enum Written {
+        Factors([f32; 2]),
+        Share(f32),
+    }
+    Ok(match Written::deserialize(deserializer)? {
+        Written::Factors(factors) => factors,
+        Written::Share(share) => [1.0 - share, 1.0 + share],
+    })
+}
+
 impl Variation {
     /// The world of a training run: a gait evolved in one exact world is brittle.
     ///
-    /// Friction ± 30 %, mass and torque ± 10 %, time step ± 20 %, and every actuated joint turned by up to 0.05 rad (3°).
+    /// Friction ± 30 %, mass and torque ± 10 %, steps between 0.42 and 1.25 times as long (1/120 to 1/40 s in place of
+    /// 1/50), and every actuated joint turned by up to 0.05 rad (3°).
     pub const fn light() -> Self {
-        Self { friction: 0.3, mass: 0.1, torque: 0.1, time_step: 0.2, start_pose: 0.05 }
+        Self { friction: 0.3, mass: 0.1, torque: 0.1, time_step: [0.42, 1.25], start_pose: 0.05, bumps: 0.0 }
     }
 
-    /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, time step ± 40 %, and every actuated
-    /// joint turned by up to 0.1 rad (6°).
+    /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.33 and 1.5 times as long,
+    /// and every actuated joint turned by up to 0.1 rad (6°).
     pub const fn strong() -> Self {
-        Self { friction: 0.5, mass: 0.2, torque: 0.2, time_step: 0.4, start_pose: 0.1 }
+        Self { friction: 0.5, mass: 0.2, torque: 0.2, time_step: [0.33, 1.5], start_pose: 0.1, bumps: 0.02 }
     }
 
     /// Whether every trial has the same world.
@@ -104,7 +136,6 @@ impl Variation {
             ("friction", self.friction, 0.9),
             ("mass", self.mass, 0.9),
             ("torque", self.torque, 0.9),
-            ("time_step", self.time_step, 0.9),
             ("start_pose", self.start_pose, 1.0),
         ];
         for (field, value, high) in ranges {
@@ -112,20 +143,43 @@ impl Variation {
                 return Err(SettingError::new(field, value, format!("from 0 to {high}")));
             }
         }
+        if self.bumps != 0.0 && !(0.01..=0.1).contains(&self.bumps) {
+            return Err(SettingError::new("bumps", self.bumps, "0, or from 0.01 to 0.1"));
+        }
+        let [least, greatest] = self.time_step;
+        if !((0.1..=1.0).contains(&least) && (1.0..=2.0).contains(&greatest)) {
+            let allowed = "a factor from 0.1 to 1 and one from 1 to 2";
+            return Err(SettingError::new("time_step", format!("[{least}, {greatest}]"), allowed));
+        }
         Ok(())
     }
 
     /// The world of the trial with this seed, for a creature with so many actuated joints.
     pub fn draw(&self, seed: Seed, motors: usize) -> Conditions {
         let mut stream = seed.stream(TRIAL_VARIATION);
-        // Uniform from −share to share. The order of the draws is part of every recorded run.
-        let mut draw = |share: f32| share * (2.0 * stream.random::<f32>() - 1.0);
+        // From −1 to 1. The order of the draws is part of every recorded run.
+        let mut draw = || 2.0 * stream.random::<f32>() - 1.0;
         Conditions {
-            friction: 1.0 + draw(self.friction),
-            mass: 1.0 + draw(self.mass),
-            torque: 1.0 + draw(self.torque),
-            time_step: 1.0 + draw(self.time_step),
-            turns: (0..motors).map(|_| draw(self.start_pose)).collect(),
+            friction: 1.0 + self.friction * draw(),
+            mass: 1.0 + self.mass * draw(),
+            torque: 1.0 + self.torque * draw(),
+            time_step: self.time_step_at(0.5 * (1.0 + draw())),
+            turns: (0..motors).map(|_| self.start_pose * draw()).collect(),
         }
+    }
+
+    /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
+    pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
+        if self.bumps == 0.0 {
+            return Vec::new();
+        }
+        let heights = [0.1 * self.bumps, self.bumps];
+        bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], BUMPS_REACH * body_length)
+    }
+
+    /// The factor on the time step, from the least at 0 to the greatest at 1.
+    fn time_step_at(&self, place: f32) -> f32 {
+        let [least, greatest] = self.time_step.map(libm::logf);
+        libm::expf(least + (greatest - least) * place)
     }
 }

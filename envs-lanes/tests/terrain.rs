@@ -22,6 +22,14 @@ fn gap() -> Ground {
     Ground { shapes: vec![side(-4.0), side(6.6)] }
 }
 
+/// Level ground with mounds 2 cm high and 0.4 m wide on either side of the creature.
+fn mounds() -> Ground {
+    let mound = |index: i32| GroundShape::Circle { x: 0.7 * index as f32, y: 0.02 - 1.01, radius: 1.01 };
+    Ground {
+        shapes: [GroundShape::HalfSpace].into_iter().chain((-8_i32..=8).filter(|x| x.abs() > 1).map(mound)).collect(),
+    }
+}
+
 fn drive(name: &str, ground: &Ground, seed: u64, steps: u32) -> bool {
     let blueprint = Blueprint::new(creatures::find(name).expect("shipped")).expect("valid");
     let sensors = [Sensor::FootContacts, Sensor::Rangefinder { angles: vec![-60.0, -20.0, 0.0], length: 3.0 }];
@@ -66,4 +74,10 @@ fn every_shipped_creature_moves_at_a_gap_as_in_rapier() {
             drive(name, &gap(), seed, 400);
         }
     }
+}
+
+#[test]
+fn every_shipped_creature_moves_on_mounds_as_in_rapier() {
+    let reached = SHIPPED.map(|name| (1..=4).filter(|&seed| drive(name, &mounds(), seed, 400)).count());
+    assert!(reached.into_iter().filter(|&count| count > 0).count() >= 5, "hardly anyone was on a mound: {reached:?}");
 }

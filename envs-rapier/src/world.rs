@@ -58,12 +58,16 @@ impl RapierWorld {
             GroundShape::Box { x, y, width, height } => {
                 ColliderBuilder::cuboid(width * 0.5, height * 0.5).translation(Vector::new(x, y))
             }
+            GroundShape::Circle { x, y, radius } => ColliderBuilder::ball(radius).translation(Vector::new(x, y)),
         };
         let collider = collider
             .friction(friction)
             .friction_combine_rule(CoefficientCombineRule::Multiply)
             .collision_groups(groups(GROUND, CREATURE));
-        self.ground.push(self.physics.insert_collider(collider, None));
+        // On a body of its own: where a part meets several shapes in one step, rapier goes by the order of the bodies, and
+        // without them by an order that comes of where everything has been.
+        let (_, collider) = self.physics.insert(RigidBodyBuilder::fixed(), collider);
+        self.ground.push(collider);
     }
 
     fn add_part(&mut self, part: &BodyPart, self_collision: bool, mass_factor: f32) {

@@ -21,12 +21,11 @@ pub struct Stage {
     episode: Episode<RapierEnvironment>,
     movement: MovementSpec,
     kind: Option<Kind>,
-    gravity: f32,
     flat: bool,
 }
 
-/// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those that keep more of their fitness in
-/// varied worlds have up to 2 more; a champion that is not usable has 0.
+/// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those whose gait is usable in perturbed
+/// worlds too have up to 4 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 /// A movement that is not judged is watched for so long, s.
@@ -44,8 +43,7 @@ impl Stage {
         let movement = MovementSpec { name: parts.movement.name.clone(), steps, terms: Vec::new() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
-        let gravity = parts.physics.gravity;
-        Ok(Self { episode: parts.build(catalogue)?, movement, kind, gravity, flat: true })
+        Ok(Self { episode: parts.build(catalogue)?, movement, kind, flat: true })
     }
 
     /// The same stage in another world: under these conditions, on this ground.
@@ -87,7 +85,7 @@ impl Stage {
     pub fn judge(&self, network: &Network) -> Option<GaitReport> {
         let recording = self.record(network);
         let body = self.episode.environment().body()?;
-        let trajectory = Trajectory::new(body, &recording.snapshots).ok()?.under_gravity(self.gravity);
+        let trajectory = Trajectory::new(body, &recording.snapshots).ok()?;
         let trajectory = if self.flat { trajectory } else { trajectory.on_terrain() };
         Some(GaitReport::of(&trajectory, self.kind))
     }

@@ -1,6 +1,6 @@
 //! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, gait::USABLE, setup::Nominal};
+use crate::{config::EngineChoice, gait::USABLE, proving, setup::Nominal};
 use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
@@ -15,6 +15,8 @@ pub(crate) struct NominalJury {
     proof: Option<Box<dyn Task>>,
     /// Whether a gait is usable, if those of this movement are judged.
     usable: Option<Box<Usable>>,
+    /// In how many perturbed worlds it is, if training varies the world.
+    steadiness: Option<Box<Steadiness>>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
@@ -22,12 +24,28 @@ pub(crate) struct NominalJury {
 /// Says whether the gait of a controller is usable.
 type Usable = dyn Fn(&dyn Phenotype) -> bool + Send + Sync;
 
-/// Steps in which the share of fitness kept is told apart: little, half, and three quarters or more. Finer ones would have
-/// a slow champion that keeps everything stand above one ten times as fast that keeps nearly everything.
-const DEGREES: u8 = 2;
+/// Says in how many perturbed worlds the gait of a controller is usable; `None` if in less than so many.
+type Steadiness = dyn Fn(&dyn Phenotype, usize) -> Option<usize> + Send + Sync;
+
+/// In how many of the [`proving::WORLDS`] a gait must be usable for one grade above [`USABLE`], for two and so on: a quarter,
+/// half, three quarters, all but one. Finer ones would have a slow champion that is usable in one world more stand above one
+/// twice as fast.
+const STEADY: [usize; 4] = [3, 6, 9, proving::WORLDS - 1];
+
+/// The highest grade.
+const HIGHEST: u8 = USABLE + STEADY.len() as u8;
 
 /// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
 const JUDGED: usize = 4;
+
+/// How much of its fitness a finalist keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
+/// be shorter there, and episodes are, so what keeps all of its speed may keep only half of its distance.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Kept {
+    Little,
+    Half,
+    Most,
+}
 
 /// The jury's task in rapier, which remembers what it played last.
 struct InRapier(Nominal);
@@ -71,48 +89,83 @@ impl NominalJury {
                 };
                 Box::new(usable) as Box<Usable>
             }),
+            steadiness: nominal.proving.clone().map(|ground| {
+                let evaluator = evaluator.clone();
+                let steadiness = move |phenotype: &dyn Phenotype, least| {
+                    let network = network_of(phenotype)?;
+                    evaluator.install(|| ground.usable(&network, least))
+                };
+                Box::new(steadiness) as Box<Steadiness>
+            }),
             seed: nominal.seed,
             evaluator,
         }
     }
 
-    /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more of its fitness is kept in varied
-    /// worlds. Gaits are judged, the best first, until one is usable; who would not become champion even if its gait
-    /// were is not looked at.
+    /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
+    /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; who
+    /// would not become champion whatever came of it is not looked at.
     fn grades<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
         let mut grades = vec![0; finalists.len()];
         let Some(usable) = &self.usable else { return grades };
         let kept = self.kept(finalists, evaluations);
-        let place = |index: usize| {
-            let grade = USABLE + (kept[index] * f64::from(DEGREES)).round() as u8;
-            Some(Standing { grade, fitness: evaluations[index].fitness()? })
-        };
-        let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| place(index) > standing).collect();
-        able.sort_by_key(|&index| Reverse(place(index)));
+        let place = |index: usize, grade: u8| Some(Standing { grade, fitness: evaluations[index].fitness()? });
+        let hoped = |index: usize| place(index, self.hoped(kept[index], standing));
+        let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| hoped(index) > standing).collect();
+        able.sort_by_key(|&index| Reverse((kept[index], evaluations[index].fitness())));
         // Those who keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
         let first = &able[..able.len().min(JUDGED)];
         let mut candidates = first.iter().chain(fittest.iter().take(JUDGED).filter(|index| !first.contains(index)));
         if let Some(&best) = candidates.find(|&&index| usable(&finalists[index].express())) {
-            grades[best] = place(best).map_or(0, |standing| standing.grade);
+            let hoped = self.hoped(kept[best], standing);
+            let enough = (USABLE..=hoped).find(|&grade| place(best, grade) > standing).unwrap_or(hoped);
+            grades[best] = self.steady(&finalists[best], enough, hoped);
         }
         grades
     }
 
-    /// The share of its fitness that each keeps in varied worlds, 0 to 1; 0 for whoever has less than half of the best
-    /// fitness here, since it is easy to keep little.
-    fn kept<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation]) -> Vec<f64> {
-        let Some(proof) = &self.proof else { return vec![0.0; finalists.len()] };
-        let varied = self.evaluator.evaluate(&**proof, finalists, self.seed);
-        let best = evaluations.iter().filter_map(Evaluation::fitness).max().map_or(0.0, Fitness::get);
-        let share = |(varied, nominal): (&Evaluation, &Evaluation)| match (varied.fitness(), nominal.fitness()) {
-            (Some(varied), Some(nominal)) if nominal.get() > 0.0 && nominal.get() >= 0.5 * best => {
-                (varied.get() / nominal.get()).clamp(0.0, 1.0)
-            }
-            _ => 0.0,
-        };
-        varied.iter().zip(evaluations).map(share).collect()
+    /// The grade that a usable finalist may get. The first champion that is usable need not be more than that: it is
+    /// wanted at once.
+    fn hoped(&self, kept: Kept, standing: Option<Standing>) -> u8 {
+        let first = standing.is_none_or(|standing| standing.grade < USABLE);
+        match kept {
+            _ if first || self.steadiness.is_none() => USABLE,
+            Kept::Little => USABLE + 1,
+            Kept::Half | Kept::Most => HIGHEST,
+        }
+    }
+
+    /// The grade of a usable finalist, of whom up to `hoped` is hoped. Less than `enough` is no use, and told as
+    /// [`USABLE`].
+    fn steady<G: Genome>(&self, finalist: &G, enough: u8, hoped: u8) -> u8 {
+        let Some(steadiness) = self.steadiness.as_ref().filter(|_| hoped > USABLE) else { return USABLE };
+        let least = usize::from(enough - USABLE).checked_sub(1).map_or(0, |step| STEADY[step]);
+        let count = steadiness(&finalist.express(), least).unwrap_or(0);
+        let steps = STEADY.iter().filter(|&&worlds| count >= worlds).count();
+        (USABLE + steps as u8).min(hoped)
+    }
+
+    /// How much of its fitness each keeps in varied worlds; little for whoever has less than half of the best fitness here,
+    /// since it is easy to keep little.
+    fn kept<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation]) -> Vec<Kept> {
+        let mut kept = vec![Kept::Little; finalists.len()];
+        let Some(proof) = &self.proof else { return kept };
+        let fitness = |index: usize| evaluations[index].fitness().map_or(0.0, Fitness::get);
+        let best = (0..finalists.len()).map(fitness).fold(0.0, f64::max);
+        let fit: Vec<usize> =
+            (0..finalists.len()).filter(|&index| fitness(index) > 0.0 && fitness(index) >= 0.5 * best).collect();
+        let genomes: Vec<G> = fit.iter().map(|&index| finalists[index].clone()).collect();
+        for (&index, varied) in fit.iter().zip(self.evaluator.evaluate(&**proof, &genomes, self.seed)) {
+            let share = varied.fitness().map_or(0.0, Fitness::get) / fitness(index);
+            kept[index] = match share {
+                _ if share >= 0.75 => Kept::Most,
+                _ if share >= 0.25 => Kept::Half,
+                _ => Kept::Little,
+            };
+        }
+        kept
     }
 
     /// Whether rapier finds the best of these as good as they say, if there is one that is to become champion.

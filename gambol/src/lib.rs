@@ -54,6 +54,8 @@ mod jury;
 mod limbs;
 mod lines;
 mod nominal;
+mod perturbation;
+mod proving;
 mod recorder;
 pub mod report;
 pub mod reproduce;

@@ -1,11 +1,11 @@
 //! The world of the jury.
 
-use crate::{champion, gait::Stage, training_task::TrainingTask, trajectory::TrajectoryDigest};
+use crate::{champion, gait::Stage, proving::ProvingGround, training_task::TrainingTask, trajectory::TrajectoryDigest};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Seed};
 use ne_net::Network;
 use std::sync::{Arc, Mutex};
-use tasks::{Episode, Trials};
+use tasks::{Episode, MovementCatalogue, Trials};
 
 /// One trial in the world as the configuration has it, where training varies it.
 #[derive(Clone)]
@@ -21,6 +21,8 @@ pub struct Nominal {
     pub proof: Option<TrainingTask>,
     /// Where gaits are judged, if those of this movement are.
     pub stage: Option<Stage>,
+    /// Where finalists are tried in perturbed worlds, if training varies the world and gaits are judged.
+    pub proving: Option<ProvingGround>,
     /// What was replayed last: the jury has a champion played in rapier just before its file is written.
     last: Arc<Mutex<Option<Replay>>>,
 }
@@ -38,10 +40,13 @@ impl Nominal {
         episode: Episode<RapierEnvironment>,
         proof: Option<TrainingTask>,
         stage: Stage,
+        catalogue: &MovementCatalogue,
         seed: Seed,
     ) -> Self {
         let stage = Some(stage).filter(|stage| stage.kind().is_some());
-        Self { task, episode, seed, proof, stage, last: Arc::default() }
+        let tried = stage.clone().filter(|_| proof.is_some());
+        let proving = tried.map(|stage| ProvingGround::new(stage, catalogue.clone(), seed));
+        Self { task, episode, seed, proof, stage, proving, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.

@@ -115,7 +115,7 @@ impl<S: Strategy> Evolution<S> {
         Self { strategy, seed, stop, signal: StopSignal::default(), progress, champion, finalists, court: None }
     }
 
-    /// Lets a jury choose the champion. The best of each generation becomes a finalist; after every so many generations
+    /// Lets a jury choose the champion. The best of each generation becomes a finalist; at every hearing
     /// the jury judges them and the best of that generation, and the best of them becomes champion if its fitness before
     /// the jury is above the champion's. Hearings are used as they are; see [`Hearings::validate`].
     #[must_use]
@@ -239,21 +239,18 @@ impl<S: Strategy> Evolution<S> {
         evaluations: &[Evaluation],
     ) -> (bool, Option<HearingReport>) {
         let generation = self.progress.generations;
-        let Hearings { every, finalists } = court.hearings;
-        let is_hearing = generation.is_multiple_of(every);
-        let count = if is_hearing { finalists.max(1) } else { 1 };
+        let span = court.hearings.span(generation);
+        let count = if span.is_some() { court.hearings.finalists.max(1) } else { 1 };
         let best = ranking(evaluations).into_iter().take(count);
         self.finalists.extend(best.map(|(index, fitness)| Finalist {
             genome: genomes[index].clone(),
             fitness,
             generation,
         }));
-        if !is_hearing {
-            return (false, None);
-        }
+        let Some(span) = span else { return (false, None) };
         let (report, best) =
             court.hear(&std::mem::take(&mut self.finalists), self.champion.as_ref().map(Champion::standing));
-        (self.crown(best, every), Some(report))
+        (self.crown(best, span), Some(report))
     }
 
     /// The best so far, if any evaluation succeeded.

@@ -43,7 +43,9 @@ pub struct Judgement {
 /// How often a jury sits, and how many it hears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Hearings {
-    /// After every so many generations; at least 1.
+    /// After every so many generations at first; at least 1. From 8 times as many on half as often, from 16 times on a
+    /// quarter as often, and so on: after 10, 20, ... 80, 100, ... 160, 200, ... 320, 400, ... The older a run, the less
+    /// changes from one generation to the next.
     pub every: u64,
     /// So many of the best of the generation just evaluated are heard, with the best of each generation since the last
     /// hearing; at least 1.
@@ -51,6 +53,16 @@ pub struct Hearings {
 }
 
 impl Hearings {
+    /// The generations between the last hearing up to this generation, from 1, and the one before; `None` if this
+    /// generation has no hearing.
+    pub(crate) fn span(&self, generation: u64) -> Option<u64> {
+        let every = self.every.max(1);
+        // The hearing at 8, 16, 32 times `every` is the last of the closer ones.
+        let age = (generation - 1) / every / 8;
+        let span = every << age.checked_ilog2().map_or(0, |doublings| doublings + 1);
+        generation.is_multiple_of(span).then_some(span)
+    }
+
     /// Checks the ranges.
     ///
     /// # Errors
@@ -150,4 +162,24 @@ pub(crate) fn ranking(evaluations: &[Evaluation]) -> Vec<(usize, Fitness)> {
     // A stable sort leaves equals in their order.
     ranking.sort_by_key(|&(_, fitness)| std::cmp::Reverse(fitness));
     ranking
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hearings_become_rarer_as_the_run_gets_older() {
+        let heard = |every, generations| {
+            let hearings = Hearings { every, finalists: 1 };
+            (1..=generations).filter(|&generation| hearings.span(generation).is_some()).collect::<Vec<_>>()
+        };
+        let first = [10, 20, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 200, 240, 280, 320, 400, 480, 560, 640];
+        assert_eq!(heard(10, 799), first);
+        assert_eq!(heard(1, 24), [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24]);
+        // Every generation lies in one span, and in no two.
+        let spans = |generation| Hearings { every: 3, finalists: 1 }.span(generation);
+        assert_eq!((1..=3 * 64).filter_map(spans).sum::<u64>(), 3 * 64);
+        assert!((1..100_000).filter_map(spans).count() < 70);
+    }
 }

@@ -9,6 +9,8 @@ pub struct Body {
     pub body_length: f32,
     /// Height of the torso's centre above the lowest point in the start pose, m.
     pub start_height: f32,
+    /// What pulls it down, m/s².
+    pub gravity: f32,
     /// What each part is like.
     pub parts: Vec<BodyPart>,
     /// Every hinge; hinge `i` is the same everywhere.

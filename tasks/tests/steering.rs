@@ -35,6 +35,7 @@ fn puppet() -> Body {
     Body {
         body_length: 1.0,
         start_height: 0.5,
+        gravity: 9.81,
         parts: vec![part("torso", &[[-0.2, -0.1], [0.2, 0.1]]), leg("left leg"), leg("right leg")],
         hinges: HIPS.into_iter().enumerate().map(hinge).collect(),
         legs: vec![vec![1], vec![2]],
@@ -338,6 +339,28 @@ fn honest_fails_what_lives_on_errors_of_the_physics() {
     let sunk = |by: f32| move |pose: &mut Pose, _: &mut Vec<PartState>| pose.rise = -by;
     assert_eq!(honest(&sunk(0.055)), None);
     assert_eq!(honest(&sunk(0.065)), Some(Verdict::Fail("a part sinks into the ground")));
+}
+
+#[test]
+fn honest_fails_what_gains_energy_from_nowhere() {
+    let torso = BodyPart { mass: 8.0, ..puppet().parts[0].clone() };
+    let body = Body { parts: vec![torso, puppet().parts[1].clone(), puppet().parts[2].clone()], ..puppet() };
+    // From 1 s on it rises, 98 J for a metre; the motors work for so much of it. 7 J and 0.175 × 49 J may be gained.
+    let rising = |share: f64, speed: f32| {
+        let film = script(2.0, |time| Pose { rise: (time - 1.0).max(0.0) * speed, ..Pose::default() });
+        let worked = film.into_iter().map(|snapshot| {
+            let risen = f64::from(snapshot.parts[0].y - 0.5);
+            Snapshot { motor_work: share * 98.1 * risen, ..snapshot }
+        });
+        watch(Honest::default(), &body, &worked.collect::<Vec<_>>()).end.map(|(_, verdict)| verdict)
+    };
+    let caught = Some(Verdict::Fail("it gains energy from nowhere"));
+    assert_eq!((rising(1.0, 1.0), rising(0.0, 1.0)), (None, caught));
+    // So slowly that it is less within half a second.
+    assert_eq!((rising(0.0, 0.25), rising(0.8, 1.0)), (None, None));
+    let still = Body { gravity: 0.0, ..body.clone() };
+    let floating = script(2.0, |time| Pose { rise: time, ..Pose::default() });
+    assert_eq!(watch(Honest::default(), &still, &floating).end, None, "nothing pulls it down");
 }
 
 /// Says what it is told to at one step.

@@ -32,7 +32,7 @@ fn a_toy_engine_makes_an_environment_that_passes_the_conformance_kit() {
 /// The sensors of a tetrapod: rotation of the torso, then its joint angles, 0 in the start pose of its file.
 #[test]
 fn a_varied_start_pose_turns_each_actuated_joint_by_what_was_drawn() {
-    let variation = Variation { start_pose: 0.3, time_step: 0.5, ..Variation::default() };
+    let variation = Variation { start_pose: 0.3, time_step: [0.5, 1.5], ..Variation::default() };
     let mut environment = varied(variation);
     let (seed, motors) = (Seed::of_run(5), environment.outputs());
     environment.reset(seed).expect("settles");
@@ -70,7 +70,7 @@ fn motors_are_asked_only_for_what_changes() {
 
 #[test]
 fn a_varied_time_step_is_that_of_clock_and_work() {
-    let variation = Variation { time_step: 0.5, ..Variation::default() };
+    let variation = Variation { time_step: [0.5, 1.5], ..Variation::default() };
     let (mut environment, seed) = (varied(variation), Seed::of_run(2));
     assert_eq!(environment.time_step(), 0.02);
     environment.reset(seed).expect("settles");

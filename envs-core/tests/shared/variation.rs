@@ -5,8 +5,9 @@ use rand::RngExt;
 
 fn variations() -> impl Strategy<Value = Variation> {
     let share = || 0.0..=0.9_f32;
-    (share(), share(), share(), share(), 0.0..=1.0_f32).prop_map(|(friction, mass, torque, time_step, start_pose)| {
-        Variation { friction, mass, torque, time_step, start_pose }
+    let time_step = (0.1..=1.0_f32, 1.0..=2.0_f32);
+    (share(), share(), share(), time_step, 0.0..=1.0_f32).prop_map(|(friction, mass, torque, time_step, start_pose)| {
+        Variation { friction, mass, torque, time_step: time_step.into(), start_pose, bumps: 0.0 }
     })
 }
 
@@ -23,11 +24,12 @@ proptest! {
             (friction, variation.friction),
             (mass, variation.mass),
             (torque, variation.torque),
-            (time_step, variation.time_step),
         ];
         for (factor, share) in factors {
             prop_assert!((factor - 1.0).abs() <= share + f32::EPSILON, "{factor} of ± {share}");
         }
+        let [least, greatest] = variation.time_step;
+        prop_assert!((least * 0.999..=greatest * 1.001).contains(time_step), "{time_step} of {least} to {greatest}");
         prop_assert_eq!(turns.len(), motors);
         prop_assert!(turns.iter().all(|turn| turn.abs() <= variation.start_pose), "{:?}", turns);
         prop_assert_eq!(&drawn, &variation.draw(seed, motors));
@@ -59,10 +61,11 @@ fn friction_mass_torque_time_step_and_turns_are_drawn_in_this_order() {
         friction: 1.0 + draw(0.3),
         mass: 1.0 + draw(0.1),
         torque: 1.0 + draw(0.2),
-        time_step: 1.0 + draw(0.05),
+        time_step: libm::expf(libm::logf(0.5) + (libm::logf(1.5) - libm::logf(0.5)) * 0.5 * (1.0 + draw(1.0))),
         turns: vec![draw(0.4), draw(0.4)],
     };
-    let variation = Variation { friction: 0.3, mass: 0.1, torque: 0.2, time_step: 0.05, start_pose: 0.4 };
+    let variation =
+        Variation { friction: 0.3, mass: 0.1, torque: 0.2, time_step: [0.5, 1.5], start_pose: 0.4, bumps: 0.0 };
     assert_eq!(variation.draw(seed, 2), expected);
 }
 
@@ -73,13 +76,23 @@ fn shares_out_of_range_name_field_and_range() {
         (Variation { friction: -0.1, ..none }, "friction = -0.1: must be from 0 to 0.9"),
         (Variation { mass: 1.0, ..none }, "mass = 1: must be from 0 to 0.9"),
         (Variation { torque: f32::NAN, ..none }, "torque = NaN: must be from 0 to 0.9"),
-        (Variation { time_step: 0.95, ..none }, "time_step = 0.95: must be from 0 to 0.9"),
+        (
+            Variation { time_step: [0.05, 1.0], ..none },
+            "time_step = [0.05, 1]: must be a factor from 0.1 to 1 and one from 1 to 2",
+        ),
+        (
+            Variation { time_step: [0.9, f32::NAN], ..none },
+            "time_step = [0.9, NaN]: must be a factor from 0.1 to 1 and one from 1 to 2",
+        ),
         (Variation { start_pose: 1.5, ..none }, "start_pose = 1.5: must be from 0 to 1"),
+        (Variation { bumps: 0.005, ..none }, "bumps = 0.005: must be 0, or from 0.01 to 0.1"),
+        (Variation { bumps: f32::NAN, ..none }, "bumps = NaN: must be 0, or from 0.01 to 0.1"),
     ];
     for (variation, refusal) in refusals {
         assert_eq!(variation.validate().expect_err("must be refused").to_string(), refusal);
     }
     assert_eq!(Variation::light().validate(), Ok(()));
+    assert_eq!(Variation::strong().validate(), Ok(()));
 }
 
 /// Files written before a field was there do not vary it.
@@ -87,4 +100,13 @@ fn shares_out_of_range_name_field_and_range() {
 fn what_a_file_leaves_out_does_not_vary() {
     let read: Variation = serde_json::from_str(r#"{"friction":0.3,"mass":0.1,"torque":0.1}"#).expect("valid");
     assert_eq!(read, Variation { friction: 0.3, mass: 0.1, torque: 0.1, ..Variation::default() });
+}
+
+#[test]
+fn the_time_step_is_two_factors_or_a_share() {
+    let read = |text: &str| serde_json::from_str::<Variation>(text).map(|variation| variation.time_step);
+    assert_eq!(read(r#"{"time_step":[0.5,1.25]}"#).expect("valid"), [0.5, 1.25]);
+    assert_eq!(read(r#"{"time_step":0.25}"#).expect("valid"), [0.75, 1.25]);
+    let refusal = read(r#"{"time_step":"long"}"#).expect_err("must be refused").to_string();
+    assert!(refusal.contains("expected the least and the greatest factor, such as [0.8, 1.2]"), "{refusal}");
 }

@@ -14,43 +14,50 @@ use parry2d::{
 };
 use std::sync::Arc;
 
-/// The contacts of the same part of `W` creatures with ground made of several shapes.
+/// The contacts of the same part of `W` creatures with ground made of several shapes, each creature on ground of its own.
 ///
-/// Where and which way a part touches a box is found lane by lane, by parry: the geometry of rapier, with its contact
+/// Where and which way a part touches a shape is found lane by lane, by parry: the geometry of rapier, with its contact
 /// tracking, so that nothing can differ. It is asked only for shapes that are close. The rows are solved in lanes.
 #[derive(Clone, Debug)]
 pub(super) struct UnevenContact<const W: usize> {
-    plan: Arc<Plan>,
-    /// For each lane and each shape of the ground, what is known of it from the last step.
-    footings: Vec<Vec<Footing>>,
-    /// In the order rapier solves them in. In a lane, each holds the contact with one shape at most.
+    part: SharedShape,
+    /// No point of the part is further from its centre, m.
+    radius: f32,
+    lanes: Vec<Lane>,
+    /// Friction coefficient of part and ground together.
+    friction: Lanes<W>,
+    /// In a lane, each holds the contact with one shape at most. As many as were ever needed at once; the last is solved
+    /// first.
     rows: Vec<Rows<Slanted<W>, W>>,
     /// Which of the rows' points are near the ground in this step.
     active: Vec<[Mask<W>; 2]>,
 }
 
-/// What all lanes share.
-#[derive(Debug)]
-struct Plan {
-    part: SharedShape,
-    /// No point of the part is further from its centre, m.
-    radius: f32,
-    shapes: Vec<Ledge>,
+/// A lane's ground.
+#[derive(Clone, Debug)]
+struct Lane {
+    ledges: Arc<[Ledge]>,
+    /// The shapes that are within reach, in the order of the ground.
+    footings: Vec<Footing>,
 }
 
 /// A shape of the ground.
 #[derive(Debug)]
 struct Ledge {
-    shape: SharedShape,
     /// Centre, m.
     centre: [f32; 2],
-    /// Half its width and height, m; infinite but upwards for a half-space.
+    /// Half the width and height of a box, m; infinite but upwards for a half-space; 0 for a circle.
     half: [f32; 2],
+    /// Of a circle, m; else 0.
+    radius: f32,
+    shape: SharedShape,
 }
 
 /// A part on a shape of the ground.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Footing {
+    /// Index of the shape.
+    ledge: usize,
     manifold: ContactManifold<(), Impulses>,
     /// The place among the rows that its contact has, from when it begins until it ends.
     row: Option<usize>,
@@ -83,27 +90,27 @@ impl<const W: usize> UnevenContact<W> {
             Shape::Circle { radius } => (SharedShape::ball(radius), radius),
             Shape::Capsule { length, radius } => (SharedShape::capsule_y(length * 0.5, radius), length * 0.5 + radius),
         };
-        let shapes: Vec<Ledge> = ground.shapes.iter().map(Ledge::new).collect();
-        let normal = Slanted { x: Lanes::ZERO, y: Lanes::ONE };
-        Self {
-            footings: vec![vec![Footing::default(); shapes.len()]; W],
-            rows: vec![Rows::new(normal); shapes.len()],
-            active: vec![[Mask::NONE; 2]; shapes.len()],
-            plan: Arc::new(Plan { part, radius, shapes }),
-        }
+        let lane = Lane { ledges: ground.shapes.iter().map(Ledge::new).collect(), footings: Vec::new() };
+        let (lanes, friction) = (vec![lane; W], Lanes::ZERO);
+        Self { part, radius, lanes, friction, rows: Vec::new(), active: Vec::new() }
     }
 
     /// Forgets what a lane's part stood on.
     pub(super) fn reset(&mut self, lane: usize, friction: f32) {
-        self.footings[lane].fill(Footing::default());
+        self.friction.0[lane] = friction;
+        self.lanes[lane].footings.clear();
         for rows in &mut self.rows {
             rows.reset(lane, friction);
         }
     }
 
-    /// Takes over what another lane's part stands on.
+    /// Takes over what another lane's part stands on, and the ground it is on.
     pub(super) fn copy_lane(&mut self, lane: usize, from: &UnevenContact<1>) {
-        self.footings[lane].clone_from(&from.footings[0]);
+        self.reset(lane, from.friction.0[0]);
+        self.lanes[lane].clone_from(&from.lanes[0]);
+        while self.rows.len() < from.rows.len() {
+            self.add_row();
+        }
         for (rows, from) in self.rows.iter_mut().zip(&from.rows) {
             rows.copy_lane(lane, from);
         }
@@ -119,14 +126,15 @@ impl<const W: usize> UnevenContact<W> {
         pressing
     }
 
-    /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
-    pub(super) fn distance_along_ray(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
+    /// The distance from a point to a lane's ground along a ray at `angle` (rad, in the world), m; `length` if it is
+    /// further.
+    pub(super) fn distance_along_ray(&self, lane: usize, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
         let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
         let distance = |ledge: &Ledge| {
             let place = Pose { rotation: Rotation::IDENTITY, translation: ledge.translation() };
             ledge.shape.cast_ray(&place, &ray, length, true)
         };
-        self.plan.shapes.iter().filter_map(distance).fold(length, f32::min)
+        self.lanes[lane].ledges.iter().filter_map(distance).fold(length, f32::min)
     }
 
     /// Finds the points that are within `reach` m of the ground, or will be after a step of this many seconds.
@@ -143,18 +151,35 @@ impl<const W: usize> UnevenContact<W> {
                 velocity: Vector::new(body.velocity_x.0[lane], body.velocity_y.0[lane]),
                 spin: body.spin.0[lane],
             };
-            for (ledge, footing) in self.plan.shapes.iter().zip(&mut self.footings[lane]) {
-                footing.update(&self.plan, ledge, &placed, reach, time_step.0[lane]);
+            let Lane { ledges, footings } = &mut self.lanes[lane];
+            let mut next = 0;
+            for (index, ledge) in ledges.iter().enumerate() {
+                let known = footings.get(next).is_some_and(|footing| footing.ledge == index);
+                if ledge.is_out_of_reach(&placed, self.radius + reach) {
+                    if known {
+                        footings.remove(next);
+                    }
+                    continue;
+                }
+                if !known {
+                    footings.insert(next, Footing::new(index, ledge));
+                }
+                footings[next].update(&*self.part, ledge, &placed, reach, time_step.0[lane]);
+                next += 1;
             }
             self.assign_rows(lane);
-            for footing in &self.footings[lane] {
+            for footing in &self.lanes[lane].footings {
                 if let Some(row) = footing.row {
                     footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed);
                 }
             }
         }
         for (rows, &active) in self.rows.iter_mut().zip(&self.active) {
-            rows.begin(body, active);
+            if active[0].or(active[1]).any() {
+                rows.begin(body, active);
+            } else if rows.near {
+                rows.rest();
+            }
         }
     }
 
@@ -162,28 +187,28 @@ impl<const W: usize> UnevenContact<W> {
 
     #[inline(never)]
     pub(super) fn prepare(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
-        for rows in &mut self.rows {
+        for rows in self.rows.iter_mut().rev() {
             rows.prepare(body, pace);
         }
     }
 
     #[inline(never)]
     pub(super) fn solve(&mut self, body: &mut Body<W>) {
-        for rows in &mut self.rows {
+        for rows in self.rows.iter_mut().rev() {
             rows.solve(body);
         }
     }
 
     #[inline(never)]
     pub(super) fn relax(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
-        for rows in &mut self.rows {
+        for rows in self.rows.iter_mut().rev() {
             rows.relax(body, pace);
         }
     }
 
     /// Brings the impulses of the last step from the rows to the points they belong to.
     fn remember(&mut self) {
-        for (lane, footings) in self.footings.iter_mut().enumerate() {
+        for (lane, Lane { footings, .. }) in self.lanes.iter_mut().enumerate() {
             for Footing { manifold, row, points, .. } in footings {
                 let Some(rows) = row.map(|row| &self.rows[row]) else { continue };
                 for (point, index) in rows.points.iter().zip(points) {
@@ -196,34 +221,46 @@ impl<const W: usize> UnevenContact<W> {
     }
 
     /// Gives rows to contacts that have begun. rapier gives a contact with fixed ground the last of its colours that the
-    /// part does not use, once all contacts that ended have given theirs back, and solves the first colours first.
+    /// part does not use, once all contacts that ended have given theirs back, and solves the first colours first. The
+    /// last colour is the first of the rows here.
     fn assign_rows(&mut self, lane: usize) {
-        let footings = &mut self.footings[lane];
-        for shape in 0..footings.len() {
-            let footing = &footings[shape];
-            if footing.row.is_some() || footing.points[0].is_none() {
+        for begun in 0..self.lanes[lane].footings.len() {
+            let footings = &mut self.lanes[lane].footings;
+            if footings[begun].row.is_some() || footings[begun].points[0].is_none() {
                 continue;
             }
-            let free = |row: &usize| footings.iter().all(|footing| footing.row != Some(*row));
-            footings[shape].row = (0..footings.len()).rev().find(free);
+            let taken = |row: usize| footings.iter().any(|footing| footing.row == Some(row));
+            let free = (0..).find(|&row| !taken(row));
+            footings[begun].row = free;
+            while free.is_some_and(|row| row >= self.rows.len()) {
+                self.add_row();
+            }
         }
+    }
+
+    fn add_row(&mut self) {
+        let mut rows = Rows::new(Slanted { x: Lanes::ZERO, y: Lanes::ONE });
+        rows.friction = self.friction;
+        self.rows.push(rows);
+        self.active.push([Mask::NONE; 2]);
     }
 }
 
 impl Footing {
+    fn new(index: usize, ledge: &Ledge) -> Self {
+        let (manifold, place) = (ContactManifold::default(), ledge.translation());
+        Self { ledge: index, manifold, row: None, points: [None; 2], place }
+    }
+
     /// Finds the points of contact with a shape of the ground.
-    fn update(&mut self, plan: &Plan, ledge: &Ledge, placed: &Placed, reach: f32, time_step: f32) {
+    fn update(&mut self, part: &dyn parry2d::shape::Shape, ledge: &Ledge, placed: &Placed, reach: f32, time_step: f32) {
         self.points = [None; 2];
-        if ledge.is_out_of_reach(placed, plan.radius + reach) {
-            *self = Self::default();
-            return;
-        }
-        let ground = Pose { rotation: Rotation::IDENTITY, translation: ledge.translation() };
+        let ground = Pose { rotation: Rotation::IDENTITY, translation: self.place };
         // It knows all the pairs of shapes there are here.
         let _ = DefaultQueryDispatcher.contact_manifold_convex_convex(
             &ground.inv_mul(&placed.pose),
             &*ledge.shape,
-            &*plan.part,
+            part,
             None,
             None,
             reach,
@@ -239,7 +276,6 @@ impl Footing {
                 found += 1;
             }
         }
-        self.place = ledge.translation();
         if found == 0 {
             self.row = None;
         }
@@ -298,16 +334,15 @@ fn set_point<const W: usize>(
 
 impl Ledge {
     fn new(shape: &GroundShape) -> Self {
-        match *shape {
-            GroundShape::HalfSpace => {
-                Self { shape: SharedShape::halfspace(Vector::Y), centre: [0.0, 0.0], half: [f32::INFINITY, 0.0] }
+        let (shape, centre, half, radius) = match *shape {
+            GroundShape::HalfSpace => (SharedShape::halfspace(Vector::Y), [0.0, 0.0], [f32::INFINITY, 0.0], 0.0),
+            GroundShape::Box { x, y, width, height } => {
+                let half = [width * 0.5, height * 0.5];
+                (SharedShape::cuboid(half[0], half[1]), [x, y], half, 0.0)
             }
-            GroundShape::Box { x, y, width, height } => Self {
-                shape: SharedShape::cuboid(width * 0.5, height * 0.5),
-                centre: [x, y],
-                half: [width * 0.5, height * 0.5],
-            },
-        }
+            GroundShape::Circle { x, y, radius } => (SharedShape::ball(radius), [x, y], [0.0, 0.0], radius),
+        };
+        Self { centre, half, radius, shape }
     }
 
     fn translation(&self) -> Vector {
@@ -315,12 +350,15 @@ impl Ledge {
     }
 
     /// Whether nothing within `reach` of a body's centre is within the shape.
+    #[inline(always)]
     fn is_out_of_reach(&self, placed: &Placed, reach: f32) -> bool {
-        let [x, y] = self.centre;
         let [half_width, half_height] = self.half;
-        let Vector { x: body_x, y: body_y } = placed.pose.translation;
         let margin = reach + 0.1;
-        let below = half_width.is_finite() && y - body_y > half_height + margin;
-        body_y - y > half_height + margin || below || (body_x - x).abs() > half_width + margin
+        let (x, y) = (placed.pose.translation.x - self.centre[0], placed.pose.translation.y - self.centre[1]);
+        if self.radius > 0.0 {
+            return x * x + y * y > (self.radius + margin) * (self.radius + margin);
+        }
+        let below = half_width.is_finite() && -y > half_height + margin;
+        y > half_height + margin || below || x.abs() > half_width + margin
     }
 }

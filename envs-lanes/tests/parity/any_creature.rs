@@ -195,8 +195,11 @@ pub(crate) fn any_variation() -> impl Strategy<Value = Variation> {
         friction,
         mass,
         torque,
-        time_step,
+        time_step: [1.0 - time_step, 1.0 + time_step],
         start_pose,
+        bumps: 0.0,
     });
-    prop_oneof![2 => Just(Variation::default()), 1 => Just(Variation::light()), 1 => drawn]
+    let known = [Variation::light(), Variation::strong()].map(Just);
+    let [light, strong] = known;
+    prop_oneof![2 => Just(Variation::default()), 1 => light, 1 => strong, 1 => drawn]
 }

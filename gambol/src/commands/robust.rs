@@ -2,7 +2,7 @@ use super::{Outcome, gait::champion_file};
 use clap::Args;
 use gambol::{
     champion::Champion,
-    robust::{FRICTION, HIGHEST_BUMP, MASS, Robustness, TORQUE, robustness},
+    robust::{BUMP_HEIGHTS, FRICTION, MASS, Robustness, TORQUE, robustness},
 };
 use std::{io, path::PathBuf, process::ExitCode};
 use tasks::{MovementCatalogue, gait::Kind};
@@ -74,7 +74,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     }
     let shares = [FRICTION, MASS, TORQUE].map(|share| percent(share.into()));
     let [friction, mass, torque] = &shares;
-    let bumps = 100.0 * HIGHEST_BUMP;
+    let bumps = 100.0 * BUMP_HEIGHTS[1];
     say!("  worlds           friction ± {friction}, mass ± {mass}, torque ± {torque}, steps of 1/120 to 1/40 s,")?;
     say!("                   bumps up to {bumps:.0} cm high")?;
     if !robustness.reasons.is_empty() {

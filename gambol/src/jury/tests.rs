@@ -11,6 +11,8 @@ struct Candidate {
     /// In varied worlds; NaN fails there.
     varied: f64,
     usable: bool,
+    /// In how many perturbed worlds its gait is usable.
+    steady: usize,
 }
 
 impl Genome for Candidate {
@@ -62,10 +64,11 @@ impl Task for Fake {
     }
 }
 
-/// A jury, and those whose gaits it has looked at.
+/// A jury, those whose gaits it has looked at, and those it has tried, with how steady they had to be.
 struct Court {
     jury: NominalJury,
     seen: Arc<Mutex<Vec<Candidate>>>,
+    tried: Arc<Mutex<Vec<usize>>>,
 }
 
 impl Court {
@@ -77,15 +80,22 @@ impl Court {
             register.lock().expect("no test panics here").push(candidate.clone());
             candidate.usable
         };
+        let tried: Arc<Mutex<Vec<usize>>> = Arc::default();
+        let register = tried.clone();
+        let steadiness = move |phenotype: &dyn Phenotype, least: usize| {
+            register.lock().expect("no test panics here").push(least);
+            Some(candidate(phenotype).steady).filter(|&steady| steady >= least)
+        };
         let jury = NominalJury {
             task: Box::new(Fake(lanes)),
             reference: rapier.map(|rapier| Box::new(Fake(rapier)) as Box<dyn Task>),
             proof: Some(Box::new(Fake(|candidate| Evaluation::new(candidate.varied)))),
             usable: Some(Box::new(usable)),
+            steadiness: Some(Box::new(steadiness)),
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
-        Self { jury, seen }
+        Self { jury, seen, tried }
     }
 
     /// The grades, and the fitness of those whose gait was looked at, in this order.
@@ -93,6 +103,11 @@ impl Court {
         let Judgement { grades, .. } = self.jury.judge(candidates, standing);
         let seen = std::mem::take(&mut *self.seen.lock().expect("no test panics here"));
         (grades, seen.iter().map(|candidate| candidate.nominal).collect())
+    }
+
+    /// How steady those who were tried had to be.
+    fn tried(&self) -> Vec<usize> {
+        std::mem::take(&mut *self.tried.lock().expect("no test panics here"))
     }
 }
 
@@ -104,9 +119,10 @@ fn failed(_: &Candidate) -> Evaluation {
     Evaluation::failed(Failure::Other { what: "it fell apart".into() })
 }
 
-/// Fitness without variation and with it, and whether the gait is usable.
+/// Fitness without variation and with it, and whether the gait is usable; if so, then in every perturbed world.
 fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
-    all.iter().map(|&(nominal, varied, usable)| Candidate { nominal, varied, usable }).collect()
+    let steady = |usable| if usable { proving::WORLDS } else { 0 };
+    all.iter().map(|&(nominal, varied, usable)| Candidate { nominal, varied, usable, steady: steady(usable) }).collect()
 }
 
 fn standing(grade: u8, fitness: f64) -> Option<Standing> {
@@ -136,43 +152,81 @@ fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
     }
 }
 
-/// Usable, and keeps all of its fitness.
-const BEST: u8 = USABLE + DEGREES;
+/// A slow champion that is usable, and no more.
+const SLOW: f64 = 0.1;
 
-/// Who is graded best is champion: so a usable one, and of those the one that keeps more.
+fn slow() -> Option<Standing> {
+    standing(USABLE, SLOW)
+}
+
+/// Who is graded best is champion: so a usable one, and of those the one that is usable in more worlds.
 #[test]
 fn a_usable_finalist_stands_above_a_fitter_one_that_is_not() {
     let court = Court::new(nominal, None);
     let all = candidates(&[(9.0, 9.0, false), (5.0, 5.0, true), (7.0, 7.0, false), (6.0, 6.0, true)]);
-    let (grades, seen) = court.grades(&all, None);
-    assert_eq!(grades, [0, 0, 0, BEST]);
+    let (grades, seen) = court.grades(&all, slow());
+    assert_eq!(grades, [0, 0, 0, HIGHEST]);
     assert_eq!(seen, [9.0, 7.0, 6.0], "the best first, until one is usable");
     let nobody = candidates(&[(9.0, 9.0, false), (7.0, 7.0, false)]);
-    assert_eq!(court.grades(&nobody, None), (vec![0, 0], vec![9.0, 7.0]));
+    assert_eq!(court.grades(&nobody, slow()), (vec![0, 0], vec![9.0, 7.0]));
 }
 
 #[test]
-fn of_usable_finalists_the_one_that_keeps_more_of_its_fitness_stands_above_the_fitter() {
+fn the_first_usable_champion_is_not_tried() {
     let court = Court::new(nominal, None);
-    let all = candidates(&[(9.0, 0.9, true), (5.0, 4.9, true), (7.0, f64::NAN, true), (6.0, 0.6, true)]);
-    assert_eq!(court.grades(&all, None), (vec![0, BEST, 0, 0], vec![5.0]));
-    // Where they keep as much, fitness decides.
-    let alike = candidates(&[(5.0, 5.0, true), (9.0, 8.9, true)]);
-    assert_eq!(court.grades(&alike, None).0, [0, BEST]);
-    // More than all of it cannot be kept, and of nothing, or less, nothing.
-    let grade = |one: (f64, f64, bool)| court.grades(&candidates(&[one]), None).0[0];
-    assert_eq!(grade((2.0, 6.0, true)), BEST);
-    assert!((USABLE..BEST).contains(&grade((2.0, 1.0, true))), "half is less than all");
-    for worthless in [(2.0, -6.0, true), (0.0, 1.0, true), (-2.0, -1.0, true), (2.0, f64::NAN, true)] {
-        assert_eq!(grade(worthless), USABLE, "{worthless:?}");
+    let all = candidates(&[(9.0, 9.0, false), (5.0, 5.0, true)]);
+    for standing in [None, standing(0, 100.0)] {
+        assert_eq!(court.grades(&all, standing), (vec![0, USABLE], vec![9.0, 5.0]));
+        assert!(court.tried().is_empty());
     }
+    assert_eq!(court.grades(&all, slow()).0, [0, HIGHEST]);
+    assert_eq!(court.tried(), [0], "fitter than the champion: of any grade it is better");
+}
+
+#[test]
+fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
+    let court = Court::new(nominal, None);
+    let grade = |steady| {
+        let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
+        court.grades(&[one], slow()).0[0]
+    };
+    let grades: Vec<u8> = (0..=proving::WORLDS).map(grade).collect();
+    assert_eq!(grades, [1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 5, 5]);
+    // Who is less fit than the champion must be steadier, or it is told as no more than usable.
+    court.tried();
+    let against = |champion: u8, steady: usize| {
+        let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
+        (court.grades(&[one], standing(champion, 2.0)).0[0], court.tried())
+    };
+    assert_eq!(against(USABLE, 2), (USABLE, vec![3]));
+    assert_eq!(against(USABLE, 3), (USABLE + 1, vec![3]));
+    assert_eq!(against(USABLE + 2, 9), (USABLE + 3, vec![9]));
+    assert_eq!(against(USABLE + 3, 10), (USABLE, vec![11]));
+    assert_eq!(against(HIGHEST, 12), (0, vec![]), "it could not become champion");
+}
+
+#[test]
+fn who_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usable() {
+    let court = Court::new(nominal, None);
+    let grade = |one: (f64, f64, bool)| court.grades(&candidates(&[one]), slow()).0[0];
+    for whole in [(2.0, 6.0, true), (2.0, 2.0, true), (2.0, 0.5, true)] {
+        assert_eq!(grade(whole), HIGHEST, "{whole:?}");
+    }
+    for little in [(2.0, 0.4, true), (2.0, -6.0, true), (2.0, f64::NAN, true)] {
+        assert_eq!(grade(little), USABLE + 1, "{little:?}");
+    }
+    // Who keeps more comes first, then who is fitter.
+    let all = candidates(&[(9.0, 0.9, true), (5.0, 4.9, true), (7.0, f64::NAN, true), (6.0, 0.6, true)]);
+    assert_eq!(court.grades(&all, slow()), (vec![0, HIGHEST, 0, 0], vec![5.0]));
+    let alike = candidates(&[(5.0, 5.0, true), (9.0, 8.9, true)]);
+    assert_eq!(court.grades(&alike, slow()), (vec![0, HIGHEST], vec![9.0]));
 }
 
 #[test]
 fn who_has_less_than_half_of_the_best_fitness_is_not_credited_for_keeping_it() {
     let court = Court::new(nominal, None);
-    let grades = |slow: f64| court.grades(&candidates(&[(10.0, 0.1, true), (slow, slow, true)]), None).0;
-    assert_eq!((grades(4.9), grades(5.0)), (vec![USABLE, 0], vec![0, BEST]));
+    let grades = |slower: f64| court.grades(&candidates(&[(10.0, 0.1, true), (slower, slower, true)]), slow()).0;
+    assert_eq!((grades(4.9), grades(5.0)), (vec![USABLE + 1, 0], vec![0, HIGHEST]));
 }
 
 #[test]
@@ -180,10 +234,10 @@ fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
     let court = Court::new(nominal, None);
     let safe = [(6.0, 6.0, false), (6.1, 6.1, false), (6.2, 6.2, false), (6.3, 6.3, false), (6.4, 6.4, true)];
     let all = candidates(&[&safe[..], &[(9.0, 0.9, true), (10.0, 1.0, false)]].concat());
-    assert_eq!(court.grades(&all, None), (vec![0, 0, 0, 0, BEST, 0, 0], vec![6.4]));
+    assert_eq!(court.grades(&all, slow()), (vec![0, 0, 0, 0, HIGHEST, 0, 0], vec![6.4]));
     let without = [&all[..4], &all[5..]].concat();
     let seen = vec![6.3, 6.2, 6.1, 6.0, 10.0, 9.0];
-    assert_eq!(court.grades(&without, None), (vec![0, 0, 0, 0, USABLE, 0], seen), "nobody is looked at twice");
+    assert_eq!(court.grades(&without, slow()), (vec![0, 0, 0, 0, USABLE + 1, 0], seen), "nobody is looked at twice");
 }
 
 #[test]
@@ -192,19 +246,19 @@ fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
     let all: Vec<(f64, f64, bool)> = (1..=6).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);
     assert_eq!(court.grades(&all, None), (vec![0; 6], vec![6.0, 5.0, 4.0, 3.0]));
-    assert_eq!(court.grades(&all, standing(BEST, 6.0)), (vec![0; 6], vec![]));
-    assert_eq!(court.grades(&all, standing(BEST, 4.5)), (vec![0; 6], vec![6.0, 5.0]));
-    assert_eq!(court.grades(&all[..3], standing(BEST - 1, 100.0)), (vec![0, BEST, 0], vec![3.0, 2.0]));
+    assert_eq!(court.grades(&all, standing(HIGHEST, 6.0)), (vec![0; 6], vec![]));
+    assert_eq!(court.grades(&all, standing(HIGHEST, 4.5)), (vec![0; 6], vec![6.0, 5.0]));
+    assert_eq!(court.grades(&all[..3], standing(HIGHEST - 1, 100.0)), (vec![0, HIGHEST, 0], vec![3.0, 2.0]));
     let failed = Court::new(failed, None);
     assert_eq!(failed.grades(&all, None), (vec![0; 6], vec![]), "who failed has no gait");
 }
 
 #[test]
-fn without_varied_worlds_nothing_is_kept_and_without_a_judged_movement_nobody_is_graded() {
+fn without_varied_worlds_nobody_is_tried_and_without_a_judged_movement_nobody_is_graded() {
     let all = candidates(&[(1.0, 1.0, true), (3.0, 3.0, true)]);
     let mut court = Court::new(nominal, None);
-    court.jury.proof = None;
-    assert_eq!(court.grades(&all, None), (vec![0, USABLE], vec![3.0]));
+    (court.jury.proof, court.jury.steadiness) = (None, None);
+    assert_eq!(court.grades(&all, slow()), (vec![0, USABLE], vec![3.0]));
     court.jury.usable = None;
-    assert_eq!(court.grades(&all, None), (vec![0, 0], vec![]));
+    assert_eq!(court.grades(&all, slow()), (vec![0, 0], vec![]));
 }

@@ -153,8 +153,13 @@ fn single_settings_come_after_options_and_files_say_all_that_varies() {
     assert_eq!((&file["friction"], &file["mass"], &file["start_pose"]), (&0.45.into(), &0.0.into(), &0.0.into()));
     assert_eq!(variation_of(&["--variation", "light"], Some(r#"{ "variation": { "friction": 0.45 } }"#)), light);
     let strong = variation_of(&["--variation", "strong"], None);
-    for (name, amount) in light.as_object().expect("an object") {
-        assert!(strong[name].as_f64() > amount.as_f64(), "{name}: strong is more than light");
+    // A factor below 1 is the more the further below.
+    let amount = |amount: &Value| match amount.as_array() {
+        Some(factors) => factors[1].as_f64().zip(factors[0].as_f64()).map(|(most, least)| most / least),
+        None => amount.as_f64(),
+    };
+    for (name, light) in light.as_object().expect("an object") {
+        assert!(amount(&strong[name]) > amount(light), "{name}: strong is more than light");
     }
     assert_eq!(variation_of(&[], Some(r#"{ "trials": { "count": 1 } }"#)), light);
 }

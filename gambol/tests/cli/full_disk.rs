@@ -42,7 +42,8 @@ fn a_run_broken_off_by_a_full_disk_resumes_to_the_same_bytes() -> Outcome {
     let blocks = |name: &str| read(&whole.join(name)).len().div_ceil(BLOCK);
     let mut broken_off_at = BTreeSet::new();
     // The configuration fits each time: without it there is no run yet.
-    for limit in [blocks("config.json"), 12, 16, 24, 40, blocks("log.jsonl") - 1, blocks("gallery.jsonl") - 1] {
+    let limits = [blocks("config.json"), 12, 16, 24, 40, blocks("log.jsonl") - 1, blocks("gallery.jsonl") - 1];
+    for limit in BTreeSet::from(limits) {
         let path = folder.path().join(format!("limit-{limit}"));
         let ended = run_limited(&train(&path, 60), limit);
         assert_eq!(ended.code, Some(1), "{limit} blocks: {}", ended.stderr);

@@ -30,6 +30,11 @@ impl Parallel {
         Ok(Self { pool })
     }
 
+    /// Does other work on these threads: what `work` hands to rayon stays on them.
+    pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
+        self.pool.install(work)
+    }
+
     /// The number of threads.
     pub fn threads(&self) -> usize {
         self.pool.current_num_threads()

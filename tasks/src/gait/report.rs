@@ -35,8 +35,8 @@ pub struct GaitReport {
 }
 
 impl GaitReport {
-    /// Measures the snapshots of an episode, one a physics step, the first being the settled start. Ground is flat,
-    /// gravity 9.81 m/s², the motors' work known; for anything else see [`of`](Self::of).
+    /// Measures the snapshots of an episode, one a physics step, the first being the settled start. Ground is flat
+    /// and the motors' work known; for anything else see [`of`](Self::of).
     ///
     /// # Errors
     /// See [`Trajectory::new`].

@@ -5,7 +5,6 @@ use std::{
     f64::consts::{PI, TAU},
 };
 
-const STANDARD_GRAVITY: f64 = 9.81;
 /// Shorter or longer steps, in s, are no simulation of a creature.
 const TIME_STEPS: std::ops::RangeInclusive<f64> = 1e-4..=1.0;
 /// How far a step may be from the mean step, as a share of it: clocks are f32.
@@ -22,7 +21,6 @@ pub struct Trajectory<'a> {
     hinge_angles: Vec<Vec<f64>>,
     work_known: bool,
     flat: bool,
-    gravity: f64,
 }
 
 impl<'a> Trajectory<'a> {
@@ -62,21 +60,13 @@ impl<'a> Trajectory<'a> {
         Self { flat: false, ..self }
     }
 
-    /// The same under another gravity than 9.81 m/s²; values that are no finite number of at least 0 are ignored.
-    #[must_use]
-    pub fn under_gravity(self, gravity: f32) -> Self {
-        let gravity = if gravity.is_finite() && gravity >= 0.0 { f64::from(gravity) } else { self.gravity };
-        Self { gravity, ..self }
-    }
-
     fn checked(body: &'a Body, snapshots: Cow<'a, [Snapshot]>, work_known: bool) -> Result<Self, GaitError> {
         let time_step = check(body, &snapshots)?;
         let mut tilts = unwrapped(snapshots.iter().map(|snapshot| angle_of(snapshot.torso())));
         let start = tilts[0];
         tilts.iter_mut().for_each(|tilt| *tilt -= start);
         let hinge_angles = body.hinges.iter().map(|hinge| angles(hinge, &snapshots)).collect();
-        let (flat, gravity) = (true, STANDARD_GRAVITY);
-        Ok(Self { body, snapshots, time_step, tilts, hinge_angles, work_known, flat, gravity })
+        Ok(Self { body, snapshots, time_step, tilts, hinge_angles, work_known, flat: true })
     }
 
     /// Whose it is.
@@ -152,7 +142,7 @@ impl<'a> Trajectory<'a> {
 
     /// m/s².
     pub(super) fn gravity(&self) -> f64 {
-        self.gravity
+        f64::from(self.body.gravity)
     }
 
     /// Mass of all parts, kg.
@@ -263,6 +253,9 @@ fn check_body(body: &Body) -> Result<(), GaitError> {
     }
     if !positive(body.body_length) || !positive(body.start_height) {
         return wrong("length and start height must be positive");
+    }
+    if !(body.gravity.is_finite() && body.gravity >= 0.0) {
+        return wrong("gravity must be finite and at least 0");
     }
     for part in &body.parts {
         let finite =
