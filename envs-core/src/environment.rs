@@ -78,7 +78,7 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// Builds the creature, and lets it settle for at most [`PhysicsSettings::settle_time`] with its motors holding
     /// still. `input_range`: sensors are scaled to ± this.
     ///
-    /// The creature starts where its file says: its lowest point must be near y = 0 or above, and clear of the boxes
+    /// The creature starts where its file says: its lowest point must be near y = 0 or above, and clear of the shapes
     /// of the ground. Only the former is checked.
     ///
     /// # Errors

@@ -117,7 +117,7 @@ impl Variation {
     }
 
     /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.33 and 1.5 times as long,
-    /// and every actuated joint turned by up to 0.1 rad (6°).
+    /// every actuated joint turned by up to 0.1 rad (6°), and bumps up to 2 cm high.
     pub const fn strong() -> Self {
         Self { friction: 0.5, mass: 0.2, torque: 0.2, time_step: [0.33, 1.5], start_pose: 0.1, bumps: 0.02 }
     }

@@ -29,6 +29,17 @@ fn a_toy_engine_makes_an_environment_that_passes_the_conformance_kit() {
     }
 }
 
+/// The toy engine knows nothing but flat ground, and says so.
+#[test]
+fn bumps_are_on_the_ground_of_every_trial_and_not_on_that_of_the_settings() {
+    let mut bumpy = varied(Variation { bumps: 0.02, ..Variation::default() });
+    assert_eq!(*bumpy.ground(), Ground::flat());
+    for trial in 0..3 {
+        let refusal = bumpy.reset(Seed::of_run(1).trial(trial)).expect_err("must be refused").to_string();
+        assert!(refusal.contains("the ground is not flat"), "{refusal}");
+    }
+}
+
 /// The sensors of a tetrapod: rotation of the torso, then its joint angles, 0 in the start pose of its file.
 #[test]
 fn a_varied_start_pose_turns_each_actuated_joint_by_what_was_drawn() {
@@ -106,6 +117,8 @@ fn a_world_given_whole_is_that_of_every_trial() {
         assert_eq!(fixed.time_step(), trial.time_step);
     }
     assert_eq!(fixed.settings().time_step, trial.time_step);
+    let mass = |environment: &CreatureEnvironment<Puppet>| environment.body().expect("a creature").parts[0].mass;
+    assert_eq!(mass(&fixed), mass(&varied) * conditions.mass, "who judges the energy of a body must know its mass");
     assert!(fixed.variation().is_none());
 }
 

@@ -47,8 +47,8 @@ pub(crate) struct Train {
     /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
-    /// How the world varies in training: none, light or strong (friction, mass, torque, time step and start pose) [default: light,
-    /// none with --preset thesis and stanley-2002]
+    /// How the world varies in training: none, light or strong (friction, mass, torque, time step and start pose,
+    /// strong with bumps too) [default: light, none with --preset thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// A configuration file, whole or in part, laid over the preset
