@@ -11,6 +11,7 @@
 //! | [`setup`] | from a configuration to a task |
 //! | [`search`] | the strategies a configuration can name |
 //! | [`training`] | train, resume |
+//! | [`shaping`] | train in stages, go on from what was learned |
 //! | [`run_folder`] | which file is what |
 //! | [`compare`] | strategies against each other, with paired seeds |
 //! | [`champion`] | the saved champion; verifying it |
@@ -63,6 +64,7 @@ pub mod robust;
 pub mod run_folder;
 pub mod search;
 pub mod setup;
+pub mod shaping;
 pub mod source;
 pub mod suggest;
 pub mod training;

@@ -7,7 +7,7 @@
 //! along the body a limb hangs shifts its thresholds.
 
 use crate::config::{ControllerSettings, LimbPhases};
-use creatures::{Blueprint, Motors, Probe, Senses, Source};
+use creatures::{Blueprint, Motors, Senses, Source};
 use ne_net::{GraphNeuron, GraphShape, Tie, TiedShape, Turn};
 use std::f32::consts::PI;
 
@@ -54,19 +54,28 @@ enum Sight {
 #[derive(Default)]
 struct Genes {
     groups: Vec<usize>,
-    count: usize,
+    names: Vec<String>,
 }
 
 impl Genes {
-    /// So many new genes; the index of the first.
-    fn group(&mut self, size: usize) -> usize {
-        let first = self.count;
-        self.count += size;
+    /// New genes that belong together, with these names; the index of the first.
+    fn group(&mut self, names: impl IntoIterator<Item = String>) -> usize {
+        let first = self.names.len();
+        self.names.extend(names);
+        let size = self.names.len() - first;
         if size > 0 {
             self.groups.push(size);
         }
         first
     }
+}
+
+/// A topology of limbs, and what each of its genes is for.
+pub(crate) struct Limbs {
+    /// The topology.
+    pub(crate) topology: TiedShape,
+    /// The name of each gene: equal names in two topologies mean the same, whatever else is in them.
+    pub(crate) names: Vec<String>,
 }
 
 /// The topology of a controller for this creature: for each limb a copy of one net.
@@ -78,12 +87,13 @@ pub(crate) fn topology(
     motors: &Motors,
     controller: &ControllerSettings,
     phases: LimbPhases,
-) -> TiedShape {
+) -> Limbs {
     let limbs = limbs(blueprint, phases);
     let hidden: usize = controller.hidden.iter().sum();
     let mut genes = Genes::default();
-    let wave = genes.group(1);
-    let offsets = genes.group(limbs.len());
+    let wave = genes.group(["wave".to_owned()]);
+    let name_of = |limb: &Limb| &blueprint.parts()[limb.parts[0]].name;
+    let offsets = genes.group(limbs.iter().map(|limb| format!("clock of {}", name_of(limb))));
     let kinds = limbs.iter().map(|limb| limb.kind).max().map_or(0, |kind| kind + 1);
     let mut neurons = Vec::new();
     let mut weights = Vec::new();
@@ -92,13 +102,24 @@ pub(crate) fn topology(
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
         let joints = copies[0].1.hinges.len();
-        let sights: Vec<Vec<(usize, Sight, usize)>> =
-            copies.iter().map(|(_, limb)| sees(limb, senses.probes())).collect();
+        let sights: Vec<Sights> = copies.iter().map(|(_, limb)| sees(limb, senses)).collect();
         // A copy may lack a sense that another has, but slots are the same in all of them.
-        let slots = sights.iter().flatten().map(|&(_, _, slot)| slot + 1).max().unwrap_or(0);
-        let hidden_genes: Vec<usize> = (0..hidden).map(|_| genes.group(2 + slots)).collect();
-        let output_genes: Vec<usize> = (0..joints).map(|_| genes.group(2 + slots + hidden)).collect();
-        for ((limb_index, limb), sights) in copies.iter().zip(&sights) {
+        let longest = sights.iter().max_by_key(|sights| sights.slots.len());
+        let slots = longest.map_or(&[][..], |sights| &sights.slots);
+        let own = ["threshold", "place"].into_iter().chain(slots.iter().map(String::as_str));
+        let neuron = |target: &str| {
+            let own = own.clone().map(|source| format!("{joints} joints, {target}: {source}"));
+            own.collect::<Vec<_>>()
+        };
+        let hears = |joint: usize| {
+            let heard = (0..hidden).map(move |index| format!("{joints} joints, joint {joint}: hidden {index}"));
+            neuron(&format!("joint {joint}")).into_iter().chain(heard)
+        };
+        let hidden_genes: Vec<usize> =
+            (0..hidden).map(|index| genes.group(neuron(&format!("hidden {index}")))).collect();
+        let output_genes: Vec<usize> = (0..joints).map(|joint| genes.group(hears(joint))).collect();
+        let slots = slots.len();
+        for ((limb_index, limb), Sights { seen: sights, .. }) in copies.iter().zip(&sights) {
             let first_hidden_node = inputs + neurons.len();
             let turn = |gene: usize| Turn {
                 genes: [gene, gene + 1],
@@ -138,42 +159,54 @@ pub(crate) fn topology(
         }
     }
     let net = GraphShape { inputs, recurrent: false, neurons, outputs: output_of };
-    TiedShape { net: net.into(), groups: genes.groups, weights }
+    Limbs { topology: TiedShape { net: net.into(), groups: genes.groups, weights }, names: genes.names }
 }
 
-/// The inputs a limb sees, each with its slot: the same sense has the same slot in every limb of a kind.
-fn sees(limb: &Limb, probes: &[Probe]) -> Vec<(usize, Sight, usize)> {
-    let mut seen = Vec::new();
-    let mut slot = 0;
-    let (mut angles, mut speeds, mut feet) = (None, None, None);
-    for (input, probe) in probes.iter().enumerate() {
-        let mut joint = |hinge: usize, first: &mut Option<usize>| {
-            let first = *first.get_or_insert_with(|| {
-                slot += limb.hinges.len();
-                slot - limb.hinges.len()
-            });
-            limb.hinges.iter().position(|&mine| mine == hinge).map(|index| (Sight::Joint, first + index))
-        };
-        let sight = match probe.source {
-            Source::JointAngle(hinge) => joint(hinge, &mut angles),
-            Source::JointSpeed(hinge) => joint(hinge, &mut speeds),
-            Source::Contact(part) => {
-                let first = *feet.get_or_insert_with(|| {
-                    slot += 1;
-                    slot - 1
-                });
-                limb.parts.contains(&part).then_some((Sight::Foot, first))
-            }
-            Source::ClockSine { .. } => Some((Sight::ClockSine, slot)),
-            Source::ClockCosine { .. } => Some((Sight::ClockCosine, slot)),
-            _ => Some((Sight::Whole, slot)),
-        };
-        if !matches!(probe.source, Source::JointAngle(_) | Source::JointSpeed(_) | Source::Contact(_)) {
-            slot += 1;
-        }
-        seen.extend(sight.map(|(sight, slot)| (input, sight, slot)));
+/// What a limb sees.
+#[derive(Default)]
+struct Sights {
+    /// Inputs, each with its slot: the same sense has the same slot in every limb of a kind.
+    seen: Vec<(usize, Sight, usize)>,
+    /// The name of each slot.
+    slots: Vec<String>,
+}
+
+impl Sights {
+    /// So many new slots; the first of them.
+    fn add<N: IntoIterator<Item = String>>(&mut self, names: N) -> usize {
+        let first = self.slots.len();
+        self.slots.extend(names);
+        first
     }
-    seen
+}
+
+/// What a limb sees of what is sensed.
+fn sees(limb: &Limb, senses: &Senses) -> Sights {
+    let mut sights = Sights::default();
+    let (mut angles, mut speeds, mut feet) = (None, None, None);
+    for (input, (probe, channel)) in senses.probes().iter().zip(senses.channels()).enumerate() {
+        let joints = |what: &str| (0..limb.hinges.len()).map(|joint| format!("{what} of joint {joint}")).collect();
+        let place_of = |hinge: usize| limb.hinges.iter().position(|&mine| mine == hinge);
+        let sight = match probe.source {
+            Source::JointAngle(hinge) => {
+                let first = *angles.get_or_insert_with(|| sights.add::<Vec<_>>(joints("angle")));
+                place_of(hinge).map(|joint| (Sight::Joint, first + joint))
+            }
+            Source::JointSpeed(hinge) => {
+                let first = *speeds.get_or_insert_with(|| sights.add::<Vec<_>>(joints("speed")));
+                place_of(hinge).map(|joint| (Sight::Joint, first + joint))
+            }
+            Source::Contact(part) => {
+                let slot = *feet.get_or_insert_with(|| sights.add(["contact of foot".to_owned()]));
+                limb.parts.contains(&part).then_some((Sight::Foot, slot))
+            }
+            Source::ClockSine { .. } => Some((Sight::ClockSine, sights.add([channel.name.clone()]))),
+            Source::ClockCosine { .. } => Some((Sight::ClockCosine, sights.add([channel.name.clone()]))),
+            _ => Some((Sight::Whole, sights.add([channel.name.clone()]))),
+        };
+        sights.seen.extend(sight.map(|(sight, slot)| (input, sight, slot)));
+    }
+    sights
 }
 
 /// The limbs of a creature: its legs and, each alone, the actuated hinges that are in none; of a legless creature each

@@ -5,7 +5,7 @@ use crate::{
     lines::read_lines,
 };
 use ne_core::{
-    Fitness, GenerationReport,
+    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Decision, Fitness, GenerationReport, Progress,
     archive::{self, ArchiveError, Layout},
 };
 use ne_net::Network;
@@ -27,6 +27,7 @@ use std::{
 /// | `checkpoint` | to resume from |
 /// | `champion.json` | the best so far |
 /// | `report.html` | to look at |
+/// | `stages/` | of a run with stages: the folder of each, in their order; the run itself has no log and no checkpoint |
 /// | `.lock` | empty; locked while a process works in the folder |
 ///
 /// Each line of a `.jsonl` file ends with a field `digest`, over the file up to there.
@@ -92,6 +93,30 @@ pub enum FolderError {
         /// What is wrong.
         message: String,
     },
+}
+
+/// Where a run stands, whichever strategy it has.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct RunStanding {
+    /// What it has used up.
+    pub progress: Progress,
+    /// What the rules of its stage have decided after the last generation.
+    #[serde(default)]
+    pub decision: Decision,
+    /// Its champion.
+    pub champion: Option<ChampionStanding>,
+}
+
+/// Where the champion of a run stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub struct ChampionStanding {
+    /// Its fitness.
+    pub fitness: Fitness,
+    /// Its [grade](ne_core::Judgement::grades).
+    #[serde(default)]
+    pub grade: u8,
+    /// The generation it was found in.
+    pub generation: u64,
 }
 
 /// A line of `gallery.jsonl`.
@@ -245,6 +270,11 @@ impl RunFolder {
         self.path.join("report.html")
     }
 
+    /// Path of the folder that holds those of the stages.
+    pub fn stages(&self) -> PathBuf {
+        self.path.join("stages")
+    }
+
     /// Writes the configuration.
     ///
     /// # Errors
@@ -259,6 +289,14 @@ impl RunFolder {
     /// If it cannot be read, is damaged or of another version.
     pub fn read_config(&self) -> Result<RunConfig, FolderError> {
         Ok(archive::read(&self.config(), CONFIG_FORMAT, CONFIG_VERSION)?)
+    }
+
+    /// Reads where the run stands, from its checkpoint.
+    ///
+    /// # Errors
+    /// If it cannot be read, is damaged or of another version.
+    pub fn read_standing(&self) -> Result<RunStanding, FolderError> {
+        Ok(archive::read(&self.checkpoint(), CHECKPOINT_FORMAT, CHECKPOINT_VERSION)?)
     }
 
     /// Reads the log, of a run under way as well.

@@ -3,10 +3,11 @@
 use crate::config::StrategySettings;
 use ne_core::{Genome, SettingError, Strategy};
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, OpenEs, OpenEsSettings,
+    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Mutation, OpenEs,
+    OpenEsSettings, WeightVector,
 };
-use ne_neat::{Neat, NeatSettings};
-use ne_net::{Network, Topology};
+use ne_neat::{Neat, NeatGenome, NeatSettings};
+use ne_net::{Growth, Network, Topology};
 
 /// A strategy that can be built from the settings in a configuration.
 pub trait Search: Strategy<Genome: Genome<Phenotype: Into<Network>>> {
@@ -21,6 +22,52 @@ pub trait Search: Strategy<Genome: Genome<Phenotype: Into<Network>>> {
 
     /// The settings it was built with.
     fn settings(&self) -> &Self::Settings;
+
+    /// The search that goes on with what this one has learned: with other settings, on another task, with nets that may
+    /// have grown. What they do is the same until evolution changes it.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or something learned has no place in the new nets that cannot be given up.
+    fn grown(self, settings: &Self::Settings, passage: &Passage<'_>) -> Result<Self, SettingError>;
+
+    /// A search that begins at one net, whose weights these are.
+    ///
+    /// # Errors
+    /// If a setting is out of range, the weights are not the topology's, or the strategy cannot begin at a net.
+    fn begin_at(settings: &Self::Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError>;
+
+    /// The net of a genome: the topology and its weights, expressed or as they are searched.
+    fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>);
+}
+
+/// What becomes of the nets of a search that goes on.
+#[derive(Clone, Copy, Debug)]
+pub struct Passage<'a> {
+    /// The new topology; of NEAT only its inputs and outputs count.
+    pub topology: &'a Topology,
+    /// Which of its weights go on from which of the old topology's.
+    pub genes: &'a Growth,
+    /// Which of the new inputs are which of the old.
+    pub inputs: &'a Growth,
+    /// Which of the new outputs are which of the old.
+    pub outputs: &'a Growth,
+}
+
+/// The net of a weight vector.
+fn weights_of(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+    match expressed {
+        true => expressed_net(genome),
+        false => (genome.topology().clone(), genome.weights().to_vec()),
+    }
+}
+
+fn expressed_net<G: Genome<Phenotype: Into<Network>>>(genome: &G) -> (Topology, Vec<f32>) {
+    let network: Network = genome.express().into();
+    (network.topology(), network.weights().to_vec())
+}
+
+fn weights_error(error: impl std::fmt::Display) -> SettingError {
+    SettingError::new("weights", error, "weights of the net")
 }
 
 /// Something to be done with a strategy, whichever it is.
@@ -85,6 +132,19 @@ impl Search for ConventionalNe {
     fn settings(&self) -> &ConventionalNeSettings {
         self.settings()
     }
+
+    fn grown(self, settings: &ConventionalNeSettings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.topology.clone(), passage.genes)
+    }
+
+    fn begin_at(settings: &ConventionalNeSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        let champion = WeightVector::new(topology.clone(), weights.to_vec(), settings.mutation.initial_deviation());
+        Self::build(settings, topology)?.with_start(vec![champion.map_err(weights_error)?])
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
 }
 
 impl Search for Neat {
@@ -96,6 +156,18 @@ impl Search for Neat {
 
     fn settings(&self) -> &NeatSettings {
         self.settings()
+    }
+
+    fn grown(self, settings: &NeatSettings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.inputs, passage.outputs)
+    }
+
+    fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {
+        Err(SettingError::new("strategy", "neat", "one that searches the weights of a given net"))
+    }
+
+    fn net(genome: &NeatGenome, _expressed: bool) -> (Topology, Vec<f32>) {
+        expressed_net(genome)
     }
 }
 
@@ -109,6 +181,18 @@ impl Search for CmaEs {
     fn settings(&self) -> &CmaEsSettings {
         self.settings()
     }
+
+    fn grown(self, settings: &CmaEsSettings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.topology.clone(), passage.genes)
+    }
+
+    fn begin_at(settings: &CmaEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_mean(weights).map_err(weights_error)
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
 }
 
 impl Search for OpenEs {
@@ -121,6 +205,18 @@ impl Search for OpenEs {
     fn settings(&self) -> &OpenEsSettings {
         self.settings()
     }
+
+    fn grown(self, settings: &OpenEsSettings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.topology.clone(), passage.genes)
+    }
+
+    fn begin_at(settings: &OpenEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_centre(weights).map_err(weights_error)
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
 }
 
 impl Search for Cosyne {
@@ -132,5 +228,17 @@ impl Search for Cosyne {
 
     fn settings(&self) -> &CosyneSettings {
         self.settings()
+    }
+
+    fn grown(self, settings: &CosyneSettings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.topology.clone(), passage.genes)
+    }
+
+    fn begin_at(settings: &CosyneSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_start(&[weights.to_vec()])
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
     }
 }

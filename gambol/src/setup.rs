@@ -3,7 +3,8 @@
 use crate::{
     config::{ControllerSettings, EngineChoice, FrozenTopology, RunConfig, StrategySettings},
     gait::Stage,
-    limbs, suggest,
+    limbs::{self, Limbs},
+    shaping, suggest,
 };
 use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
@@ -25,6 +26,8 @@ pub struct Setup {
     pub nominal: Option<Nominal>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,
+    /// What each weight of the topology is for; equal names in two topologies mean the same.
+    pub weight_names: Vec<String>,
     /// The unit of the fitness.
     pub unit: String,
 }
@@ -167,24 +170,27 @@ impl Setup {
         let (episode, task) = parts.build_both(config.engine, catalogue)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
+        let mut weight_names = None;
         let topology = match &config.topology {
             None => match config.controller.limbs {
                 None => shape.into(),
                 Some(phases) => {
                     let environment = episode.environment();
-                    limbs::topology(
+                    let Limbs { topology, names } = limbs::topology(
                         environment.blueprint(),
                         environment.senses(),
                         environment.motors(),
                         &config.controller,
                         phases,
-                    )
-                    .into()
+                    );
+                    weight_names = Some(names);
+                    topology.into()
                 }
             },
             Some(_) if matches!(config.strategy, StrategySettings::Neat(_)) => return Err(SetupError::Evolving),
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
+        let weight_names = weight_names.unwrap_or_else(|| shaping::weight_names(&topology, senses, motors));
         config.strategy.validate(&topology)?;
         check_size(&config.strategy, &topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
@@ -212,7 +218,7 @@ impl Setup {
             Some(steps) => task.shortened(steps),
             None => task,
         };
-        Ok(Self { task, episode, nominal, topology, unit })
+        Ok(Self { task, episode, nominal, topology, weight_names, unit })
     }
 
     /// What each input of the controller is.

@@ -10,8 +10,8 @@ use crate::{
     setup::{Setup, SetupError},
 };
 use ne_core::{
-    Checkpoint, Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
-    StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
+    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Moment, Observer, Parallel, Progress,
+    Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
 use ne_net::Network;
 use std::{path::Path, sync::Arc};
@@ -68,6 +68,15 @@ pub enum TrainError {
         /// What happened.
         source: EvolutionError,
     },
+    /// The configuration is that of a run that went on from another.
+    #[error("the configuration goes on from {from}; say from where it is to go on, with --from {from}")]
+    Origin {
+        /// Where that run went on from.
+        from: String,
+    },
+    /// The configuration has stages.
+    #[error("the configuration has stages; it is trained stage by stage (shaping::train_stages)")]
+    Stages,
     /// The strategy belongs to another program.
     #[error("the strategy \"{strategy}\" is not one of Gambol's; the program that has it trains and resumes it")]
     Foreign {
@@ -106,8 +115,15 @@ impl From<SettingError> for TrainError {
 /// Runs a configuration in a new folder.
 ///
 /// # Errors
-/// If the configuration is not valid, the folder is not empty or cannot be written.
+/// If the configuration is not valid, has stages, or is that of a run that went on from another; if the folder is not
+/// empty or cannot be written.
 pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
+    if !config.stages.is_empty() {
+        return Err(TrainError::Stages);
+    }
+    if let Some(origin) = &config.origin {
+        return Err(TrainError::Origin { from: origin.source.clone() });
+    }
     let setup = Setup::new(config, &options.catalogue)?;
     config.strategy.visit(Train { config, setup, folder, options })
 }
@@ -148,6 +164,22 @@ pub fn train_with<S: Strategy>(
 where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
+    train_leg(strategy, config, setup, folder, config.stop, None, options)
+}
+
+/// As [`train_with`], with the rules of a stage, and limits in place of those in the configuration.
+pub(crate) fn train_leg<S: Strategy>(
+    strategy: S,
+    config: &RunConfig,
+    setup: &Setup,
+    folder: &Path,
+    stop: StopConditions,
+    promotion: Option<Arc<dyn Promotion>>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, TrainError>
+where
+    <S::Genome as Genome>::Phenotype: Into<Network>,
+{
     let evaluator = Arc::new(Parallel::new(options.threads)?);
     let mut config = config.clone();
     if strategy.name() != config.strategy.name() {
@@ -156,7 +188,7 @@ where
     let config = &config;
     let (folder, _lock) = RunFolder::create(folder, config)?;
     let earlier = EarlierLines::check(&folder, config, 0)?;
-    let evolution = Evolution::new(strategy, Seed::of_run(config.seed), config.stop);
+    let evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
     drive(evolution, config, setup, folder, earlier, evaluator, options)
 }
 
@@ -170,7 +202,38 @@ pub fn resume(folder: &Path, stop: Option<StopConditions>, options: TrainOptions
     let folder = RunFolder::open(folder)?;
     let config = folder.read_config()?;
     let strategy = config.strategy.clone();
-    strategy.visit(Resume { folder, config, stop, options })
+    strategy.visit(Resume { folder, config, stop, now: None, promotion: None, options })
+}
+
+/// As [`resume`], with the rules of a stage; `now` are the limits of this process, where they are other than those to be
+/// written down.
+pub(crate) fn resume_leg(
+    folder: &Path,
+    stop: StopConditions,
+    now: StopConditions,
+    promotion: Option<Arc<dyn Promotion>>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, TrainError> {
+    let folder = RunFolder::open(folder)?;
+    let config = folder.read_config()?;
+    let strategy = config.strategy.clone();
+    strategy.visit(Resume { folder, config, stop: Some(stop), now: Some(now), promotion, options })
+}
+
+/// A promotion that several may hold.
+struct Shared(Arc<dyn Promotion>);
+
+impl Promotion for Shared {
+    fn decide(&self, moment: &Moment<'_>) -> Decision {
+        self.0.decide(moment)
+    }
+}
+
+fn with_rules<S: Strategy>(evolution: Evolution<S>, promotion: Option<Arc<dyn Promotion>>) -> Evolution<S> {
+    match promotion {
+        Some(promotion) => evolution.with_promotion(Shared(promotion)),
+        None => evolution,
+    }
 }
 
 /// Goes on with a run of whichever strategy its configuration names.
@@ -178,6 +241,8 @@ struct Resume<'a> {
     folder: RunFolder,
     config: RunConfig,
     stop: Option<StopConditions>,
+    now: Option<StopConditions>,
+    promotion: Option<Arc<dyn Promotion>>,
     options: TrainOptions<'a>,
 }
 
@@ -186,7 +251,8 @@ impl SearchVisitor for Resume<'_> {
 
     fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
         let same = |strategy: &S| strategy.settings() == settings;
-        resume_checked(self.folder, self.config, self.stop, self.options, same)
+        let Self { folder, config, stop, now, promotion, options } = self;
+        resume_checked(folder, config, (stop, now), promotion, options, same)
     }
 
     fn foreign(self, name: &str) -> Self::Output {
@@ -207,13 +273,14 @@ pub fn resume_with<S: Strategy>(
 where
     <S::Genome as Genome>::Phenotype: Into<Network>,
 {
-    resume_checked::<S>(folder, config, stop, options, |_| true)
+    resume_checked::<S>(folder, config, (stop, None), None, options, |_| true)
 }
 
 fn resume_checked<S: Strategy>(
     folder: RunFolder,
     mut config: RunConfig,
-    stop: Option<StopConditions>,
+    (stop, now): (Option<StopConditions>, Option<StopConditions>),
+    promotion: Option<Arc<dyn Promotion>>,
     options: TrainOptions<'_>,
     same_settings: impl FnOnce(&S) -> bool,
 ) -> Result<Outcome, TrainError>
@@ -242,7 +309,8 @@ where
         return Err(foreign("the inputs and outputs of its champion").into());
     }
     let best = checkpoint.champion.as_ref().map(ne_core::Champion::standing);
-    if let Some(reason) = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO) {
+    let is_over = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO);
+    if let Some(reason) = is_over.filter(|_| promotion.is_none()) {
         return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
     }
     let earlier = EarlierLines::check(&folder, &config, checkpoint.progress.generations)?;
@@ -250,7 +318,7 @@ where
     if config.stop != planned {
         folder.write_config(&config)?;
     }
-    let evolution = Evolution::resume(checkpoint, config.stop);
+    let evolution = with_rules(Evolution::resume(checkpoint, now.unwrap_or(config.stop)), promotion);
     drive(evolution, &config, &setup, folder, earlier, evaluator, options)
 }
 

@@ -1,4 +1,4 @@
-use crate::{Champion, Finalist, Progress, Seed, Strategy, archive, archive::ArchiveError};
+use crate::{Champion, Decision, Finalist, Progress, Seed, Strategy, archive, archive::ArchiveError};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -21,6 +21,9 @@ pub struct Checkpoint<S: Strategy> {
     /// Those who wait for the next hearing, if a jury chooses the champion.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub finalists: Vec<Finalist<S::Genome>>,
+    /// What a [`Promotion`](crate::Promotion) has decided after the last generation.
+    #[serde(default, skip_serializing_if = "Decision::is_stay")]
+    pub decision: Decision,
     /// The strategy with all its state.
     pub strategy: S,
 }
@@ -52,6 +55,8 @@ pub(crate) struct CheckpointRef<'a, S: Strategy> {
     pub(crate) champion: Option<&'a Champion<S::Genome>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     pub(crate) finalists: &'a [Finalist<S::Genome>],
+    #[serde(skip_serializing_if = "Decision::is_stay")]
+    pub(crate) decision: Decision,
     pub(crate) strategy: &'a S,
 }
 

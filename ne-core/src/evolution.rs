@@ -1,12 +1,13 @@
 use crate::{
-    Checkpoint, Evaluation, Evaluator, Finalist, Fitness, Generation, GenerationReport, HearingReport, Hearings, Jury,
-    Observer, ObserverError, Quantiles, Seed, Standing, StopConditions, StopReason, StopSignal, Strategy, Task,
+    Checkpoint, Decision, Evaluation, Evaluator, Finalist, Fitness, Generation, GenerationReport, HearingReport,
+    Hearings, Jury, Moment, Observer, ObserverError, Promotion, Quantiles, Seed, Standing, StopConditions, StopReason,
+    StopSignal, Strategy, Task,
     archive::ArchiveError,
     checkpoint,
     jury::{Court, ranking},
 };
 use serde::{Deserialize, Serialize};
-use std::{path::Path, time::Instant};
+use std::{fmt, path::Path, time::Instant};
 
 /// The loop: asks the strategy, has its genomes evaluated, tells it the results, keeps the best, until it is time to
 /// stop.
@@ -23,6 +24,17 @@ pub struct Evolution<S: Strategy> {
     champion: Option<Champion<S::Genome>>,
     finalists: Vec<Finalist<S::Genome>>,
     court: Option<Court<S::Genome>>,
+    promotion: Option<Rules>,
+    decision: Decision,
+}
+
+/// A promotion that can be shown.
+struct Rules(Box<dyn Promotion>);
+
+impl fmt::Debug for Rules {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Promotion")
+    }
 }
 
 /// What a run has used up.
@@ -105,14 +117,16 @@ pub enum EvolutionError {
 impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {
-        let (signal, progress) = (StopSignal::default(), Progress::default());
-        Self { strategy, seed, stop, signal, progress, champion: None, finalists: Vec::new(), court: None }
+        let (progress, finalists, decision) = (Progress::default(), Vec::new(), Decision::Stay);
+        Self::resume(Checkpoint { seed, progress, champion: None, finalists, decision, strategy }, stop)
     }
 
-    /// Goes on where a checkpoint was written. A run with a jury needs it [again](Self::with_jury).
+    /// Goes on where a checkpoint was written. A run with a jury needs it [again](Self::with_jury), and so does one with a
+    /// [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
-        let Checkpoint { seed, progress, champion, finalists, strategy } = checkpoint;
-        Self { strategy, seed, stop, signal: StopSignal::default(), progress, champion, finalists, court: None }
+        let Checkpoint { seed, progress, champion, finalists, decision, strategy } = checkpoint;
+        let (signal, court, promotion) = (StopSignal::default(), None, None);
+        Self { strategy, seed, stop, signal, progress, champion, finalists, court, promotion, decision }
     }
 
     /// Lets a jury choose the champion. The best of each generation becomes a finalist; at every hearing
@@ -121,6 +135,12 @@ impl<S: Strategy> Evolution<S> {
     #[must_use]
     pub fn with_jury(self, hearings: Hearings, jury: impl Jury<S::Genome> + 'static) -> Self {
         Self { court: Some(Court { hearings, jury: Box::new(jury) }), ..self }
+    }
+
+    /// Asks a promotion after every generation; with its decision the run ends.
+    #[must_use]
+    pub fn with_promotion(self, promotion: impl Promotion + 'static) -> Self {
+        Self { promotion: Some(Rules(Box::new(promotion))), ..self }
     }
 
     /// Uses this switch to end the run early.
@@ -142,6 +162,11 @@ impl<S: Strategy> Evolution<S> {
     ) -> Result<StopReason, EvolutionError> {
         let start = Instant::now();
         loop {
+            match self.decision {
+                Decision::Stay => {}
+                Decision::Promote => return Ok(StopReason::Promoted),
+                Decision::Demote => return Ok(StopReason::Demoted),
+            }
             let best = self.champion.as_ref().map(Champion::standing);
             if let Some(reason) = self.stop.reached(&self.progress, best, start.elapsed()) {
                 return Ok(reason);
@@ -199,6 +224,11 @@ impl<S: Strategy> Evolution<S> {
             species: self.strategy.species(),
             hearing,
         };
+        if let Some(Rules(promotion)) = &self.promotion {
+            let champion = self.champion.as_ref().map(Champion::standing);
+            let moment = Moment { report: &report, evaluations: &evaluations, champion, progress: self.progress };
+            self.decision = promotion.decide(&moment);
+        }
         tracing::debug!(generation, best = ?report.best_so_far, failures = report.failures, "generation done");
         let event = Generation {
             report: &report,
@@ -210,6 +240,7 @@ impl<S: Strategy> Evolution<S> {
             strategy: &self.strategy,
             progress: self.progress,
             seed: self.seed,
+            decision: self.decision,
             stop: &self.stop,
         };
         for observer in observers {
@@ -273,6 +304,11 @@ impl<S: Strategy> Evolution<S> {
         &self.finalists
     }
 
+    /// What the promotion said after the last generation.
+    pub fn decision(&self) -> Decision {
+        self.decision
+    }
+
     /// What has been used up.
     pub fn progress(&self) -> Progress {
         self.progress
@@ -293,9 +329,10 @@ impl<S: Strategy> Evolution<S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
-        let (seed, progress, strategy) = (self.seed, self.progress, &self.strategy);
+        let (seed, progress, decision, strategy) = (self.seed, self.progress, self.decision, &self.strategy);
         let (champion, finalists) = (self.champion.as_ref(), self.finalists.as_slice());
-        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, finalists, strategy })
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, finalists, decision, strategy };
+        checkpoint::write_parts(path, &parts)
     }
 }
 
@@ -305,8 +342,9 @@ impl<S: Strategy> Generation<'_, S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
-        let Self { seed, progress, champion, finalists, strategy, .. } = *self;
-        checkpoint::write_parts(path, &checkpoint::CheckpointRef { seed, progress, champion, finalists, strategy })
+        let Self { seed, progress, champion, finalists, decision, strategy, .. } = *self;
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, finalists, decision, strategy };
+        checkpoint::write_parts(path, &parts)
     }
 }
 

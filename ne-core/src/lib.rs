@@ -112,6 +112,8 @@ mod jury;
 #[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
+mod promotion;
+#[cfg(feature = "evolution")]
 mod statistics;
 #[cfg(feature = "evolution")]
 mod stop;
@@ -140,6 +142,8 @@ pub use evolution::{Champion, Evolution, EvolutionError, Progress};
 pub use jury::{Finalist, HearingReport, Hearings, Judgement, Jury, Standing};
 #[cfg(feature = "evolution")]
 pub use observer::{Generation, Observer, ObserverError};
+#[cfg(feature = "evolution")]
+pub use promotion::{Decision, Moment, PopulationShare, Promotion, Reached, Rule};
 #[cfg(feature = "evolution")]
 pub use statistics::{GenerationReport, Quantiles};
 #[cfg(feature = "evolution")]

@@ -1,4 +1,4 @@
-use crate::{Champion, Evaluation, Finalist, GenerationReport, Progress, Seed, StopConditions, Strategy};
+use crate::{Champion, Decision, Evaluation, Finalist, GenerationReport, Progress, Seed, StopConditions, Strategy};
 
 /// What an observer reports when it cannot do its work (a disk is full): the run ends with this error, nothing lost.
 pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
@@ -36,6 +36,8 @@ pub struct Generation<'a, S: Strategy> {
     pub progress: Progress,
     /// The run's seed.
     pub seed: Seed,
+    /// What a [`Promotion`](crate::Promotion) says; without one always to stay.
+    pub decision: Decision,
     /// When the run will end.
     pub stop: &'a StopConditions,
 }

@@ -54,6 +54,10 @@ pub enum StopReason {
     Stagnation,
     /// Somebody asked it to stop (Ctrl-C).
     Interrupted,
+    /// A [`Promotion`](crate::Promotion) promoted the population.
+    Promoted,
+    /// A [`Promotion`](crate::Promotion) demoted the population.
+    Demoted,
 }
 
 impl fmt::Display for StopReason {
@@ -67,6 +71,8 @@ impl fmt::Display for StopReason {
             Self::Grade => "the champion has the grade asked for",
             Self::Stagnation => "there was no progress any more",
             Self::Interrupted => "it was interrupted",
+            Self::Promoted => "the stage was passed",
+            Self::Demoted => "the population was sent back to the stage before",
         })
     }
 }

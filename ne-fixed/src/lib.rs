@@ -59,6 +59,7 @@ mod cosyne;
 mod crossover;
 mod diversity;
 mod genome;
+mod growing;
 mod initialization;
 mod mutation;
 mod normal;

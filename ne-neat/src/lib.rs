@@ -54,6 +54,7 @@ mod compatibility;
 mod crossover;
 mod dot;
 mod genome;
+mod growing;
 mod innovation;
 mod mutation;
 mod neat;

@@ -40,6 +40,8 @@ pub struct Neat {
     pub(crate) settings: NeatSettings,
     pub(crate) layout: Layout,
     pub(crate) innovations: Innovations,
+    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    pub(crate) start: Vec<NeatGenome>,
     /// The generation last told, with its scores: the parents of the next. Empty before the first.
     pub(crate) parents: Vec<NeatGenome>,
     pub(crate) scores: Vec<Option<Fitness>>,
@@ -70,6 +72,7 @@ impl Neat {
             threshold: settings.speciation.threshold,
             settings,
             layout,
+            start: Vec::new(),
             parents: Vec::new(),
             scores: Vec::new(),
             species: Vec::new(),
@@ -96,6 +99,31 @@ impl Neat {
         let NeatSettings { new_weights, output_activation, ref hidden_activations, .. } = self.settings;
         let activations = (output_activation, &hidden_activations[..]);
         self.settings.start.draw(individual, new_weights, activations, &mut seed.stream(FIRST_GENERATION));
+    }
+
+    /// Writes a first generation that is not drawn: those there are, and copies of them that mutate.
+    fn fill(&self, population: &mut [NeatGenome], seed: Seed) -> Vec<Proposal> {
+        let NeatSettings { mutation, new_weights, hidden_activations, .. } = &self.settings;
+        let mut proposals = Vec::with_capacity(population.len());
+        for (index, individual) in population.iter_mut().enumerate() {
+            individual.copy_from(&self.start[index % self.start.len()]);
+            proposals.push(match index < self.start.len() {
+                true => Proposal::default(),
+                false => {
+                    let mut stream = seed.individual(index as u64).stream(REPRODUCTION);
+                    mutation.mutate(individual, *new_weights, hidden_activations, &mut stream)
+                }
+            });
+        }
+        proposals
+    }
+
+    /// Gives numbers to what the individuals propose.
+    fn number(&mut self, population: &mut [NeatGenome], proposals: Vec<Proposal>) {
+        self.innovations.begin_generation();
+        for (individual, proposal) in population.iter_mut().zip(proposals) {
+            apply(proposal, individual, &mut self.innovations);
+        }
     }
 
     /// Writes the next generation, without the numbers of new structure; returns what each individual proposes.
@@ -157,16 +185,16 @@ impl Strategy for Neat {
     fn ask(&mut self, seed: Seed) -> &[NeatGenome] {
         let mut population = std::mem::take(&mut self.population);
         population.resize_with(self.settings.population, || NeatGenome::blank(self.layout));
-        if self.parents.is_empty() {
+        if self.parents.is_empty() && !self.start.is_empty() {
+            let proposals = self.fill(&mut population, seed);
+            self.number(&mut population, proposals);
+        } else if self.parents.is_empty() {
             for (individual, index) in population.iter_mut().zip(0..) {
                 self.draw(individual, seed.individual(index));
             }
         } else {
             let proposals = self.breed(&mut population, seed);
-            self.innovations.begin_generation();
-            for (individual, proposal) in population.iter_mut().zip(proposals) {
-                apply(proposal, individual, &mut self.innovations);
-            }
+            self.number(&mut population, proposals);
         }
         self.population = population;
         self.asked = true;
@@ -180,6 +208,7 @@ impl Strategy for Neat {
         assign(&mut self.species, &mut self.next_species, &self.parents, &self.population, distance, &mut stream);
         self.adjust_threshold();
         std::mem::swap(&mut self.parents, &mut self.population);
+        self.start.clear();
         self.asked = false;
         self.scores.clear();
         self.scores.extend(evaluations.iter().map(Evaluation::fitness));

@@ -104,6 +104,9 @@ pub(crate) struct State {
     stagnation: u64,
     /// Those of the generation last told, in order of their numbers.
     species: Vec<SavedSpecies>,
+    /// Who is in the first generation, if it is not drawn; empty after it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    start: Vec<Genes>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
     /// The generation asked and not told yet; empty between generations.
@@ -161,6 +164,7 @@ impl From<Neat> for State {
             stagnation: neat.stagnation,
             species: neat.species.iter().map(saved).collect(),
             parents: neat.parents.iter().zip(&neat.scores).zip(&species_of).map(parent).collect(),
+            start: neat.start.iter().map(Genes::from).collect(),
             asked: asked.iter().map(Genes::from).collect(),
             innovations: neat.innovations,
             settings: neat.settings,
@@ -182,8 +186,11 @@ impl TryFrom<State> for Neat {
         neat.next_species = state.next_species;
         neat.species = species(state.species, &state.parents, &neat)?;
         let parents = state.parents.into_iter().map(|parent| parent.genes).collect();
-        neat.parents = generation("parents", parents, &neat)?;
-        neat.population = generation("asked", state.asked, &neat)?;
+        let size = neat.settings.population;
+        let begins = state.start.len();
+        neat.start = generation("start", state.start, begins, &neat)?;
+        neat.parents = generation("parents", parents, size, &neat)?;
+        neat.population = generation("asked", state.asked, size, &neat)?;
         neat.asked = !neat.population.is_empty();
         check_ends(&neat)?;
         (neat.best, neat.stagnation) = (state.best, state.stagnation);
@@ -223,8 +230,7 @@ fn species(saved: Vec<SavedSpecies>, parents: &[Parent], neat: &Neat) -> Result<
 }
 
 /// A generation, or an empty one.
-fn generation(field: &str, genes: Vec<Genes>, neat: &Neat) -> Result<Vec<NeatGenome>, StateError> {
-    let expected = neat.settings.population;
+fn generation(field: &str, genes: Vec<Genes>, expected: usize, neat: &Neat) -> Result<Vec<NeatGenome>, StateError> {
     if !genes.is_empty() && genes.len() != expected {
         return Err(StateError::Count { field: field.into(), expected, found: genes.len() });
     }
@@ -247,7 +253,7 @@ fn generation(field: &str, genes: Vec<Genes>, neat: &Neat) -> Result<Vec<NeatGen
 /// Genes of one number must be the same connection, or crossover could make genomes that are none.
 fn check_ends(neat: &Neat) -> Result<(), StateError> {
     let mut ends = BTreeMap::new();
-    for (field, generation) in [("parents", &neat.parents), ("asked", &neat.population)] {
+    for (field, generation) in [("start", &neat.start), ("parents", &neat.parents), ("asked", &neat.population)] {
         for (index, genome) in generation.iter().enumerate() {
             for &ConnectionGene { innovation, from, to, .. } in genome.connections() {
                 let (other_from, other_to) = *ends.entry(innovation).or_insert((from, to));

@@ -49,6 +49,7 @@
 mod activation;
 mod dense;
 mod graph;
+mod growth;
 mod mathematics;
 mod network;
 mod tied;
@@ -57,6 +58,7 @@ mod topology;
 pub use activation::Activation;
 pub use dense::{DenseNet, DenseNetError, DenseShape};
 pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
+pub use growth::Growth;
 pub use network::Network;
 pub use tied::{GenesError, Tie, TiedShape, Turn};
 pub use topology::{NetworkError, Topology};

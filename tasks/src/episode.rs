@@ -75,6 +75,11 @@ impl<E: Environment> Episode<E> {
         &self.environment
     }
 
+    /// The movement every trial begins with.
+    pub fn movement(&self) -> &dyn Movement {
+        &*self.movement
+    }
+
     /// The longest an episode lasts, in steps.
     pub fn steps(&self) -> u32 {
         self.steps

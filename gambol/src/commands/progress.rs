@@ -1,6 +1,11 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
-use gambol::{champion::Champion, config::RunConfig, training::Outcome};
+use gambol::{
+    champion::Champion,
+    config::RunConfig,
+    shaping::{Origin, PlannedStage},
+    training::Outcome,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use ne_core::{GenerationReport, StopReason};
 use serde_json::json;
@@ -58,6 +63,20 @@ impl Show {
             last_line: None,
             limit,
             varied: !config.variation.is_none(),
+        }
+    }
+
+    /// A stage begins, or is taken up again: of a run of `stages`, if they are listed.
+    pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
+        (self.start, self.first, self.last_line) = (Instant::now(), None, None);
+        self.varied = !planned.config.variation.is_none();
+        let (number, name) = (planned.stage + 1, &planned.name);
+        let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
+        match &self.manner {
+            Manner::Quiet => {}
+            Manner::Json => print_json(&json!({ "stage": { "number": number, "name": name } })),
+            Manner::Bar(bar) => bar.println(format!("stage {number} of {stages}, {name}{origin}")),
+            Manner::Lines => eprintln!("stage {number} of {stages}, {name}{origin}"),
         }
     }
 

@@ -3,7 +3,7 @@ use super::{
     train::{Limits, Manner, carry_out},
 };
 use clap::Args;
-use gambol::{run_folder::RunFolder, training};
+use gambol::{run_folder::RunFolder, shaping, training};
 use std::path::PathBuf;
 use tasks::MovementCatalogue;
 
@@ -27,8 +27,12 @@ impl Resume {
     pub(crate) fn run(self) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
         config.stop = self.limits.beyond(config.stop);
-        carry_out(&self.manner, &config, MovementCatalogue::default(), |options| {
-            training::resume(&self.folder, Some(config.stop), options)
+        let stop = Some(config.stop);
+        carry_out(&self.manner, &config, MovementCatalogue::default(), |options, journey| {
+            match config.stages.is_empty() {
+                true => Ok(training::resume(&self.folder, stop, options)?),
+                false => Ok(shaping::resume_stages(&self.folder, stop, journey, options)?),
+            }
         })
     }
 }

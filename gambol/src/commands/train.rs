@@ -4,10 +4,13 @@ use gambol::{
     Setup,
     config::{Request, RunConfig},
     report,
+    shaping::{self, Carried, Journey},
+    suggest,
     training::{self, TrainOptions},
 };
 use ne_core::{StopConditions, StopReason, StopSignal};
 use std::{
+    cell::RefCell,
     path::{Path, PathBuf},
     process::ExitCode,
     time::Instant,
@@ -28,6 +31,8 @@ Examples:
   gambol train apod running --set strategy.cma-es.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
   gambol train --config runs/leap/config.json --out runs/leap-again
+  gambol train --config shaping/run-then-gaps-then-thrift.json
+  gambol train tetrapod-2 jumping --from runs/tetrapod-2-running
 
 A run ends at the first limit it meets; without any, after 300 generations. Ctrl-C finishes the generation and saves.")]
 pub(crate) struct Train {
@@ -44,6 +49,16 @@ pub(crate) struct Train {
     /// Keep the topology of this champion's net (one that NEAT has found, say) and search its weights anew
     #[arg(long, value_name = "CHAMPION")]
     topology_from: Option<PathBuf>,
+    /// Go on from what this run has learned (its population), or from this champion (its net): with another movement, other
+    /// senses, another body
+    #[arg(long, value_name = "RUN|CHAMPION", conflicts_with = "topology_from")]
+    from: Option<PathBuf>,
+    /// What to take along from there: population, champion or topology [default: as much as can be]
+    #[arg(long, value_name = "WHAT", requires = "from")]
+    carry: Option<String>,
+    /// Let inputs, outputs and weights go that the new controller does not have
+    #[arg(long, requires = "from")]
+    forget: bool,
     /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
@@ -190,11 +205,30 @@ impl Train {
             config.strategy.set_population(population);
         }
         config.stop = self.limits.over(config.stop);
+        let carried = self.carried()?;
+        let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
+        if let Some(source) = &self.from {
+            config.origin = None;
+            return carry_out(&self.manner, &config, catalogue, |options, _| {
+                Ok(shaping::train_from(&config, source, carried, self.forget, &folder, options)?)
+            });
+        }
         if let Err(error) = Setup::new(&config, &catalogue) {
             return Err(located(&error.to_string(), request, &catalogue).into());
         }
-        let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
-        carry_out(&self.manner, &config, catalogue, |options| training::train(&config, &folder, options))
+        carry_out(&self.manner, &config, catalogue, |options, journey| match config.stages.is_empty() {
+            true => Ok(training::train(&config, &folder, options)?),
+            false => Ok(shaping::train_stages(&config, &folder, journey, options)?),
+        })
+    }
+
+    /// What was asked to be carried.
+    fn carried(&self) -> Result<Option<Carried>, String> {
+        let Some(name) = &self.carry else { return Ok(None) };
+        let all = [Carried::Population, Carried::Champion, Carried::Topology];
+        let names = all.map(|carried| carried.to_string());
+        let found = all.into_iter().find(|carried| carried.to_string() == *name);
+        found.map(Some).ok_or_else(|| suggest::unknown("thing to carry", name, &names.each_ref().map(String::as_str)))
     }
 }
 
@@ -222,19 +256,22 @@ pub(super) fn carry_out(
     manner: &Manner,
     config: &RunConfig,
     catalogue: MovementCatalogue,
-    start: impl FnOnce(TrainOptions<'_>) -> Result<training::Outcome, training::TrainError>,
+    start: impl FnOnce(TrainOptions<'_>, Journey<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
 ) -> Outcome {
     let signal = StopSignal::default();
     super::stop_on_interrupt(&signal)?;
     let unit = catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
-    let mut show = Show::new(manner.quiet, manner.json, config, &unit);
+    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &unit));
     let began = Instant::now();
-    let ended = start(TrainOptions {
+    let options = TrainOptions {
         threads: manner.threads,
         catalogue: catalogue.clone(),
         signal,
-        on_generation: &mut |generation| show.generation(generation),
-    });
+        on_generation: &mut |generation| show.borrow_mut().generation(generation),
+    };
+    let stages = config.stages.len();
+    let ended = start(options, Journey { on_leg: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) });
+    let show = show.into_inner();
     show.end();
     let outcome = ended?;
     let seconds = began.elapsed().as_secs_f64();

@@ -13,6 +13,7 @@ pub use presets::{PRESETS, Preset, VARIATIONS, preset, variation};
 pub use request::{Request, RequestError};
 pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
 
+use crate::shaping::{Origin, StageSettings};
 use creatures::{Actuation, Creature, Sensor};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{Hearings, SettingError, StopConditions};
@@ -61,6 +62,12 @@ pub struct RunConfig {
     pub physics: PhysicsSettings,
     /// What is written down, and how often.
     pub record: RecordSettings,
+    /// The stages of shaping, in order; none: the run has one task.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<StageSettings>,
+    /// Where the run goes on from, for the record; it is filled in, not chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub origin: Option<Origin>,
     /// What the controller senses; `null`: what the creature's file asks for.
     pub sensors: Option<Vec<Sensor>>,
     /// The body.

@@ -101,6 +101,8 @@ impl Preset {
                 populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],
                 finalists: super::default_finalists(),
             },
+            stages: Vec::new(),
+            origin: None,
             sensors: None,
             creature,
         };

@@ -43,7 +43,7 @@ impl Made {
         let motors = Motors::new(blueprint);
         let config = preset("default").expect("there").config(blueprint.creature().clone(), "running");
         let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
-        let shape = topology(blueprint, &senses, &motors, &controller, phases);
+        let shape = topology(blueprint, &senses, &motors, &controller, phases).topology;
         Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape }
     }
 

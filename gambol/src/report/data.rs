@@ -4,6 +4,7 @@ use super::{
     gait::GaitData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
     network::NetworkData,
+    stages::StageData,
 };
 use crate::{
     champion::Champion,
@@ -21,6 +22,9 @@ pub(super) struct Report {
     pub(super) creature: Creature,
     pub(super) movement: MovementData,
     pub(super) summary: Option<Summary>,
+    /// The way through the stages, of a run that has some.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) stages: Vec<StageData>,
     pub(super) history: Vec<HistoryPoint>,
     pub(super) species: Vec<SpeciesHistory>,
     pub(super) statistics: Vec<StatisticHistory>,

@@ -35,6 +35,13 @@ pub(super) fn points(log: &[GenerationReport], champion: Option<Fitness>) -> Vec
     points
 }
 
+impl HistoryPoint {
+    /// The same row, so many generations later.
+    pub(super) fn after(self, generations: u64) -> Self {
+        Self { generation: self.generation + generations, ..self }
+    }
+}
+
 impl From<&GenerationReport> for HistoryPoint {
     fn from(report: &GenerationReport) -> Self {
         let fitness = report.fitness;

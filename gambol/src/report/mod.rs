@@ -8,6 +8,7 @@ mod network;
 mod page;
 mod parting;
 mod replays;
+mod stages;
 
 use crate::{
     champion::Champion,
@@ -57,6 +58,20 @@ pub fn write_report(
     ended: Option<StopReason>,
 ) -> Result<(), ReportError> {
     let config = folder.read_config()?;
+    let report = match config.stages.is_empty() {
+        true => compose(folder, catalogue, ended)?,
+        false => stages::compose(folder, &config, catalogue, ended)?,
+    };
+    write_page(&folder.report(), &report)
+}
+
+/// The report of a run with one task.
+fn compose(
+    folder: &RunFolder,
+    catalogue: &MovementCatalogue,
+    ended: Option<StopReason>,
+) -> Result<Report, ReportError> {
+    let config = folder.read_config()?;
     let (log, gallery) = (folder.read_log()?, folder.read_gallery()?);
     let champion = match folder.champion().is_file() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
@@ -79,7 +94,7 @@ pub fn write_report(
         _ => last.and_then(|last| last.best_so_far),
     };
     let champion_data = champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?;
-    let report = Report {
+    Ok(Report {
         title: format!("{} · {} · Gambol", config.creature.name, config.movement.name),
         creature: config.creature.clone(),
         movement,
@@ -94,6 +109,7 @@ pub fn write_report(
             stopped_because: ended.map(|reason| reason.to_string()),
             body_lengths_per_second: champion_data.as_ref().and_then(|champion| champion.body_lengths_per_second),
         }),
+        stages: Vec::new(),
         history: history::points(&log, fitness),
         species: history::species(&log),
         statistics: history::statistics(&log),
@@ -105,8 +121,7 @@ pub fn write_report(
         config: serde_json::to_value(&config).unwrap_or_default(),
         commands: commands(folder),
         versions: data::versions(),
-    };
-    write_page(&folder.report(), &report)
+    })
 }
 
 /// Makes a page that replays a champion, and nothing else.
@@ -120,6 +135,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         creature: champion.creature.clone(),
         movement: movement_data(catalogue, &champion.movement.name, &unit),
         summary: None,
+        stages: Vec::new(),
         history: Vec::new(),
         species: Vec::new(),
         statistics: Vec::new(),
@@ -169,6 +185,12 @@ fn champion_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<C
     let recording = play(&episode, champion.network.clone(), champion.seed, episode.steps());
     let body_length = episode.environment().blueprint().body_length();
     Ok(ChampionData::new(champion, &recording, body_length))
+}
+
+/// The champion's first seconds, small.
+fn champion_film(champion: &Champion, catalogue: &MovementCatalogue) -> Result<data::Replay, ReportError> {
+    let episode = champion.episode(catalogue)?;
+    Ok(replays::film(&episode, champion.network.clone(), champion.seed))
 }
 
 fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {

@@ -17,6 +17,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("assets/network_layout.js"),
     include_str!("assets/network.js"),
     include_str!("assets/gait.js"),
+    include_str!("assets/stages.js"),
     include_str!("assets/page.js"),
 ];
 

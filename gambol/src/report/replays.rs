@@ -26,6 +26,20 @@ pub(super) fn play(episode: &Episode<RapierEnvironment>, mut network: Network, s
     recording
 }
 
+/// The first seconds of a controller's first trial, small.
+pub(super) fn film(episode: &Episode<RapierEnvironment>, network: Network, seed: Seed) -> Replay {
+    let (steps, stride) = pace(episode);
+    let recording = play(episode, network, seed, steps);
+    Replay::new(&recording.snapshots, episode.environment().settings().time_step, stride)
+}
+
+/// The steps of a small replay, and how many of them make a frame.
+fn pace(episode: &Episode<RapierEnvironment>) -> (u32, usize) {
+    let time_step = episode.environment().settings().time_step;
+    let steps = episode.steps().min((STILL_SECONDS / time_step) as u32);
+    (steps, ((1.0 / STILL_RATE / time_step).round() as usize).max(1))
+}
+
 /// Makes the small replays of a run.
 pub(super) struct Stills<'a> {
     setup: &'a Setup,
@@ -37,9 +51,7 @@ pub(super) struct Stills<'a> {
 
 impl<'a> Stills<'a> {
     pub(super) fn new(setup: &'a Setup, seed: u64) -> Self {
-        let time_step = setup.episode.environment().settings().time_step;
-        let steps = setup.episode.steps().min((STILL_SECONDS / time_step) as u32);
-        let stride = ((1.0 / STILL_RATE / time_step).round() as usize).max(1);
+        let (steps, stride) = pace(&setup.episode);
         Self { setup, seed: Seed::of_run(seed), steps, stride }
     }
 

@@ -1,4 +1,5 @@
 use super::triangle::Triangle;
+use ne_net::Growth;
 use serde::{Deserialize, Serialize};
 
 /// Which covariance matrices [`CmaEs`](crate::CmaEs) adapts.
@@ -50,6 +51,26 @@ impl Covariance {
         let mut covariance = Self::Full { factor: matrix.clone(), matrix };
         covariance.factorize();
         covariance
+    }
+
+    /// The covariance of the weights of a grown net; new ones have this variance and vary with no other. Into a separable
+    /// one go the variances alone.
+    pub(super) fn grown(&self, growth: &Growth, model: CovarianceModel, variance: f64) -> Self {
+        match (model, self) {
+            (CovarianceModel::Separable, _) => Self::Separable { variances: growth.carry(&self.variances(), variance) },
+            (CovarianceModel::Full, Self::Separable { variances }) => {
+                Self::full(Triangle::of(growth.weight_count(), &growth.carry(variances, variance), |_, _| 0.0))
+            }
+            (CovarianceModel::Full, Self::Full { matrix, .. }) => {
+                let origins = growth.origins();
+                let element = |row: usize, column: usize| match (origins[row], origins[column]) {
+                    (Some(row), Some(column)) => matrix.element(row, column),
+                    _ => 0.0,
+                };
+                let diagonal = growth.carry(&self.variances(), variance);
+                Self::full(Triangle::of(growth.weight_count(), &diagonal, element))
+            }
+        }
     }
 
     fn factorize(&mut self) {

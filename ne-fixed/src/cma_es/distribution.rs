@@ -1,4 +1,5 @@
-use super::{covariance::Covariance, parameters::Parameters};
+use super::{covariance::Covariance, covariance::CovarianceModel, parameters::Parameters};
+use ne_net::Growth;
 
 /// The normal distribution N(m, σ²C) that individuals are drawn from, and the paths it has taken.
 ///
@@ -24,6 +25,19 @@ impl Distribution {
     pub(super) fn new(mean: Vec<f64>, step_size: f64, covariance: Covariance) -> Self {
         let path = vec![0.0; mean.len()];
         Self { step_size, covariance, step_size_path: path.clone(), covariance_path: path, updates: 0, mean }
+    }
+
+    /// The distribution over the weights of a grown net; new ones have a mean of 0 and this deviation.
+    pub(super) fn grown(&self, growth: &Growth, model: CovarianceModel, deviation: f64) -> Self {
+        let relative = deviation / self.step_size;
+        Self {
+            mean: growth.carry(&self.mean, 0.0),
+            step_size: self.step_size,
+            covariance: self.covariance.grown(growth, model, relative * relative),
+            step_size_path: growth.carry(&self.step_size_path, 0.0),
+            covariance_path: growth.carry(&self.covariance_path, 0.0),
+            updates: self.updates,
+        }
     }
 
     /// Each z, drawn from N(0, I), becomes x = m + σy with y ~ N(0, C). Equations 38 to 40.

@@ -2,9 +2,9 @@ use super::{
     CmaEsSettings, CovarianceModel, Restart, covariance::Covariance, distribution::Distribution, history::History,
     parameters::Parameters, restart::Restarts, state::State,
 };
-use crate::{WeightVector, normal::Normal, ranking::best_first};
+use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
 use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{NetworkError, Topology};
+use ne_net::{Growth, NetworkError, Topology};
 use serde::{Deserialize, Serialize};
 
 const MEAN: Purpose = Purpose::new("cma-es mean");
@@ -57,6 +57,10 @@ pub struct CmaEs {
     pub(super) asked: bool,
 }
 
+/// A search that goes on elsewhere begins with a greatest deviation of at least this share of the first step size: what
+/// has settled on one task must be able to leave for the other.
+const REVIVED: f64 = 0.3;
+
 /// The search diverges when a deviation has grown by this much.
 const GREATEST_GROWTH: f64 = 1e4;
 
@@ -98,6 +102,29 @@ impl CmaEs {
     pub fn with_mean(self, start: &[f32]) -> Result<Self, NetworkError> {
         self.topology.check_weights(start)?;
         Ok(Self { start: Some(start.to_vec()), ..self })
+    }
+
+    /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
+    /// paths. A new weight has a mean of 0, the first step size as its deviation, and varies with no other. If no weight
+    /// deviates by 0.3 of the first step size any more, the step size grows until one does. Restarts are counted anew.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or the growth is not from this topology to that one.
+    pub fn grown(
+        self,
+        settings: CmaEsSettings,
+        topology: impl Into<Topology>,
+        growth: &Growth,
+    ) -> Result<Self, SettingError> {
+        let next = Self::new(settings, topology)?;
+        check(growth, &self.topology, &next.topology)?;
+        let start = self.start.map(|start| growth.carry(&start, 0.0));
+        let (model, first) = (next.settings.covariance, next.settings.step_size);
+        let distribution = self.distribution.map(|mut distribution| {
+            distribution.limit_deviation(REVIVED * first, f64::INFINITY);
+            distribution.grown(growth, model, first)
+        });
+        Ok(Self { start, distribution, ..next })
     }
 
     /// The settings.

@@ -27,6 +27,21 @@ impl Triangle {
         triangle
     }
 
+    /// The symmetric matrix with this diagonal and these elements above it, by row and column.
+    pub(super) fn of(size: usize, diagonal: &[f64], above: impl Fn(usize, usize) -> f64) -> Self {
+        let mut triangle = Self { size, elements: Vec::with_capacity(Self::element_count(size)) };
+        for (row, &first) in diagonal.iter().enumerate() {
+            triangle.elements.push(first);
+            triangle.elements.extend((row + 1..size).map(|column| above(row, column)));
+        }
+        triangle
+    }
+
+    /// An element of the symmetric matrix.
+    pub(super) fn element(&self, row: usize, column: usize) -> f64 {
+        self.row(row.min(column))[row.abs_diff(column)]
+    }
+
     /// The triangle of these elements, of which there are [`element_count`](Self::element_count).
     pub(super) fn new(size: usize, elements: Vec<f64>) -> Self {
         debug_assert_eq!(elements.len(), Self::element_count(size));

@@ -1,7 +1,10 @@
 use super::{ConventionalNeSettings, state::State};
-use crate::{Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector, diversity::diversity};
+use crate::{
+    Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector, diversity::diversity, growing::check,
+    ranking::best_first,
+};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
-use ne_net::Topology;
+use ne_net::{Growth, Topology};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -41,6 +44,8 @@ const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     pub(super) settings: ConventionalNeSettings<S, C, M>,
     pub(super) topology: Topology,
+    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    pub(super) start: Vec<WeightVector>,
     /// The generation last told, with its scores: the parents of the next. Empty before the first.
     pub(super) parents: Vec<WeightVector>,
     pub(super) scores: Vec<Option<Fitness>>,
@@ -69,6 +74,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
         Ok(Self {
             settings,
             topology,
+            start: Vec::new(),
             parents: Vec::new(),
             scores: Vec::new(),
             population: Vec::new(),
@@ -88,6 +94,50 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    /// The search whose first generation has these individuals, best first, in place of drawn ones. If they are more than
+    /// a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without effect
+    /// once a generation was told.
+    ///
+    /// # Errors
+    /// If one is not of this search's topology; the error names it: `start[3]`.
+    pub fn with_start(self, start: Vec<WeightVector>) -> Result<Self, SettingError> {
+        for (index, individual) in start.iter().enumerate() {
+            if *individual.topology() != self.topology {
+                let (found, allowed) = (individual.topology().to_string(), format!("of shape {}", self.topology));
+                return Err(SettingError::new(format!("start[{index}]"), found, allowed));
+            }
+        }
+        Ok(Self { start, ..self })
+    }
+
+    /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
+    /// generation, best first, and what is new in its nets begins with weights of 0.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or the growth is not from this topology to that one.
+    pub fn grown(
+        self,
+        settings: ConventionalNeSettings<S, C, M>,
+        topology: impl Into<Topology>,
+        growth: &Growth,
+    ) -> Result<Self, SettingError> {
+        let next = Self::new(settings, topology)?;
+        check(growth, &self.topology, &next.topology)?;
+        let mut start = Vec::with_capacity(self.parents.len());
+        let (parents, order) = match self.parents.is_empty() {
+            true => (&self.start, (0..self.start.len()).collect()),
+            false => (&self.parents, best_first(&self.scores)),
+        };
+        for index in order {
+            let mut individual = WeightVector::zero(next.topology.clone());
+            let (weights, deviation) = individual.genes_mut();
+            weights.copy_from_slice(&growth.carry(parents[index].weights(), 0.0));
+            *deviation = parents[index].mutation_deviation();
+            start.push(individual);
+        }
+        Ok(Self { start, ..next })
     }
 
     /// What mutations are multiplied by now: 1 unless the population stagnates.
@@ -165,8 +215,19 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
                 self.breed(&mut population[index], parents, strength, place(index));
             }
         }
+        let begins = if self.parents.is_empty() { self.start.len() } else { 0 };
         for (index, individual) in population.iter_mut().enumerate().skip(first_drawn) {
-            self.draw(individual, place(index));
+            match begins {
+                0 => self.draw(individual, place(index)),
+                _ => {
+                    individual.copy_from(&self.start[index % begins]);
+                    if index >= begins {
+                        let (weights, deviation) = individual.genes_mut();
+                        let mut stream = place(index).stream(REPRODUCTION);
+                        self.settings.mutation.mutate(weights, deviation, 1.0, &mut stream);
+                    }
+                }
+            }
         }
         self.population = population;
         self.asked = true;
@@ -176,6 +237,7 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
         debug_assert_eq!(evaluations.len(), self.population.len());
         std::mem::swap(&mut self.parents, &mut self.population);
+        self.start.clear();
         self.asked = false;
         self.scores.clear();
         self.scores.extend(evaluations.iter().map(Evaluation::fitness));

@@ -17,6 +17,9 @@ pub(super) struct State<S, C, M> {
     best: Option<Fitness>,
     stagnation: u64,
     distinct_parents: usize,
+    /// Who is in the first generation, if it is not drawn; empty after it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    start: Vec<Genes>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
     /// The generation asked and not told yet; empty between generations.
@@ -50,6 +53,7 @@ impl<S, C, M> From<ConventionalNe<S, C, M>> for State<S, C, M> {
         Self {
             parents: parents.map(|(parent, &fitness)| Parent { fitness, genes: parent.into() }).collect(),
             asked: asked.iter().map(Genes::from).collect(),
+            start: strategy.start.iter().map(Genes::from).collect(),
             settings: strategy.settings,
             topology: strategy.topology,
             best: strategy.best,
@@ -68,6 +72,8 @@ impl<S: Setting, C: Setting, M: Setting> TryFrom<State<S, C, M>> for Conventiona
         strategy.scores = state.parents.iter().map(|parent| parent.fitness).collect();
         let genes = |genes: Genes| (genes.weights, genes.mutation_deviation);
         let parents = state.parents.into_iter().map(|parent| genes(parent.genes));
+        let begins = state.start.len();
+        strategy.start = generation("start", state.start.into_iter().map(genes), begins, &strategy.topology)?;
         strategy.parents = generation("parents", parents, size, &strategy.topology)?;
         strategy.population = generation("asked", state.asked.into_iter().map(genes), size, &strategy.topology)?;
         strategy.asked = !strategy.population.is_empty();

@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 pub(super) struct State {
     settings: CosyneSettings,
     topology: Topology,
+    /// Who is in the first generation, if it is not drawn; empty after it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    start: Vec<Vec<f32>>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
     /// The generation asked and not told yet; empty between generations.
@@ -33,6 +36,7 @@ impl From<Cosyne> for State {
         Self {
             parents: parents.map(|(net, &fitness)| Parent { fitness, weights: net.weights().to_vec() }).collect(),
             asked: asked.iter().map(|individual| individual.weights().to_vec()).collect(),
+            start: strategy.start.iter().map(|net| net.weights().to_vec()).collect(),
             settings: strategy.settings,
             topology: strategy.topology,
         }
@@ -43,7 +47,7 @@ impl TryFrom<State> for Cosyne {
     type Error = StateError;
 
     fn try_from(state: State) -> Result<Self, StateError> {
-        let mut strategy = Self::new(state.settings, state.topology)?;
+        let mut strategy = Self::new(state.settings, state.topology)?.with_start(&state.start)?;
         let size = strategy.settings.population;
         strategy.scores = state.parents.iter().map(|parent| parent.fitness).collect();
         let parents = state.parents.into_iter().map(|parent| (parent.weights, 0.0));

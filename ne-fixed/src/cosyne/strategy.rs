@@ -1,7 +1,7 @@
 use super::{CosyneSettings, cauchy, permutation::shuffle_marked, state::State};
-use crate::{Crossover, WeightVector, diversity::diversity, ranking::best_first};
+use crate::{Crossover, WeightVector, diversity::diversity, growing::check, ranking::best_first};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::Topology;
+use ne_net::{Growth, Topology};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
@@ -34,6 +34,8 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 pub struct Cosyne {
     pub(super) settings: CosyneSettings,
     pub(super) topology: Topology,
+    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    pub(super) start: Vec<WeightVector>,
     /// The generation last told, with its scores. Empty before the first.
     pub(super) parents: Vec<WeightVector>,
     pub(super) scores: Vec<Option<Fitness>>,
@@ -52,8 +54,8 @@ impl Cosyne {
         let topology = topology.into();
         settings.validate()?;
         topology.validate().map_err(|error| error.within("topology"))?;
-        let (parents, scores, population) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { settings, topology, parents, scores, population, asked: false })
+        let (start, parents, scores, population) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { settings, topology, start, parents, scores, population, asked: false })
     }
 
     /// The settings.
@@ -64,6 +66,42 @@ impl Cosyne {
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
         &self.topology
+    }
+
+    /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
+    /// than a generation, the last are left out; if they are fewer, copies of them with Cauchy noise fill it up. Without
+    /// effect once a generation was told.
+    ///
+    /// # Errors
+    /// If they are not weights of this search's topology; the error names the net: `start[3]`.
+    pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
+        let net = |(index, weights): (usize, &Vec<f32>)| {
+            WeightVector::new(self.topology.clone(), weights.clone(), 0.0)
+                .map_err(|error| SettingError::new(format!("start[{index}]"), error, "weights of the net"))
+        };
+        let start = start.iter().enumerate().map(net).collect::<Result<_, _>>()?;
+        Ok(Self { start, ..self })
+    }
+
+    /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
+    /// generation, best first, and what is new in its nets begins with weights of 0.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or the growth is not from this topology to that one.
+    pub fn grown(
+        self,
+        settings: CosyneSettings,
+        topology: impl Into<Topology>,
+        growth: &Growth,
+    ) -> Result<Self, SettingError> {
+        let next = Self::new(settings, topology)?;
+        check(growth, &self.topology, &next.topology)?;
+        let (parents, order) = match self.parents.is_empty() {
+            true => (&self.start, (0..self.start.len()).collect()),
+            false => (&self.parents, best_first(&self.scores)),
+        };
+        let start: Vec<_> = order.into_iter().map(|index| growth.carry(parents[index].weights(), 0.0)).collect();
+        next.with_start(&start)
     }
 
     /// Writes a child of two of the parents, which stand in `order`, best first.
@@ -105,8 +143,18 @@ impl Strategy for Cosyne {
         population.resize_with(size, || WeightVector::zero(self.topology.clone()));
         let place = |index: usize| seed.individual(index as u64);
         if self.parents.is_empty() {
+            let CosyneSettings { initialization, mutation_rate, mutation_scale, .. } = &self.settings;
             for (index, individual) in population.iter_mut().enumerate() {
-                self.settings.initialization.draw(individual, &mut place(index).stream(FIRST_GENERATION));
+                match self.start.len() {
+                    0 => initialization.draw(individual, &mut place(index).stream(FIRST_GENERATION)),
+                    begins => {
+                        individual.copy_from(&self.start[index % begins]);
+                        if index >= begins {
+                            let mut stream = place(index).stream(REPRODUCTION);
+                            cauchy::mutate(individual.genes_mut().0, *mutation_rate, *mutation_scale, &mut stream);
+                        }
+                    }
+                }
             }
         } else {
             let order = best_first(&self.scores);
@@ -125,6 +173,7 @@ impl Strategy for Cosyne {
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
         debug_assert_eq!(evaluations.len(), self.population.len());
         std::mem::swap(&mut self.parents, &mut self.population);
+        self.start.clear();
         self.asked = false;
         self.scores.clear();
         self.scores.extend(evaluations.iter().map(Evaluation::fitness));

@@ -1,7 +1,7 @@
 use super::{OpenEsSettings, adam::AdamMemory, state::State};
-use crate::{WeightVector, normal::Normal, ranking::best_first};
+use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::Topology;
+use ne_net::{Growth, NetworkError, Topology};
 use serde::{Deserialize, Serialize};
 
 const CENTRE: Purpose = Purpose::new("open-es centre");
@@ -62,6 +62,42 @@ impl OpenEs {
             population: Vec::new(),
             asked: false,
         })
+    }
+
+    /// The same search, whose centre begins at these weights: a champion to be made better, or moved to another task.
+    /// Without effect once a generation was asked.
+    ///
+    /// # Errors
+    /// If the number of weights is not the topology's or one is NaN or infinite.
+    pub fn with_centre(mut self, weights: &[f32]) -> Result<Self, NetworkError> {
+        self.topology.check_weights(weights)?;
+        if self.centre.is_empty() {
+            self.centre = weights.iter().map(|&weight| weight.into()).collect();
+        }
+        Ok(self)
+    }
+
+    /// Goes on with other settings, on another task, or with nets that have grown: with its centre, in which new weights
+    /// are 0, with what [`Adam`](crate::Adam) remembers, and with its deviation, as far as the settings allow it.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or the growth is not from this topology to that one.
+    pub fn grown(
+        self,
+        settings: OpenEsSettings,
+        topology: impl Into<Topology>,
+        growth: &Growth,
+    ) -> Result<Self, SettingError> {
+        let next = Self::new(settings, topology)?;
+        check(growth, &self.topology, &next.topology)?;
+        let centre = if self.centre.is_empty() { Vec::new() } else { growth.carry(&self.centre, 0.0) };
+        let adam = AdamMemory {
+            steps: self.adam.steps,
+            means: growth.carry(&self.adam.means, 0.0),
+            squares: growth.carry(&self.adam.squares, 0.0),
+        };
+        let deviation = self.deviation.max(next.settings.least_deviation).min(next.settings.deviation);
+        Ok(Self { centre, adam, deviation, ..next })
     }
 
     /// The settings.

@@ -4,5 +4,6 @@ mod cma_es;
 mod cma_es_convergence;
 mod common;
 mod cosyne;
+mod growing;
 mod open_es;
 mod poles;

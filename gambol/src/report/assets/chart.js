@@ -72,6 +72,8 @@ class FitnessChart {
   constructor(run) {
     this.rows = run.history;
     this.unit = run.unit;
+    this.stages = run.stages || [];
+    this.starts = new Set(this.stages.map(stage => stage.first_generation));
     this.picked = null;
     this.failures = this.rows.some(row => row.failures > 0);
     const usable = value => value !== null && value !== undefined && Number.isFinite(value);
@@ -150,6 +152,7 @@ class FitnessChart {
     this.drawAxes(root, low, high, height, narrow);
     const plot = svg("g", { "clip-path": "url(#fitness-clip)" }, root);
     for (const series of [...this.series].reverse()) this.drawSeries(plot, series);
+    this.drawStages(root);
     if (this.failures) this.drawFailures(root, height);
     this.cross = svg("g", { class: "cross" }, root);
     this.pick(this.picked ?? this.rows.length - 1, this.picked !== null);
@@ -180,6 +183,8 @@ class FitnessChart {
     let gap = true;
     for (const row of this.rows) {
       const value = series.value(row);
+      // What a stage is worth says nothing of the next.
+      if (this.starts.has(row.generation)) gap = true;
       if (!usable(value)) { gap = true; continue; }
       const px = x(row.generation).toFixed(1);
       const py = y(value).toFixed(1);
@@ -189,6 +194,17 @@ class FitnessChart {
     svg("path", { class: `curve curve-${series.kind}`, d: path }, plot);
     if (this.rows.length === 1 && usable(series.value(this.rows[0]))) {
       svg("circle", { class: `dot dot-${series.kind}`, cx: x(this.first), cy: y(series.value(this.rows[0])), r: 4 }, plot);
+    }
+  }
+
+  // A line where each stage begins, with its name.
+  drawStages(root) {
+    const { box, x } = this;
+    for (const stage of this.stages) {
+      if (stage.last_generation < stage.first_generation) continue;
+      const px = x(stage.first_generation);
+      svg("line", { class: "stage-mark", x1: px, x2: px, y1: box.top - 6, y2: box.bottom }, root);
+      svg("text", { class: "stage-name", x: px + 4, y: box.top + 4 }, root).textContent = stage.name;
     }
   }
 

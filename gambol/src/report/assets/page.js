@@ -167,6 +167,7 @@ function startPage() {
   const model = makeModel(run.creature);
   buildHeading(run);
   buildChampion(run, model);
+  buildStages(run, model);
   buildGait(run);
   buildFitness(run);
   buildStatistics(run);

@@ -1,0 +1,381 @@
+//! From what was learned to a new search: on another task, with more senses, by another strategy.
+
+use super::{Carried, Origin, names};
+use crate::{
+    champion::{Champion, ChannelRecord},
+    config::{FrozenTopology, RunConfig, StrategySettings},
+    run_folder::{FolderError, RunFolder},
+    search::{Passage, Search, SearchVisitor},
+    setup::{Setup, SetupError},
+};
+use creatures::Channel;
+use ne_core::{Checkpoint, SettingError};
+use ne_net::{Growth, Topology};
+use std::path::Path;
+use tasks::MovementCatalogue;
+
+/// Why nothing can be carried over.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CarryError {
+    /// The run or the champion cannot be read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The new configuration, or that of the source, cannot be built.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// The search cannot go on with these settings.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// The source has found nobody.
+    #[error("{source_name} has no champion yet: all evaluations failed")]
+    NoChampion {
+        /// The source.
+        source_name: String,
+    },
+    /// What is asked to be carried cannot be, from this source to this strategy.
+    #[error("{0}")]
+    Impossible(String),
+    /// Something learned would be lost.
+    #[error(
+        "{}: what was learned with it would be lost; keep it, or allow it with {allow}", what.join(", ")
+    )]
+    Lost {
+        /// Inputs, outputs or weights that the new net does not have.
+        what: Vec<String>,
+        /// How to allow it.
+        allow: &'static str,
+    },
+}
+
+/// How losses are allowed.
+const FORGET: &str = "--forget, or \"forget\": true in the stage";
+
+/// What a new search can begin from.
+pub(crate) struct Source {
+    name: String,
+    kind: Kind,
+}
+
+enum Kind {
+    Run { folder: RunFolder, config: Box<RunConfig>, setup: Box<Setup> },
+    Champion(Box<Champion>),
+}
+
+/// How it is to be carried.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Manner {
+    /// What; `None`: as much as can be.
+    pub(crate) carried: Option<Carried>,
+    /// Whether inputs, outputs and weights may be given up.
+    pub(crate) forget: bool,
+}
+
+/// A search that can begin.
+pub(crate) struct Departure {
+    /// The configuration, with the topology that is kept, and its [`Origin`].
+    pub(crate) config: RunConfig,
+    pub(crate) setup: Setup,
+    source: Source,
+    carried: Carried,
+    genes: Growth,
+    inputs: Growth,
+    outputs: Growth,
+    /// The champion's weights in the new net, unless a population is carried.
+    weights: Vec<f32>,
+}
+
+impl Source {
+    /// A run folder, or a champion file.
+    pub(crate) fn open(path: &Path, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+        let name = path.display().to_string();
+        if !path.is_dir() {
+            let champion = Champion::read(path).map_err(FolderError::from)?;
+            return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
+        }
+        let folder = RunFolder::open(path)?;
+        Self::run(name, folder, catalogue)
+    }
+
+    /// A run, under a name of its own.
+    pub(crate) fn run(name: String, folder: RunFolder, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+        if !folder.checkpoint().is_file() {
+            return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
+        }
+        let config = folder.read_config()?;
+        let setup = Setup::new(&config, catalogue)?;
+        Ok(Self { name, kind: Kind::Run { folder, config: Box::new(config), setup: Box::new(setup) } })
+    }
+
+    fn strategy(&self) -> &str {
+        match &self.kind {
+            Kind::Run { config, .. } => config.strategy.name(),
+            Kind::Champion(champion) => &champion.strategy,
+        }
+    }
+
+    fn channels(&self) -> [Vec<ChannelRecord>; 2] {
+        match &self.kind {
+            Kind::Run { setup, .. } => {
+                [setup.inputs(), setup.outputs()].map(|channels| channels.iter().map(Into::into).collect())
+            }
+            Kind::Champion(champion) => [champion.inputs.clone(), champion.outputs.clone()],
+        }
+    }
+
+    /// The strategy's settings, unless it is a champion alone.
+    fn settings(&self) -> Option<&StrategySettings> {
+        match &self.kind {
+            Kind::Run { config, .. } => Some(&config.strategy),
+            Kind::Champion(_) => None,
+        }
+    }
+
+    /// The net of the champion: its topology, its weights, and their names; expressed, or with its genes as they are
+    /// searched.
+    fn champion(&self, expressed: bool) -> Result<ChampionNet, CarryError> {
+        let [inputs, outputs] = self.channels().map(|channels| names_of(&channels));
+        match &self.kind {
+            Kind::Champion(champion) => {
+                let topology = champion.network.topology();
+                let names = names::of_weights(&topology, &inputs, &outputs);
+                let weights = champion.network.weights().to_vec();
+                Ok(ChampionNet { topology, weights, names, generation: champion.generation })
+            }
+            Kind::Run { folder, config, setup } => {
+                let found = config.strategy.visit(ReadChampion { folder, expressed })?;
+                let (topology, weights, generation) =
+                    found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
+                let names = match topology == setup.topology {
+                    true => setup.weight_names.clone(),
+                    false => names::of_weights(&topology, &inputs, &outputs),
+                };
+                Ok(ChampionNet { topology, weights, names, generation })
+            }
+        }
+    }
+}
+
+struct ChampionNet {
+    topology: Topology,
+    weights: Vec<f32>,
+    names: Vec<String>,
+    generation: u64,
+}
+
+fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
+    channels.iter().map(|channel| channel.name.clone()).collect()
+}
+
+/// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
+struct ReadChampion<'a> {
+    folder: &'a RunFolder,
+    expressed: bool,
+}
+
+impl SearchVisitor for ReadChampion<'_> {
+    type Output = Result<Option<(Topology, Vec<f32>, u64)>, CarryError>;
+
+    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
+        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
+        Ok(checkpoint.champion.map(|champion| {
+            let (topology, weights) = S::net(&champion.genome, self.expressed);
+            (topology, weights, champion.generation)
+        }))
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(CarryError::Impossible(format!(
+            "the strategy \"{name}\" belongs to another program, which alone can read it"
+        )))
+    }
+}
+
+impl Departure {
+    /// Prepares a search with the new configuration. Nothing is written.
+    ///
+    /// # Errors
+    /// If the new configuration is not valid, or something learned would be lost that may not be.
+    pub(crate) fn prepare(
+        source: Source,
+        to: &RunConfig,
+        manner: Manner,
+        catalogue: &MovementCatalogue,
+    ) -> Result<Self, CarryError> {
+        let from = source.settings();
+        let carried = manner.carried.unwrap_or(from.map_or(Carried::Topology, |from| usual(from, &to.strategy)));
+        check_possible(&source.name, from, carried, &to.strategy)?;
+        let mut config = to.clone();
+        if let (Kind::Run { config: from, .. }, None, true) = (&source.kind, &to.topology, carried != Carried::Nothing)
+        {
+            config.topology.clone_from(&from.topology);
+        }
+        let net = match carried {
+            Carried::Champion => Some(source.champion(false)?),
+            Carried::Topology => Some(source.champion(true)?),
+            Carried::Population | Carried::Nothing => None,
+        };
+        let before = source.channels();
+        if carried == Carried::Topology
+            && let Some(net) = &net
+        {
+            let [inputs, outputs] = before.each_ref().map(|channels| names_of(channels));
+            config.topology = Some(FrozenTopology { inputs, outputs, net: net.topology.clone() });
+        }
+        if let Some(frozen) = &config.topology {
+            // The body's channels are known once it is built; the net has to wait for them.
+            let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, catalogue)?;
+            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs()));
+        }
+        let setup = Setup::new(&config, catalogue)?;
+        let after = [setup.inputs(), setup.outputs()];
+        let [inputs, outputs] = [0, 1].map(|which| {
+            let new: Vec<String> = after[which].iter().map(|channel| channel.name.clone()).collect();
+            Growth::by_name(&names_of(&before[which]), &new)
+        });
+        let genes = match (&source.kind, &net) {
+            (_, Some(net)) => Growth::by_name(&net.names, &setup.weight_names),
+            (Kind::Run { setup: old, .. }, None) => Growth::by_name(&old.weight_names, &setup.weight_names),
+            (Kind::Champion(_), None) => Growth::none(setup.topology.weight_count()),
+        };
+        let weights = net.as_ref().map_or_else(Vec::new, |net| genes.carry(&net.weights, 0.0));
+        let mut departure = Self { config, setup, source, carried, genes, inputs, outputs, weights };
+        let origin = departure.origin(net.as_ref())?;
+        if !manner.forget && carried != Carried::Nothing {
+            departure.check_lost(&origin)?;
+        }
+        departure.config.origin = Some(origin);
+        Ok(departure)
+    }
+
+    /// The search.
+    ///
+    /// # Errors
+    /// If it cannot go on with these settings.
+    pub(crate) fn search<S: Search>(&self, settings: &S::Settings) -> Result<S, CarryError> {
+        let topology = &self.setup.topology;
+        match (self.carried, &self.source.kind) {
+            (Carried::Population, Kind::Run { folder, .. }) => {
+                let checkpoint = Checkpoint::<S>::read(&folder.checkpoint()).map_err(FolderError::from)?;
+                let (genes, inputs, outputs) = (&self.genes, &self.inputs, &self.outputs);
+                Ok(checkpoint.strategy.grown(settings, &Passage { topology, genes, inputs, outputs })?)
+            }
+            (Carried::Nothing, _) => Ok(S::build(settings, topology)?),
+            _ => Ok(S::begin_at(settings, topology, &self.weights)?),
+        }
+    }
+
+    fn origin(&self, net: Option<&ChampionNet>) -> Result<Origin, CarryError> {
+        let generation = match (&self.source.kind, net) {
+            (_, Some(net)) => net.generation,
+            (Kind::Run { folder, .. }, None) => folder.read_standing()?.progress.generations,
+            (Kind::Champion(champion), None) => champion.generation,
+        };
+        let counts_weights =
+            !matches!(self.config.strategy, StrategySettings::Neat(_)) && self.carried != Carried::Nothing;
+        let counted = |count: usize| if counts_weights { count } else { 0 };
+        let before = self.source.channels();
+        let after = [self.setup.inputs(), self.setup.outputs()];
+        let new = |which: usize| {
+            let is_old = |channel: &&Channel| before[which].iter().any(|old| old.name == channel.name);
+            after[which].iter().filter(|channel| !is_old(channel)).map(|channel| channel.name.clone()).collect()
+        };
+        let (mut lost, mut rescaled) = (Vec::new(), Vec::new());
+        for (before, after) in before.iter().zip(after) {
+            for old in before {
+                match after.iter().find(|channel| channel.name == old.name) {
+                    None => lost.push(old.name.clone()),
+                    Some(channel) if channel.range != old.range => rescaled.push(old.name.clone()),
+                    Some(_) => {}
+                }
+            }
+        }
+        Ok(Origin {
+            source: self.source.name.clone(),
+            carried: self.carried,
+            strategy: self.source.strategy().into(),
+            generation,
+            weights_kept: counted(self.genes.weight_count() - self.genes.gained()),
+            weights_new: counted(self.genes.gained()),
+            weights_lost: counted(self.genes.lost().len()),
+            new_inputs: new(0),
+            new_outputs: new(1),
+            lost,
+            rescaled,
+        })
+    }
+
+    fn check_lost(&self, origin: &Origin) -> Result<(), CarryError> {
+        let mut what: Vec<String> = origin.lost.iter().map(|name| format!("\"{name}\"")).collect();
+        if what.is_empty() && origin.weights_lost > 0 {
+            what.push(format!("{} of {} weights", origin.weights_lost, self.genes.old_weight_count()));
+        }
+        match what.is_empty() {
+            true => Ok(()),
+            false => Err(CarryError::Lost { what, allow: FORGET }),
+        }
+    }
+}
+
+/// Checks that a stage could go on from another, before there is anything to carry.
+///
+/// # Errors
+/// If what is asked to be carried cannot be, or inputs or outputs would be lost.
+pub(super) fn check_planned(
+    (from, before): (&StrategySettings, &Setup),
+    (to, after): (&StrategySettings, &Setup),
+    manner: Manner,
+) -> Result<(), CarryError> {
+    let carried = manner.carried.unwrap_or_else(|| usual(from, to));
+    check_possible("the stage before", Some(from), carried, to)?;
+    if manner.forget || carried == Carried::Nothing {
+        return Ok(());
+    }
+    let mut what = Vec::new();
+    for (before, after) in [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())] {
+        let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
+        what.extend(before.iter().filter(is_lost).map(|channel| format!("\"{}\"", channel.name)));
+    }
+    if what.is_empty() { Ok(()) } else { Err(CarryError::Lost { what, allow: FORGET }) }
+}
+
+/// What is carried from a run if nobody says what.
+fn usual(from: &StrategySettings, to: &StrategySettings) -> Carried {
+    match from {
+        from if from.name() == to.name() => Carried::Population,
+        StrategySettings::Neat(_) => Carried::Topology,
+        _ => Carried::Champion,
+    }
+}
+
+/// Checks that something can be carried; `from` is `None` for a champion file.
+fn check_possible(
+    source: &str,
+    from: Option<&StrategySettings>,
+    carried: Carried,
+    to: &StrategySettings,
+) -> Result<(), CarryError> {
+    let message = match (carried, from) {
+        (Carried::Population, None) => {
+            format!("{source} is one champion, and no population: name the folder of its run")
+        }
+        (Carried::Population, Some(from)) if from.name() != to.name() => format!(
+            "a population of {} is none of {}: carry the champion or its topology, or keep the strategy",
+            from.name(),
+            to.name()
+        ),
+        (Carried::Champion | Carried::Topology, _) if matches!(to, StrategySettings::Neat(_)) => {
+            "NEAT goes on from a population of its own, and from no single net: choose another strategy, or go on from a \
+             run with NEAT"
+                .into()
+        }
+        (Carried::Champion, None) => format!(
+            "{source} holds a net, and not the genes it was made from: carry its topology, or name the folder of its run"
+        ),
+        (Carried::Champion, Some(StrategySettings::Neat(_))) => {
+            "a net that NEAT has found is carried with its topology".into()
+        }
+        _ => return Ok(()),
+    };
+    Err(CarryError::Impossible(message))
+}

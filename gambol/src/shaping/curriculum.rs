@@ -1,0 +1,51 @@
+use super::Carried;
+use crate::config::RunConfig;
+use ne_core::{Decision, Progress, Promotion, Standing};
+use std::{path::PathBuf, sync::Arc};
+
+/// Says which stage comes next.
+///
+/// [`Stages`](super::Stages) follows the list in a configuration. One of your own may make stages up as it goes along: raise
+/// the difficulty of a terrain with every stage passed, lower it after a demotion.
+///
+/// An implementor owes: the same stage for the same legs. A run that is resumed asks for all of them again.
+pub trait Curriculum: Send + Sync {
+    /// The stage after these legs, which is the first after none; `None`: the run is done.
+    fn next(&self, legs: &[Leg]) -> Option<PlannedStage>;
+}
+
+/// A stage that is to come.
+#[derive(Clone)]
+pub struct PlannedStage {
+    /// Its index: a stage that is visited again has the same.
+    pub stage: usize,
+    /// Its name, of which its folder is made: lower-case letters, digits and hyphens.
+    pub name: String,
+    /// Everything that determines it, but for its seed and its limits, which follow from those of the whole run.
+    pub config: RunConfig,
+    /// When it is passed; `None`: it goes on until the run ends.
+    pub promotion: Option<Arc<dyn Promotion>>,
+    /// What it takes from the leg before; `None`: as much as it can.
+    pub carry: Option<Carried>,
+    /// Whether inputs, outputs and weights may be given up.
+    pub forget: bool,
+}
+
+/// A stretch of the way: a stage from its beginning until it was passed, left, or broken off.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Leg {
+    /// Which, from 1.
+    pub number: usize,
+    /// The stage's index.
+    pub stage: usize,
+    /// The stage's name.
+    pub name: String,
+    /// Its folder.
+    pub folder: PathBuf,
+    /// How it ended.
+    pub decision: Decision,
+    /// What it used.
+    pub progress: Progress,
+    /// Where its champion stands.
+    pub champion: Option<Standing>,
+}

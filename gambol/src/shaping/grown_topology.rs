@@ -1,0 +1,54 @@
+//! A frozen topology for a body that senses or moves more than when it was found.
+
+use crate::config::FrozenTopology;
+use creatures::Channel;
+use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
+
+impl FrozenTopology {
+    /// The topology with these inputs and outputs. A new input of a graph is connected with every output; a new output has a
+    /// bias and hears every input. What it has too much stays, and is refused when it is used.
+    pub(crate) fn grown(&self, senses: &[Channel], motors: &[Channel]) -> Self {
+        let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+        let (inputs, outputs) = (names(senses), names(motors));
+        let kept = |old: &[String], new: &[String]| old.iter().all(|name| new.contains(name));
+        if !kept(&self.inputs, &inputs) || !kept(&self.outputs, &outputs) {
+            return self.clone();
+        }
+        let net = match &self.net {
+            Topology::Dense(shape) => {
+                DenseShape { inputs: inputs.len(), outputs: outputs.len(), ..DenseShape::clone(shape) }.into()
+            }
+            Topology::Graph(shape) => self.grown_graph(shape, &inputs, &outputs).into(),
+            other => other.clone(),
+        };
+        Self { inputs, outputs, net }
+    }
+
+    fn grown_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {
+        let place = |name: &String| inputs.iter().position(|other| other == name);
+        let node = |node: usize| match node.checked_sub(shape.inputs) {
+            Some(neuron) => inputs.len() + neuron,
+            None => self.inputs.get(node).and_then(place).unwrap_or(node),
+        };
+        let new_inputs: Vec<usize> = (0..inputs.len()).filter(|&input| !self.inputs.contains(&inputs[input])).collect();
+        let mut neurons: Vec<GraphNeuron> = Vec::with_capacity(shape.neurons.len());
+        for (index, neuron) in shape.neurons.iter().enumerate() {
+            let mut sources: Vec<usize> = neuron.sources.iter().map(|&source| node(source)).collect();
+            if shape.outputs.contains(&(shape.inputs + index)) {
+                sources.extend(&new_inputs);
+            }
+            neurons.push(GraphNeuron { sources, ..neuron.clone() });
+        }
+        let activation = shape.outputs.first().and_then(|&output| shape.neurons.get(output.checked_sub(shape.inputs)?));
+        let activation = activation.map_or(Activation::Tanh, |neuron| neuron.activation);
+        let mut output_node = |name: &String| match self.outputs.iter().position(|other| other == name) {
+            Some(output) => node(shape.outputs[output]),
+            None => {
+                neurons.push(GraphNeuron { activation, bias: true, sources: (0..inputs.len()).collect() });
+                inputs.len() + neurons.len() - 1
+            }
+        };
+        let outputs = outputs.iter().map(&mut output_node).collect();
+        GraphShape { inputs: inputs.len(), recurrent: shape.recurrent, neurons, outputs }
+    }
+}

@@ -1,0 +1,376 @@
+//! The way through the stages: each leg is a run folder that begins where the one before ended.
+
+use super::{
+    Carried, Curriculum, Leg, Origin, PlannedStage, StageError, Stages,
+    carry::{CarryError, Departure, Manner, Source},
+};
+use crate::{
+    config::RunConfig,
+    run_folder::{FolderError, FolderLock, RunFolder},
+    search::{Search, SearchVisitor},
+    setup::Setup,
+    training::{self, Outcome, TrainError, TrainOptions},
+};
+use ne_core::{Decision, Progress, Promotion, Standing, StopConditions, StopReason};
+use std::{fs, path::Path, path::PathBuf, sync::Arc, time::Instant};
+
+/// How a run with stages is watched.
+pub struct Journey<'a> {
+    /// Called when a leg begins, or is taken up again: its folder is there, and its stage is about to be trained.
+    pub on_leg: &'a mut dyn FnMut(&PlannedStage, Option<&Origin>),
+}
+
+/// Why a run could not go on from another, or through its stages.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ShapingError {
+    /// A stage is wrong; nothing was trained.
+    #[error(transparent)]
+    Stage(#[from] StageError),
+    /// What was learned cannot be carried over.
+    #[error(transparent)]
+    Carry(#[from] CarryError),
+    /// A run could not be carried out.
+    #[error(transparent)]
+    Train(#[from] TrainError),
+    /// A folder cannot be used, or could not be written.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// A run with stages begins with the first of them.
+    #[error(
+        "a configuration with stages begins with its first, from nothing; leave out the stages, or what to go on from"
+    )]
+    Stages,
+    /// There is nothing to go through.
+    #[error("the configuration has no stages")]
+    NoStages,
+}
+
+/// Trains a configuration in a new folder, from what a run or a champion has learned: on another task, another terrain, a
+/// body that has changed. The folder's configuration says where it came from, and what was kept.
+///
+/// # Errors
+/// If the source cannot be read, nothing can be carried to this configuration, or as [`train`](crate::training::train).
+pub fn train_from(
+    config: &RunConfig,
+    source: &Path,
+    carried: Option<Carried>,
+    forget: bool,
+    folder: &Path,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let source = Source::open(source, &options.catalogue)?;
+    let departure = Departure::prepare(source, config, Manner { carried, forget }, &options.catalogue)?;
+    let config = departure.config.clone();
+    if !config.stages.is_empty() {
+        return Err(ShapingError::Stages);
+    }
+    config.strategy.visit(Depart { departure, folder, stop: config.stop, promotion: None, options })
+}
+
+/// Trains a configuration with stages in a new folder, one stage after the other.
+///
+/// # Errors
+/// If a stage is wrong, which is found before anything is trained, or as [`train`](crate::training::train).
+pub fn train_stages(
+    config: &RunConfig,
+    folder: &Path,
+    journey: Journey<'_>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let stages = listed(config, &options)?;
+    train_curriculum(&stages, config, folder, journey, options)
+}
+
+/// Goes on with a run with stages from where it stopped. Other stop conditions, if given, take the place of the planned
+/// ones.
+///
+/// # Errors
+/// As [`train_stages`] and [`resume`](crate::training::resume).
+pub fn resume_stages(
+    folder: &Path,
+    stop: Option<StopConditions>,
+    journey: Journey<'_>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let folder = RunFolder::open(folder)?;
+    let stages = listed(&folder.read_config()?, &options)?;
+    resume_curriculum(&stages, &folder, stop, journey, options)
+}
+
+/// As [`train_stages`], with a curriculum of your own: the configuration has the seed, the limits and what is recorded of the
+/// whole run.
+///
+/// # Errors
+/// As [`train_stages`].
+pub fn train_curriculum(
+    curriculum: &dyn Curriculum,
+    config: &RunConfig,
+    folder: &Path,
+    journey: Journey<'_>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let (folder, lock) = RunFolder::create(folder, config)?;
+    travel(curriculum, config, &folder, lock, journey, options)
+}
+
+/// As [`resume_stages`], with the curriculum of [`train_curriculum`].
+///
+/// # Errors
+/// As [`resume_stages`].
+pub fn resume_curriculum(
+    curriculum: &dyn Curriculum,
+    folder: &RunFolder,
+    stop: Option<StopConditions>,
+    journey: Journey<'_>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let mut config = folder.read_config()?;
+    let lock = folder.lock()?;
+    if let Some(stop) = stop.filter(|&stop| stop != config.stop) {
+        config.stop = stop;
+        folder.write_config(&config)?;
+    }
+    travel(curriculum, &config, folder, lock, journey, options)
+}
+
+/// The legs of a run with stages so far, in order; the last may be under way.
+///
+/// # Errors
+/// If a file of a leg cannot be read.
+pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
+    let Ok(entries) = fs::read_dir(folder.stages()) else { return Ok(Vec::new()) };
+    let mut folders: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    folders.sort();
+    let config = folder.read_config()?;
+    let mut legs = Vec::new();
+    for path in folders {
+        let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.split_once('-'));
+        let leg_folder = RunFolder::at(&path);
+        let Some((number, name)) = name.filter(|_| leg_folder.checkpoint().is_file()) else { continue };
+        let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(legs.len());
+        let number = number.parse().unwrap_or(legs.len() + 1);
+        legs.push(leg(&leg_folder, number, stage, name)?);
+    }
+    Ok(legs)
+}
+
+fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
+    match config.stages.is_empty() {
+        true => Err(ShapingError::NoStages),
+        false => Ok(Stages::new(config, &options.catalogue)?),
+    }
+}
+
+fn leg(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<Leg, FolderError> {
+    let standing = folder.read_standing()?;
+    let champion = standing.champion.map(|champion| Standing { grade: champion.grade, fitness: champion.fitness });
+    let (decision, progress) = (standing.decision, standing.progress);
+    Ok(Leg { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
+}
+
+/// Goes through the stages, from the first that is not passed.
+fn travel(
+    curriculum: &dyn Curriculum,
+    config: &RunConfig,
+    folder: &RunFolder,
+    _lock: FolderLock,
+    journey: Journey<'_>,
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    let began = Instant::now();
+    let mut legs: Vec<Leg> = Vec::new();
+    let mut last: Option<Outcome> = None;
+    while let Some(planned) = curriculum.next(&legs) {
+        let number = legs.len() + 1;
+        let path = folder.stages().join(format!("{number:02}-{}", planned.name));
+        let leg_folder = RunFolder::at(&path);
+        let is_begun = leg_folder.checkpoint().is_file();
+        if is_begun && leg_folder.read_standing()?.decision != Decision::Stay {
+            legs.push(leg(&leg_folder, number, planned.stage, &planned.name)?);
+            continue;
+        }
+        let used = total(&legs);
+        let stop = limits(config.stop, used, planned.promotion.is_some());
+        if let Some(reason) = exhausted(stop) {
+            return finish(folder, reason, used, last, &legs);
+        }
+        let mut now = stop;
+        now.minutes = config.stop.minutes.map(|minutes| (minutes - began.elapsed().as_secs_f64() / 60.0).max(1e-6));
+        let leg_config = RunConfig {
+            seed: config.seed.wrapping_add(SEED_STEP * legs.len() as u64),
+            stop,
+            record: config.record.clone(),
+            stages: Vec::new(),
+            ..planned.config.clone()
+        };
+        let options = TrainOptions {
+            threads: options.threads,
+            catalogue: options.catalogue.clone(),
+            signal: options.signal.clone(),
+            on_generation: &mut *options.on_generation,
+        };
+        let outcome = if is_begun {
+            (journey.on_leg)(&planned, leg_folder.read_config()?.origin.as_ref());
+            training::resume_leg(&path, stop, now, planned.promotion.clone(), options)?
+        } else {
+            begin(&planned, leg_config, &path, legs.last(), now, &mut *journey.on_leg, options)?
+        };
+        keep_champion(&leg_folder, folder)?;
+        let passed = leg(&leg_folder, number, planned.stage, &planned.name)?;
+        if passed.decision == Decision::Stay {
+            legs.push(passed);
+            let used = total(&legs);
+            return finish(folder, outcome.reason, used, Some(outcome), &legs);
+        }
+        last = Some(outcome);
+        legs.push(passed);
+    }
+    let used = total(&legs);
+    finish(folder, StopReason::Promoted, used, last, &legs)
+}
+
+/// Seeds of the legs of a run lie so far apart.
+const SEED_STEP: u64 = 1_000_000;
+
+/// Begins a leg: from nothing, or from where the leg before ended.
+fn begin(
+    planned: &PlannedStage,
+    config: RunConfig,
+    path: &Path,
+    before: Option<&Leg>,
+    now: StopConditions,
+    on_leg: &mut dyn FnMut(&PlannedStage, Option<&Origin>),
+    options: TrainOptions<'_>,
+) -> Result<Outcome, ShapingError> {
+    if path.exists() {
+        // Killed before its first checkpoint: there is nothing in it that would not come again.
+        let failed = |source| FolderError::Create { path: path.into(), source };
+        fs::remove_dir_all(path).map_err(failed)?;
+    }
+    let Some(before) = before else {
+        let setup = Setup::new(&config, &options.catalogue).map_err(TrainError::from)?;
+        on_leg(planned, None);
+        let departure =
+            First { config: &config, setup, folder: path, stop: now, promotion: planned.promotion.clone(), options };
+        return Ok(config.strategy.visit(departure)?);
+    };
+    // Named as the folders lie beside each other, so that a run may be moved.
+    let name = before.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
+    let source = Source::run(name, RunFolder::open(&before.folder)?, &options.catalogue)?;
+    let manner = Manner { carried: planned.carry, forget: planned.forget };
+    let departure = Departure::prepare(source, &config, manner, &options.catalogue)?;
+    let config = departure.config.clone();
+    on_leg(planned, config.origin.as_ref());
+    config.strategy.visit(Depart { departure, folder: path, stop: now, promotion: planned.promotion.clone(), options })
+}
+
+/// Begins the first leg, with whichever strategy.
+struct First<'a, 'b> {
+    config: &'a RunConfig,
+    setup: Setup,
+    folder: &'a Path,
+    stop: StopConditions,
+    promotion: Option<Arc<dyn Promotion>>,
+    options: TrainOptions<'b>,
+}
+
+impl SearchVisitor for First<'_, '_> {
+    type Output = Result<Outcome, TrainError>;
+
+    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
+        let Self { config, setup, folder, stop, promotion, options } = self;
+        let strategy = S::build(settings, &setup.topology)?;
+        training::train_leg(strategy, config, &setup, folder, stop, promotion, options)
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(TrainError::Foreign { strategy: name.into() })
+    }
+}
+
+/// Begins a run that goes on from another, with whichever strategy.
+struct Depart<'a, 'b> {
+    departure: Departure,
+    folder: &'a Path,
+    stop: StopConditions,
+    promotion: Option<Arc<dyn Promotion>>,
+    options: TrainOptions<'b>,
+}
+
+impl SearchVisitor for Depart<'_, '_> {
+    type Output = Result<Outcome, ShapingError>;
+
+    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
+        let Self { departure, folder, stop, promotion, options } = self;
+        let strategy = departure.search::<S>(settings)?;
+        let Departure { config, setup, .. } = &departure;
+        Ok(training::train_leg(strategy, config, setup, folder, stop, promotion, options)?)
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(TrainError::Foreign { strategy: name.into() }.into())
+    }
+}
+
+/// What all legs have used.
+fn total(legs: &[Leg]) -> Progress {
+    let sum = |count: fn(&Progress) -> u64| legs.iter().map(|leg| count(&leg.progress)).sum();
+    Progress {
+        generations: sum(|progress| progress.generations),
+        evaluations: sum(|progress| progress.evaluations),
+        steps: sum(|progress| progress.steps),
+        stagnation: legs.last().map_or(0, |leg| leg.progress.stagnation),
+    }
+}
+
+/// The limits of a leg: what is left of the budgets. A fitness, a grade or stagnation ends the run only in a stage without
+/// a rule of its own.
+fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopConditions {
+    let left = |limit: Option<u64>, used: u64| limit.map(|limit| limit.saturating_sub(used));
+    StopConditions {
+        generations: left(stop.generations, used.generations),
+        evaluations: left(stop.evaluations, used.evaluations),
+        steps: left(stop.steps, used.steps),
+        minutes: stop.minutes,
+        target: stop.target.filter(|_| !has_rule),
+        grade: stop.grade.filter(|_| !has_rule),
+        stagnation: stop.stagnation.filter(|_| !has_rule),
+    }
+}
+
+fn exhausted(stop: StopConditions) -> Option<StopReason> {
+    [
+        (stop.generations, StopReason::Generations),
+        (stop.evaluations, StopReason::Evaluations),
+        (stop.steps, StopReason::Steps),
+    ]
+    .into_iter()
+    .find_map(|(left, reason)| (left == Some(0)).then_some(reason))
+}
+
+/// The champion of the latest stage is that of the run.
+fn keep_champion(leg: &RunFolder, run: &RunFolder) -> Result<(), FolderError> {
+    if !leg.champion().is_file() {
+        return Ok(());
+    }
+    let champion = crate::champion::Champion::read(&leg.champion())?;
+    Ok(champion.write(&run.champion())?)
+}
+
+fn finish(
+    folder: &RunFolder,
+    reason: StopReason,
+    progress: Progress,
+    last: Option<Outcome>,
+    legs: &[Leg],
+) -> Result<Outcome, ShapingError> {
+    let champion = match last {
+        Some(outcome) => outcome.champion,
+        None => match legs.last().map(|leg| RunFolder::at(&leg.folder).champion()).filter(|path| path.is_file()) {
+            Some(path) => Some(crate::champion::Champion::read(&path).map_err(FolderError::from)?),
+            None => None,
+        },
+    };
+    Ok(Outcome { folder: folder.clone(), reason, progress, champion })
+}

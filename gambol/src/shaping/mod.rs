@@ -1,0 +1,41 @@
+//! Shaping: what was learned on one task is carried to the next.
+//!
+//! A run with [`stages`](crate::config::RunConfig::stages) learns one after the other: first to run on the flat, then over
+//! gaps, with eyes, then with half the energy. Its one decision: **every stage is a run folder of its own** inside the run's,
+//! which begins where the one before ended. So everything that looks at a run looks at a stage as well, and a stage that was
+//! killed is resumed as any run is. The same passage from one folder to the next is there for single runs: [`train_from`].
+//!
+//! | piece | what it is |
+//! |---|---|
+//! | [`StageSettings`] | a stage in a configuration: what changes, when it is passed |
+//! | [`Curriculum`] | says which stage comes next; [`Stages`] follows the list in a configuration, yours does what it likes |
+//! | [`Promotion`](ne_core::Promotion) | says when a stage is passed; [`Rule`](ne_core::Rule) has the usual conditions |
+//! | [`Carried`], [`Origin`] | what goes from one stage to the next, and what went |
+//! | [`train_stages`], [`resume_stages`] | the way through the stages |
+
+mod carry;
+mod curriculum;
+mod grown_topology;
+mod journey;
+mod names;
+mod origin;
+mod settings;
+mod stages;
+
+pub use carry::CarryError;
+pub use curriculum::{Curriculum, Leg, PlannedStage};
+pub use journey::{
+    Journey, ShapingError, legs, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
+};
+pub use origin::{Carried, Origin};
+pub use settings::StageSettings;
+pub use stages::{StageError, StageProblem, Stages};
+
+use creatures::Channel;
+use ne_net::Topology;
+
+/// The names of a topology's weights, for these inputs and outputs.
+pub(crate) fn weight_names(topology: &Topology, inputs: &[Channel], outputs: &[Channel]) -> Vec<String> {
+    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+    names::of_weights(topology, &names(inputs), &names(outputs))
+}

@@ -1,0 +1,34 @@
+use super::Carried;
+use creatures::Sensor;
+use ne_core::Rule;
+use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
+
+/// A stage of shaping, as a configuration has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StageSettings {
+    /// Its name: lower-case letters, digits and hyphens; no two stages have the same.
+    pub name: String,
+    /// Fields of the configuration that are other than in the stage before; objects are merged, lists take the place of
+    /// lists. Whatever is not mentioned stays. With another `movement.name` come the terms, steps and rehearsal that the preset
+    /// has for it. The first stage changes the configuration itself.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub changes: Map<String, Value>,
+    /// Sensors added to those of the stage before.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub add_sensors: Vec<Sensor>,
+    /// When the stage is passed. Only the last may have none: it goes on until the run ends.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub promotion: Option<Rule>,
+    /// When the population goes back to the stage before; looked at after `promotion`. The first stage has none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub demotion: Option<Rule>,
+    /// What it takes from the stage before; by default as much as it can: the population if the strategy is the same, else the
+    /// champion, or from NEAT the champion's topology.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub carry: Option<Carried>,
+    /// Whether inputs, outputs and weights of the stage before may be given up; else a stage that lacks them is refused.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub forget: bool,
+}

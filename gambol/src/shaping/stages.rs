@@ -1,0 +1,208 @@
+use super::{
+    Curriculum, Leg, PlannedStage, StageSettings,
+    carry::{CarryError, Manner, check_planned},
+};
+use crate::{
+    config::{Assembly, ConfigError, RunConfig, preset},
+    setup::{Setup, SetupError},
+};
+use creatures::Sensor;
+use ne_core::{Decision, Moment, Promotion, Rule, SettingError};
+use serde_json::{Value, json};
+use std::sync::Arc;
+use tasks::MovementCatalogue;
+
+/// The stages of a configuration, in their order: a stage that is passed is followed by the next, one that is left by the
+/// one before.
+#[derive(Clone, Debug)]
+pub struct Stages {
+    stages: Vec<(StageSettings, RunConfig)>,
+}
+
+/// What is wrong with a stage. The message begins with its number and name.
+#[derive(Debug, thiserror::Error)]
+#[error("stages[{index}] (\"{name}\"): {problem}")]
+pub struct StageError {
+    /// Which, from 0.
+    pub index: usize,
+    /// Its name.
+    pub name: String,
+    /// What is wrong.
+    pub problem: StageProblem,
+}
+
+/// What can be wrong with a stage.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StageProblem {
+    /// A field is unknown, missing or of the wrong type.
+    #[error("changes.{0}")]
+    Config(#[from] ConfigError),
+    /// A number is out of range.
+    #[error(transparent)]
+    Setting(#[from] SettingError),
+    /// It cannot be built.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// Nothing can be carried to it.
+    #[error(transparent)]
+    Carry(#[from] CarryError),
+}
+
+impl Stages {
+    /// The stages of a configuration, each checked: that it can be built, that it can be left, and that its rules ask for
+    /// what there is.
+    ///
+    /// # Errors
+    /// Names the stage and the field.
+    pub fn new(config: &RunConfig, catalogue: &MovementCatalogue) -> Result<Self, StageError> {
+        let mut stages: Vec<(StageSettings, RunConfig)> = Vec::new();
+        let mut before = RunConfig { stages: Vec::new(), origin: None, ..config.clone() };
+        let mut setup_before: Option<Setup> = None;
+        for (index, settings) in config.stages.iter().enumerate() {
+            let wrong = |problem: StageProblem| StageError { index, name: settings.name.clone(), problem };
+            check_name(settings, &stages).map_err(|error| wrong(error.into()))?;
+            let resolved = resolve(&before, settings).map_err(wrong)?;
+            let setup = Setup::new(&resolved, catalogue).map_err(|error| wrong(error.into()))?;
+            let place = (index == 0, index + 1 == config.stages.len());
+            check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
+            if let Some(setup_before) = &setup_before {
+                let manner = Manner { carried: settings.carry, forget: settings.forget };
+                let from = (&before.strategy, setup_before);
+                check_planned(from, (&resolved.strategy, &setup), manner).map_err(|error| wrong(error.into()))?;
+            }
+            setup_before = Some(setup);
+            stages.push((settings.clone(), resolved.clone()));
+            before = resolved;
+        }
+        Ok(Self { stages })
+    }
+
+    /// The configuration of each stage, without what it takes from the one before.
+    pub fn configs(&self) -> impl Iterator<Item = (&StageSettings, &RunConfig)> {
+        self.stages.iter().map(|(settings, config)| (settings, config))
+    }
+}
+
+impl Curriculum for Stages {
+    fn next(&self, legs: &[Leg]) -> Option<PlannedStage> {
+        let stage = match legs.last() {
+            None => 0,
+            Some(Leg { stage, decision: Decision::Demote, .. }) => stage.saturating_sub(1),
+            Some(Leg { stage, .. }) => stage + 1,
+        };
+        let (settings, config) = self.stages.get(stage)?;
+        let rules = Rules { promotion: settings.promotion.clone(), demotion: settings.demotion.clone() };
+        let has_rules = rules.promotion.is_some() || rules.demotion.is_some();
+        Some(PlannedStage {
+            stage,
+            name: settings.name.clone(),
+            config: config.clone(),
+            promotion: has_rules.then(|| Arc::new(rules) as Arc<dyn Promotion>),
+            carry: settings.carry,
+            forget: settings.forget,
+        })
+    }
+}
+
+/// The rules of a stage.
+struct Rules {
+    promotion: Option<Rule>,
+    demotion: Option<Rule>,
+}
+
+impl Promotion for Rules {
+    fn decide(&self, moment: &Moment<'_>) -> Decision {
+        let is_met = |rule: &Option<Rule>| rule.as_ref().is_some_and(|rule| rule.is_met(moment));
+        if is_met(&self.promotion) {
+            Decision::Promote
+        } else if is_met(&self.demotion) {
+            Decision::Demote
+        } else {
+            Decision::Stay
+        }
+    }
+}
+
+/// The configuration of a stage, from that of the stage before.
+fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, StageProblem> {
+    let forbidden = ["stages", "origin", "stop", "seed", "record", "preset"];
+    if let Some(&field) = forbidden.iter().find(|&&field| settings.changes.contains_key(field)) {
+        let allowed = "left to the whole run; what ends a stage is its promotion";
+        return Err(SettingError::new(format!("changes.{field}"), "a change", allowed).into());
+    }
+    let mut assembly = Assembly::new(before);
+    let movement = settings.changes.get("movement");
+    let renamed = movement.and_then(|movement| movement.get("name")).and_then(Value::as_str);
+    if let Some(name) = renamed.filter(|&name| name != before.movement.name)
+        && let Some(preset) = preset(&before.preset)
+    {
+        let fresh = preset.config(before.creature.clone(), name);
+        // Null first: a movement is merged, and terms of the old one must not stay.
+        assembly.lay_over(json!({ "movement": null, "rehearsal": fresh.rehearsal }));
+        assembly.lay_over(json!({ "movement": fresh.movement }));
+    }
+    if settings.changes.contains_key("terrain") {
+        // A terrain is chosen as a whole: the one before must not shine through.
+        assembly.lay_over(json!({ "terrain": null }));
+    }
+    assembly.lay_over(Value::Object(settings.changes.clone()));
+    let mut config = assembly.finish()?;
+    if !settings.add_sensors.is_empty() {
+        let own = config.creature.sensors.clone();
+        let sensors: &mut Vec<Sensor> = config.sensors.get_or_insert(own);
+        sensors.extend(settings.add_sensors.iter().cloned());
+    }
+    Ok(config)
+}
+
+fn check_name(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {
+    let name = &settings.name;
+    let is_plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
+    if name.is_empty() || name.len() > 40 || !name.chars().all(is_plain) {
+        let allowed = "1 to 40 lower-case letters, digits and hyphens: it names a folder";
+        return Err(SettingError::new("name", format!("\"{name}\""), allowed));
+    }
+    if earlier.iter().any(|(other, _)| other.name == *name) {
+        return Err(SettingError::new("name", format!("\"{name}\""), "another than that of an earlier stage"));
+    }
+    Ok(())
+}
+
+/// Checks that a stage can be left, and that its rules ask for something there is.
+fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bool, bool)) -> Result<(), SettingError> {
+    if settings.promotion.is_none() && !is_last {
+        let allowed = "a rule, or the stage could never be left; only the last stage needs none";
+        return Err(SettingError::new("promotion", "missing", allowed));
+    }
+    if settings.demotion.is_some() && is_first {
+        return Err(SettingError::new("demotion", "a rule", "missing in the first stage: there is none before it"));
+    }
+    if (settings.carry.is_some() || settings.forget) && is_first {
+        let field = if settings.forget { "forget" } else { "carry" };
+        return Err(SettingError::new(field, "given", "missing in the first stage: there is none before it"));
+    }
+    for (field, rule) in [("promotion", &settings.promotion), ("demotion", &settings.demotion)] {
+        let Some(rule) = rule else { continue };
+        rule.validate().map_err(|error| error.within(field))?;
+        if rule.asks_for_usable() && setup.nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+            let allowed = "asked for only where gaits are judged during training: of movements that are judged, in runs \
+                           with a variation or a rehearsal";
+            return Err(SettingError::new(format!("{field}.usable"), "usable", allowed));
+        }
+        let known = measurements(setup);
+        if let Some(name) = rule.measurements().into_iter().find(|name| !known.iter().any(|known| known == name)) {
+            let allowed = format!("one of those there are: {}", known.join(", "));
+            return Err(SettingError::new(format!("{field}.measurement.name"), format!("\"{name}\""), allowed));
+        }
+    }
+    Ok(())
+}
+
+/// The measurements an evaluation of this setup has.
+fn measurements(setup: &Setup) -> Vec<String> {
+    let mut names = vec!["duration".to_owned()];
+    setup.episode.movement().measurements(&mut |name, _| names.push(name.to_owned()));
+    names.sort();
+    names
+}

@@ -1,0 +1,199 @@
+use super::{Decision, Moment, Promotion};
+use crate::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// A condition on a stage of a run, as a configuration file names it; as a [`Promotion`] it promotes when it is met.
+///
+/// In JSON: `{"fitness": 20}`, `"usable"`, `{"share": {"fitness": 20, "of": 0.5}}`, `{"measurement": {"name": "energy",
+/// "at_least": 10}}`, `{"stagnation": 30}`, `{"generations": 100}`, `{"evaluations": 10000}`, `{"steps": 1000000}`,
+/// `{"any": [...]}`, `{"all": [...]}`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
+pub enum Rule {
+    /// The champion's fitness is at least this.
+    Fitness(f64),
+    /// The jury gives the champion a [grade](crate::Judgement::grades) of at least 1: of creatures, its gait is usable.
+    Usable,
+    /// So large a share of the generation has at least this fitness.
+    Share(PopulationShare),
+    /// The mean of a [measurement](crate::Evaluation::measurements) over those of the generation that did not fail reaches a
+    /// bound.
+    Measurement(Reached),
+    /// So many generations have passed without a better champion; at least 1.
+    Stagnation(u64),
+    /// So many generations were spent in the stage; at least 1.
+    Generations(u64),
+    /// So many evaluations were spent in the stage; at least 1.
+    Evaluations(u64),
+    /// So many steps of work were spent in the stage; at least 1.
+    Steps(u64),
+    /// One of these is met; at least one.
+    Any(Vec<Rule>),
+    /// All of these are met; at least one.
+    All(Vec<Rule>),
+}
+
+/// A fitness, and by how many it is reached.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PopulationShare {
+    /// The fitness.
+    pub fitness: f64,
+    /// The share of the generation, above 0 and at most 1.
+    pub of: f64,
+}
+
+/// A measurement, and the bound it must reach: one of them, from below or from above.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Reached {
+    /// Its name.
+    pub name: String,
+    /// At least this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// At most this.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+}
+
+impl Rule {
+    /// Checks the numbers, and that the rule could ever be met.
+    ///
+    /// # Errors
+    /// Names the field and what is allowed.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        let finite = |field: &str, value: f64| match value.is_finite() {
+            true => Ok(()),
+            false => Err(SettingError::new(field, value, "a finite number")),
+        };
+        let count = |field: &str, count: u64| match count {
+            0 => Err(SettingError::new(field, 0, "at least 1")),
+            _ => Ok(()),
+        };
+        match self {
+            Self::Usable => Ok(()),
+            Self::Fitness(fitness) => finite("fitness", *fitness),
+            Self::Share(PopulationShare { fitness, of }) => {
+                finite("share.fitness", *fitness)?;
+                match *of > 0.0 && *of <= 1.0 {
+                    true => Ok(()),
+                    false => Err(SettingError::new("share.of", of, "above 0 and at most 1")),
+                }
+            }
+            Self::Measurement(Reached { at_least, at_most, .. }) => match (at_least, at_most) {
+                (Some(bound), None) => finite("measurement.at_least", *bound),
+                (None, Some(bound)) => finite("measurement.at_most", *bound),
+                (bounds, _) => {
+                    let found = if bounds.is_some() { "both bounds" } else { "no bound" };
+                    Err(SettingError::new("measurement", found, "either at_least or at_most"))
+                }
+            },
+            Self::Stagnation(generations) => count("stagnation", *generations),
+            Self::Generations(generations) => count("generations", *generations),
+            Self::Evaluations(evaluations) => count("evaluations", *evaluations),
+            Self::Steps(steps) => count("steps", *steps),
+            Self::Any(rules) => validate_all("any", rules),
+            Self::All(rules) => validate_all("all", rules),
+        }
+    }
+
+    /// Whether it is met.
+    pub fn is_met(&self, moment: &Moment<'_>) -> bool {
+        let Moment { evaluations, champion, progress, .. } = *moment;
+        match self {
+            Self::Fitness(fitness) => champion.is_some_and(|champion| champion.fitness.get() >= *fitness),
+            Self::Usable => champion.is_some_and(|champion| champion.grade >= 1),
+            Self::Share(PopulationShare { fitness, of }) => {
+                let good = evaluations
+                    .iter()
+                    .filter(|evaluation| evaluation.fitness().is_some_and(|found| found.get() >= *fitness));
+                good.count() as f64 >= of * evaluations.len() as f64
+            }
+            Self::Measurement(reached) => reached.is_met(moment),
+            Self::Stagnation(generations) => progress.stagnation >= *generations,
+            Self::Generations(generations) => progress.generations >= *generations,
+            Self::Evaluations(evaluations) => progress.evaluations >= *evaluations,
+            Self::Steps(steps) => progress.steps >= *steps,
+            Self::Any(rules) => rules.iter().any(|rule| rule.is_met(moment)),
+            Self::All(rules) => rules.iter().all(|rule| rule.is_met(moment)),
+        }
+    }
+
+    /// The names of all measurements it asks for.
+    pub fn measurements(&self) -> Vec<&str> {
+        match self {
+            Self::Measurement(reached) => vec![reached.name.as_str()],
+            Self::Any(rules) | Self::All(rules) => rules.iter().flat_map(Self::measurements).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    /// Whether it asks for a grade from the jury.
+    pub fn asks_for_usable(&self) -> bool {
+        match self {
+            Self::Usable => true,
+            Self::Any(rules) | Self::All(rules) => rules.iter().any(Self::asks_for_usable),
+            _ => false,
+        }
+    }
+}
+
+fn validate_all(field: &str, rules: &[Rule]) -> Result<(), SettingError> {
+    if rules.is_empty() {
+        return Err(SettingError::new(field, "[]", "at least one rule"));
+    }
+    let numbered =
+        |(index, rule): (usize, &Rule)| rule.validate().map_err(|error| error.within(&format!("{field}[{index}]")));
+    rules.iter().enumerate().try_for_each(numbered)
+}
+
+impl Reached {
+    fn is_met(&self, moment: &Moment<'_>) -> bool {
+        let found = moment.evaluations.iter().filter(|evaluation| evaluation.outcome.is_ok());
+        let values: Vec<f64> =
+            found.filter_map(|evaluation| evaluation.measurements.get(&self.name).copied()).collect();
+        if values.is_empty() {
+            return false;
+        }
+        let mean = values.iter().sum::<f64>() / values.len() as f64;
+        self.at_least.is_none_or(|bound| mean >= bound) && self.at_most.is_none_or(|bound| mean <= bound)
+    }
+}
+
+impl Promotion for Rule {
+    fn decide(&self, moment: &Moment<'_>) -> Decision {
+        if self.is_met(moment) { Decision::Promote } else { Decision::Stay }
+    }
+}
+
+/// A condition in words: `fitness ≥ 20`, `usable or 100 generations`.
+impl std::fmt::Display for Rule {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let joined = |f: &mut std::fmt::Formatter<'_>, rules: &[Rule], word: &str| {
+            for (index, rule) in rules.iter().enumerate() {
+                let nested = matches!(rule, Self::Any(_) | Self::All(_));
+                f.write_str(if index > 0 { word } else { "" })?;
+                if nested { write!(f, "({rule})")? } else { write!(f, "{rule}")? }
+            }
+            Ok(())
+        };
+        match self {
+            Self::Fitness(fitness) => write!(f, "fitness ≥ {fitness}"),
+            Self::Usable => f.write_str("usable"),
+            Self::Share(PopulationShare { fitness, of }) => {
+                write!(f, "fitness ≥ {fitness} in {} % of the population", of * 100.0)
+            }
+            Self::Measurement(Reached { name, at_least: Some(bound), .. }) => write!(f, "mean {name} ≥ {bound}"),
+            Self::Measurement(Reached { name, at_most, .. }) => {
+                write!(f, "mean {name} ≤ {}", at_most.unwrap_or(f64::NAN))
+            }
+            Self::Stagnation(generations) => write!(f, "{generations} generations without progress"),
+            Self::Generations(generations) => write!(f, "{generations} generations"),
+            Self::Evaluations(evaluations) => write!(f, "{evaluations} evaluations"),
+            Self::Steps(steps) => write!(f, "{steps} steps"),
+            Self::Any(rules) => joined(f, rules, " or "),
+            Self::All(rules) => joined(f, rules, " and "),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+use ne_core::SettingError;
+use ne_net::{Growth, Topology};
+
+/// Checks that a growth is from one topology to the other.
+pub(crate) fn check(growth: &Growth, old: &Topology, new: &Topology) -> Result<(), SettingError> {
+    let (found, expected) =
+        ([growth.old_weight_count(), growth.weight_count()], [old.weight_count(), new.weight_count()]);
+    if found == expected {
+        return Ok(());
+    }
+    let found = format!("from {} to {} weights", found[0], found[1]);
+    Err(SettingError::new("growth", found, format!("from {} to {}, as the topologies have", expected[0], expected[1])))
+}

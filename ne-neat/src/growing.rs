@@ -1,0 +1,127 @@
+//! Going on with other inputs and outputs.
+
+use crate::{
+    ConnectionGene, InnovationNumber, Layout, Neat, NeatGenome, NeatSettings, NodeGene, NodeId,
+    innovation::direct_connection,
+};
+use ne_core::SettingError;
+use ne_net::Growth;
+use std::cmp::Reverse;
+
+impl Neat {
+    /// Goes on with other settings, on another task, or with inputs and outputs that were added: the population last told
+    /// is the first generation, best first. It is divided into species anew.
+    ///
+    /// `inputs` and `outputs` say for each new one which old one it is. A new input is connected with nothing; a new output
+    /// has no connection, and no bias. All genomes are renumbered alike, so that genes that had the same number have the
+    /// same number still, and whatever is invented from now on has a number that was never given.
+    ///
+    /// # Errors
+    /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, an input or output
+    /// is lost, or those that stay change their order.
+    pub fn grown(self, settings: NeatSettings, inputs: &Growth, outputs: &Growth) -> Result<Self, SettingError> {
+        check("inputs", inputs, self.layout.inputs)?;
+        check("outputs", outputs, self.layout.outputs)?;
+        let mut next = Self::new(settings, inputs.weight_count(), outputs.weight_count())?;
+        if next.layout.bias != self.layout.bias {
+            let allowed = format!("{:?}, as the nets have it", self.layout.bias);
+            return Err(SettingError::new("bias", format!("{:?}", next.layout.bias), allowed));
+        }
+        if self.layout.recurrent && !next.layout.recurrent {
+            return Err(SettingError::new("recurrent", false, "true, as the nets are"));
+        }
+        let renumbering = Renumbering::new(self.layout, next.layout, inputs, outputs);
+        let too_many = || SettingError::new("innovations", "the last number", "less: numbers have run out");
+        let registry = (renumbering.node(self.innovations.next_node), self.innovations.next_innovation);
+        let next_node = registry.0.ok_or_else(too_many)?;
+        let next_innovation = renumbering.invented(registry.1).ok_or_else(too_many)?;
+        next.innovations.next_node = next.innovations.next_node.max(next_node);
+        next.innovations.next_innovation = next.innovations.next_innovation.max(next_innovation);
+        let mut order: Vec<usize> = (0..self.parents.len()).collect();
+        order.sort_by_key(|&index| Reverse(self.scores[index]));
+        let parents = match order.is_empty() {
+            true => self.start.iter().collect(),
+            false => order.iter().map(|&index| &self.parents[index]).collect::<Vec<_>>(),
+        };
+        let activation = next.settings.output_activation;
+        let grown = parents.into_iter().map(|parent| renumbering.genome(parent, activation));
+        next.start = grown.collect::<Option<_>>().ok_or_else(too_many)?;
+        next.next_species = self.next_species;
+        Ok(next)
+    }
+}
+
+/// Checks that nothing is lost and that the order stays.
+fn check(field: &str, growth: &Growth, old: usize) -> Result<(), SettingError> {
+    let kept: Vec<usize> = growth.origins().iter().flatten().copied().collect();
+    if growth.old_weight_count() == old && kept.iter().copied().eq(0..old) {
+        return Ok(());
+    }
+    Err(SettingError::new(field, format!("{kept:?} of {old}"), "all of those there were, in their order"))
+}
+
+/// What numbers become when inputs and outputs are added.
+struct Renumbering {
+    old: Layout,
+    new: Layout,
+    /// For each old input and output its new node.
+    inputs: Vec<NodeId>,
+    outputs: Vec<NodeId>,
+}
+
+impl Renumbering {
+    fn new(old: Layout, new: Layout, inputs: &Growth, outputs: &Growth) -> Self {
+        let places = |growth: &Growth, first: usize| {
+            let kept = growth.origins().iter().enumerate().filter(|(_, origin)| origin.is_some());
+            kept.map(|(place, _)| (first + place) as NodeId).collect()
+        };
+        Self { old, new, inputs: places(inputs, 0), outputs: places(outputs, new.sources()) }
+    }
+
+    /// The new number of a node; `None` if numbers have run out.
+    fn node(&self, node: NodeId) -> Option<NodeId> {
+        let (index, sources) = (node as usize, self.old.sources());
+        if index < self.old.inputs {
+            Some(self.inputs[index])
+        } else if index < sources {
+            Some(self.new.inputs as NodeId)
+        } else if let Some(&output) = self.outputs.get(index - sources) {
+            Some(output)
+        } else {
+            node.checked_add(self.new.first_hidden() - self.old.first_hidden())
+        }
+    }
+
+    /// The new number of an innovation that is not a connection from an input to an output.
+    fn invented(&self, number: InnovationNumber) -> Option<InnovationNumber> {
+        let direct = |layout: &Layout| (layout.sources() * layout.outputs) as InnovationNumber;
+        number.checked_add(direct(&self.new) - direct(&self.old))
+    }
+
+    fn connection(&self, gene: &ConnectionGene) -> Option<ConnectionGene> {
+        let (from, to) = (self.node(gene.from)?, self.node(gene.to)?);
+        let innovation = match direct_connection(from, to, &self.new) {
+            Some(direct) => direct,
+            None => self.invented(gene.innovation)?,
+        };
+        Some(ConnectionGene { innovation, from, to, ..*gene })
+    }
+
+    fn genome(&self, genome: &NeatGenome, activation: ne_net::Activation) -> Option<NeatGenome> {
+        let mut grown = NeatGenome::blank(self.new);
+        let (nodes, connections) = grown.genes_mut();
+        for gene in genome.nodes() {
+            nodes.push(NodeGene { id: self.node(gene.id)?, ..*gene });
+        }
+        let sources = self.new.sources() as NodeId;
+        for id in (sources..self.new.first_hidden()).filter(|id| !self.outputs.contains(id)) {
+            nodes.push(NodeGene { id, activation, bias: 0.0 });
+        }
+        nodes.sort_by_key(|gene| gene.id);
+        for gene in genome.connections() {
+            connections.push(self.connection(gene)?);
+        }
+        connections.sort_by_key(|gene| gene.innovation);
+        Some(grown)
+    }
+}

@@ -1,0 +1,150 @@
+//! Going on with more inputs and outputs: what was learned stays, to the bit.
+
+use ne_core::{Evaluation, Genome, Phenotype, Seed, Strategy};
+use ne_neat::{BiasKind, Neat, NeatGenome, NeatSettings, StartTopology};
+use ne_net::Growth;
+use std::{cmp::Reverse, collections::BTreeMap};
+
+fn growths() -> (Growth, Growth) {
+    let inputs = Growth::new(vec![None, Some(0), Some(1), None, Some(2)], 3).expect("a growth");
+    let outputs = Growth::new(vec![Some(0), None, Some(1)], 2).expect("a growth");
+    (inputs, outputs)
+}
+
+fn score(population: &[NeatGenome]) -> Vec<Evaluation> {
+    let evaluate = |genome: &NeatGenome| {
+        let mut net = genome.express();
+        let mut answer = vec![0.0; genome.layout().outputs];
+        let inputs: Vec<f32> = (0..genome.layout().inputs).map(|index| 0.3 - 0.2 * index as f32).collect();
+        net.activate(&inputs, &mut answer);
+        Evaluation::new(f64::from(answer[0]) + 0.1 * genome.enabled_count() as f64)
+    };
+    population.iter().map(evaluate).collect()
+}
+
+fn generation(neat: &mut Neat, number: u64) -> (Vec<NeatGenome>, Vec<Evaluation>) {
+    let seed = Seed::of_run(1).generation(number);
+    let population = neat.ask(seed).to_vec();
+    let evaluations = score(&population);
+    neat.tell(&evaluations, seed);
+    (population, evaluations)
+}
+
+fn settings() -> Vec<NeatSettings> {
+    let mut all = Vec::new();
+    for bias in [BiasKind::InputNode, BiasKind::PerNeuron, BiasKind::None] {
+        for recurrent in [false, true] {
+            for start in [StartTopology::FullyConnected, StartTopology::HiddenLayer { neurons: 3 }] {
+                let mut settings = NeatSettings { population: 40, bias, recurrent, start, ..NeatSettings::default() };
+                (settings.mutation.add_connection, settings.mutation.add_node) = (0.5, 0.4);
+                settings.mutation.delete_connection = 0.1;
+                all.push(settings);
+            }
+        }
+    }
+    all
+}
+
+/// What a net answers, bit by bit, with or without the new inputs.
+fn answers(genome: &NeatGenome, grown: bool) -> Vec<Vec<u32>> {
+    let mut net = genome.express();
+    let answer = |step: usize| {
+        let [a, b, c] = [0.3, -0.7, 1.1].map(|scale| scale * (step as f32 - 9.5));
+        let inputs = if grown { vec![step as f32, a, b, -2.0 * step as f32, c] } else { vec![a, b, c] };
+        let mut outputs = vec![0.0; genome.layout().outputs];
+        net.activate(&inputs, &mut outputs);
+        outputs.iter().map(|output| output.to_bits()).collect()
+    };
+    (0..20).map(answer).collect()
+}
+
+#[test]
+fn genomes_do_the_same_and_stay_related() {
+    let (inputs, outputs) = growths();
+    for settings in settings() {
+        let mut neat = Neat::new(settings.clone(), 3, 2).expect("valid");
+        (1..=14).for_each(|number| drop(generation(&mut neat, number)));
+        let (old, evaluations) = generation(&mut neat, 15);
+        let mut order: Vec<usize> = (0..old.len()).collect();
+        order.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
+        let old: Vec<&NeatGenome> = order.iter().map(|&index| &old[index]).collect();
+        assert!(old.iter().any(|genome| genome.hidden_count() > 3));
+
+        let mut grown = neat.grown(settings.clone(), &inputs, &outputs).expect("grows");
+        let text = serde_json::to_string(&grown).expect("serialises");
+        let mut read: Neat = serde_json::from_str(&text).expect("deserialises");
+        let new = grown.ask(Seed::of_run(2).generation(1)).to_vec();
+        assert_eq!(read.ask(Seed::of_run(2).generation(1)), new);
+
+        // Old numbers and new ones go one to one, over all genomes.
+        let mut numbers = BTreeMap::new();
+        for (old, new) in old.iter().zip(&new) {
+            let (before, after) = (answers(old, false), answers(new, true));
+            for (before, after) in before.iter().zip(&after) {
+                assert_eq!(before[..], [after[0], after[2]], "{settings:?}");
+            }
+            assert_eq!(old.connections().len(), new.connections().len());
+            for old_gene in old.connections() {
+                let same = |gene: &&ne_neat::ConnectionGene| {
+                    gene.weight.to_bits() == old_gene.weight.to_bits()
+                        && numbers.get(&old_gene.innovation).is_none_or(|&number| number == gene.innovation)
+                };
+                let gene = new.connections().iter().find(same).expect("the gene is still there");
+                numbers.insert(old_gene.innovation, gene.innovation);
+            }
+            // A genome is one that a file could hold.
+            let text = serde_json::to_string(new).expect("serialises");
+            assert_eq!(&serde_json::from_str::<NeatGenome>(&text).expect("valid"), new);
+        }
+        let mut targets: Vec<_> = numbers.values().collect();
+        targets.sort_unstable();
+        targets.dedup();
+        assert_eq!(targets.len(), numbers.len());
+
+        // It goes on, and saves and loads: no number is given twice.
+        for number in 2..=12 {
+            generation(&mut grown, number);
+            let text = serde_json::to_string(&grown).expect("serialises");
+            grown = serde_json::from_str(&text).expect("deserialises");
+        }
+    }
+}
+
+#[test]
+fn populations_may_change_their_size() {
+    let same = (Growth::none(3), Growth::none(2));
+    for size in [25, 90] {
+        let mut neat = Neat::new(NeatSettings { population: 40, ..NeatSettings::default() }, 3, 2).expect("valid");
+        (1..=5).for_each(|number| drop(generation(&mut neat, number)));
+        let settings = NeatSettings { population: size, ..NeatSettings::default() };
+        let mut grown = neat.grown(settings, &same.0, &same.1).expect("goes on");
+        assert_eq!(grown.ask(Seed::of_run(2).generation(1)).len(), size);
+    }
+}
+
+#[test]
+fn errors_name_what_does_not_fit() {
+    let neat = || Neat::new(NeatSettings { recurrent: true, ..NeatSettings::default() }, 3, 2).expect("valid");
+    let (inputs, outputs) = growths();
+    let error = |settings: NeatSettings, inputs: &Growth, outputs: &Growth| {
+        neat().grown(settings, inputs, outputs).expect_err("does not fit").to_string()
+    };
+    let recurrent = || NeatSettings { recurrent: true, ..NeatSettings::default() };
+    let turned = Growth::new(vec![Some(1), Some(0), Some(2)], 3).expect("a growth");
+    assert_eq!(
+        error(recurrent(), &turned, &outputs),
+        "inputs = [1, 0, 2] of 3: must be all of those there were, in their order"
+    );
+    let lost = Growth::new(vec![Some(0)], 2).expect("a growth");
+    assert_eq!(
+        error(recurrent(), &inputs, &lost),
+        "outputs = [0] of 2: must be all of those there were, in their order"
+    );
+    assert_eq!(
+        error(NeatSettings { recurrent: false, ..recurrent() }, &inputs, &outputs),
+        "recurrent = false: must be true, as the nets are"
+    );
+    let bias = if recurrent().bias == BiasKind::None { BiasKind::PerNeuron } else { BiasKind::None };
+    let message = error(NeatSettings { bias, ..recurrent() }, &inputs, &outputs);
+    assert!(message.starts_with(&format!("bias = {bias:?}: must be ")), "{message}");
+}
