@@ -39,3 +39,6 @@ pub(crate) fn weight_names(topology: &Topology, inputs: &[Channel], outputs: &[C
     let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
     names::of_weights(topology, &names(inputs), &names(outputs))
 }
+
+#[cfg(test)]
+mod tests;

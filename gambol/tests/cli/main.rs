@@ -26,6 +26,7 @@ mod replaying;
 mod reporting;
 mod reproduce;
 mod robust;
+mod shaping;
 mod strategies;
 mod training;
 mod training_bench;

@@ -1,0 +1,223 @@
+//! Nets that grow: every creature, every kind of topology, to the bit.
+
+use super::*;
+use crate::{
+    config::{FrozenTopology, RunConfig, preset},
+    setup::Setup,
+};
+use creatures::Sensor;
+use ne_core::{Decision, Phenotype, Progress};
+use ne_net::{Activation, GraphNeuron, GraphShape, Growth};
+use serde_json::json;
+use tasks::MovementCatalogue;
+
+fn config(creature: &str) -> RunConfig {
+    preset("default").expect("there").config(creatures::find(creature).expect("shipped"), "running")
+}
+
+fn setup(config: &RunConfig) -> Setup {
+    Setup::new(config, &MovementCatalogue::default()).expect("valid")
+}
+
+/// With senses added in front, in the middle and at the end.
+fn with_more_senses(config: &RunConfig) -> RunConfig {
+    let mut sensors = config.sensors.clone().expect("the preset names them");
+    sensors.insert(0, Sensor::Rangefinder { angles: vec![-30.0, -60.0], length: 3.0 });
+    sensors.insert(3, Sensor::JointSpeeds);
+    sensors.push(Sensor::Clock { period: 0.3 });
+    RunConfig { sensors: Some(sensors), ..config.clone() }
+}
+
+/// Checks that nets of the old setup do in the new one what they did, whatever the new senses say.
+fn assert_same_behaviour(name: &str, old: &Setup, new: &Setup) {
+    let growth = Growth::by_name(&old.weight_names, &new.weight_names);
+    assert_eq!(growth.lost(), Vec::<usize>::new(), "{name}");
+    assert!(growth.gained() > 0, "{name}");
+    let genes: Vec<f32> = (0..old.topology.weight_count()).map(|index| libm::sinf(3.7 * index as f32 + 1.0)).collect();
+    let mut before = old.topology.network(&genes);
+    let mut after = new.topology.network(&growth.carry(&genes, 0.0));
+    for step in 0..30 {
+        let value = |name: &str| {
+            let sum: usize = name.bytes().map(usize::from).sum();
+            libm::sinf((sum * 31 + step * 7) as f32)
+        };
+        let sense = |setup: &Setup| setup.inputs().iter().map(|channel| value(&channel.name)).collect::<Vec<f32>>();
+        let mut answers = [vec![0.0; old.outputs().len()], vec![0.0; new.outputs().len()]];
+        before.activate(&sense(old), &mut answers[0]);
+        after.activate(&sense(new), &mut answers[1]);
+        for (index, channel) in old.outputs().iter().enumerate() {
+            let place = new.outputs().iter().position(|other| other.name == channel.name).expect("it is kept");
+            assert_eq!(answers[0][index].to_bits(), answers[1][place].to_bits(), "{name}, {} at {step}", channel.name);
+        }
+    }
+}
+
+#[test]
+fn every_creature_does_the_same_with_more_senses() {
+    for creature in creatures::shipped() {
+        let old = config(creature.name);
+        let new = with_more_senses(&old);
+        assert_same_behaviour(creature.name, &setup(&old), &setup(&new));
+        for hidden in [vec![], vec![5], vec![4, 3]] {
+            let dense = |config: &RunConfig| {
+                let mut config = config.clone();
+                (config.controller.limbs, config.controller.hidden) = (None, hidden.clone());
+                config
+            };
+            assert_same_behaviour(creature.name, &setup(&dense(&old)), &setup(&dense(&new)));
+        }
+    }
+}
+
+#[test]
+fn a_frozen_net_does_the_same_with_more_senses() {
+    let old = config("biped-1");
+    let bare = setup(&old);
+    let names =
+        |channels: &[creatures::Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+    let (inputs, outputs) = (names(bare.inputs()), names(bare.outputs()));
+    let first = inputs.len();
+    let neuron = |sources: Vec<usize>| GraphNeuron { activation: Activation::Tanh, bias: true, sources };
+    let mut neurons = vec![neuron(vec![0, 2]), neuron(vec![first, 1])];
+    neurons.extend((0..outputs.len()).map(|index| neuron(vec![first + 1, index])));
+    let nodes = (first + 2..first + 2 + outputs.len()).collect();
+    let net = GraphShape { inputs: first, recurrent: false, neurons, outputs: nodes };
+    let frozen = FrozenTopology { inputs, outputs, net: net.into() };
+    let old = RunConfig { topology: Some(frozen.clone()), ..old };
+    let more = setup(&RunConfig { topology: None, ..with_more_senses(&old) });
+    let grown = frozen.grown(more.inputs(), more.outputs());
+    let new = RunConfig { topology: Some(grown), ..with_more_senses(&old) };
+    assert_same_behaviour("frozen", &setup(&old), &setup(&new));
+}
+
+fn stages(stages: serde_json::Value) -> Result<Stages, String> {
+    let mut config = config("biped-1");
+    config.stages = serde_json::from_value(stages).map_err(|error| error.to_string())?;
+    Stages::new(&config, &MovementCatalogue::default()).map_err(|error| error.to_string())
+}
+
+#[test]
+fn a_stage_changes_what_it_names_and_keeps_the_rest() {
+    let stages = stages(json!([
+        { "name": "run", "promotion": { "generations": 3 }, "changes": { "controller": { "hidden": [3] } } },
+        { "name": "look", "promotion": "usable", "add_sensors": ["joint-speeds"] },
+        { "name": "jump", "changes": { "movement": { "name": "jumping" } } }
+    ]))
+    .expect("valid");
+    let configs: Vec<&RunConfig> = stages.configs().map(|(_, config)| config).collect();
+    let plain = config("biped-1");
+    assert!(configs.iter().all(|config| config.controller.hidden == [3] && config.stages.is_empty()));
+    assert_eq!(configs[0].sensors, plain.sensors);
+    let mut more = plain.sensors.clone().expect("named");
+    more.push(Sensor::JointSpeeds);
+    assert_eq!((&configs[1].sensors, &configs[2].sensors), (&Some(more.clone()), &Some(more)));
+    assert_eq!((&configs[1].movement, configs[1].rehearsal), (&plain.movement, plain.rehearsal));
+    // What the preset knows of another movement comes with its name.
+    let jumping = preset("default").expect("there").config(plain.creature.clone(), "jumping");
+    assert_eq!((&configs[2].movement, configs[2].rehearsal), (&jumping.movement, jumping.rehearsal));
+}
+
+#[test]
+fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
+    let stages = stages(json!([
+        { "name": "a", "promotion": { "generations": 3 } },
+        { "name": "b", "promotion": { "fitness": 3 }, "demotion": { "generations": 9 } },
+        { "name": "c", "promotion": { "generations": 1 } }
+    ]))
+    .expect("valid");
+    let mut legs: Vec<Leg> = Vec::new();
+    use Decision::{Demote, Promote};
+    for (name, decision) in [("a", Promote), ("b", Demote), ("a", Promote), ("b", Promote), ("c", Promote)] {
+        let planned = stages.next(&legs).expect("a stage");
+        assert_eq!(planned.name, name);
+        legs.push(Leg {
+            number: legs.len() + 1,
+            stage: planned.stage,
+            name: planned.name,
+            folder: std::path::PathBuf::new(),
+            decision,
+            progress: Progress::default(),
+            champion: None,
+        });
+    }
+    assert!(stages.next(&legs).is_none());
+}
+
+#[test]
+fn errors_name_stage_and_field() {
+    let two = |second: serde_json::Value| json!([{ "name": "run", "promotion": { "generations": 3 } }, second]);
+    for (given, message) in [
+        (
+            json!([{ "name": "Run 1" }]),
+            "stages[0] (\"Run 1\"): name = \"Run 1\": must be 1 to 40 lower-case letters, digits and hyphens: it names a folder",
+        ),
+        (
+            two(json!({ "name": "run" })),
+            "stages[1] (\"run\"): name = \"run\": must be another than that of an earlier stage",
+        ),
+        (
+            json!([{ "name": "a" }, { "name": "b" }]),
+            "stages[0] (\"a\"): promotion = missing: must be a rule, or the stage could never be left; only the last stage needs none",
+        ),
+        (
+            json!([{ "name": "a", "demotion": "usable" }]),
+            "stages[0] (\"a\"): demotion = a rule: must be missing in the first stage: there is none before it",
+        ),
+        (
+            json!([{ "name": "a", "carry": "champion" }]),
+            "stages[0] (\"a\"): carry = given: must be missing in the first stage: there is none before it",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "generations": 0 } })),
+            "stages[1] (\"b\"): promotion.generations = 0: must be at least 1",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "any": [] } })),
+            "stages[1] (\"b\"): promotion.any = []: must be at least one rule",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "all": [{ "share": { "fitness": 1, "of": 2 } }] } })),
+            "stages[1] (\"b\"): promotion.all[0].share.of = 2: must be above 0 and at most 1",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "measurement": { "name": "height", "at_least": 1 } } })),
+            "stages[1] (\"b\"): promotion.measurement.name = \"height\": must be one of those there are: duration, ",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "measurement": { "name": "duration" } } })),
+            "stages[1] (\"b\"): promotion.measurement = no bound: must be either at_least or at_most",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": "usable", "changes": { "variation": null } })),
+            "stages[1] (\"b\"): changes.variation: ",
+        ),
+        (two(json!({ "name": "b", "changes": { "rehersal": 5 } })), "stages[1] (\"b\"): changes."),
+        (
+            two(json!({ "name": "b", "changes": { "seed": 5 } })),
+            "stages[1] (\"b\"): changes.seed = a change: must be left to the whole run; what ends a stage is its promotion",
+        ),
+        (
+            two(json!({ "name": "b", "changes": { "trials": { "count": 0 } } })),
+            "stages[1] (\"b\"): trials.count = 0: must be from 1 to 1000",
+        ),
+        (two(json!({ "name": "b", "add_sensors": ["joint-angles"] })), "stages[1] (\"b\"): "),
+        (
+            two(json!({ "name": "b", "changes": { "sensors": ["joint-angles"] } })),
+            "stages[1] (\"b\"): \"rotation of torso\", ",
+        ),
+        (
+            two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),
+            "stages[1] (\"b\"): NEAT goes on from a population of its own, and from no single net",
+        ),
+        (
+            two(json!({ "name": "b", "carry": "population", "changes": { "strategy": { "open-es": {} } } })),
+            "stages[1] (\"b\"): a population of cma-es is none of open-es: carry the champion or its topology, or keep the strategy",
+        ),
+    ] {
+        let error = stages(given.clone()).expect_err("it is wrong");
+        assert!(error.starts_with(message), "{given}: {error}");
+    }
+    // What was learned may be given up if that is said.
+    let forgetful = json!({ "name": "b", "forget": true, "changes": { "sensors": ["joint-angles"] } });
+    assert!(stages(two(forgetful)).is_ok());
+}

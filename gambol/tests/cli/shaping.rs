@@ -1,0 +1,258 @@
+//! Runs in stages, and runs that go on from others.
+
+use crate::{
+    damage::json,
+    folder::{contents, read},
+    program::{assert_says, fail, gambol, run, small_run, succeed, text},
+};
+use serde_json::{Value, json};
+use std::{
+    fs,
+    io::{BufRead, BufReader},
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+/// Three stages of a few tiny generations: running, with more senses, jumping.
+fn three_stages() -> Value {
+    json!({
+        "creature": "biped-1",
+        "movement": { "name": "running", "steps": 60 },
+        "strategy": { "cma-es": { "population": 8 } },
+        "stop": { "generations": 40 },
+        "record": { "checkpoint_every": 3 },
+        "stages": [
+            { "name": "run", "promotion": { "generations": 14 } },
+            { "name": "feel", "add_sensors": ["joint-speeds"], "promotion": { "generations": 13 } },
+            { "name": "jump", "changes": { "movement": { "name": "jumping", "steps": 40 } } }
+        ]
+    })
+}
+
+fn write(folder: &Path, config: &Value) -> PathBuf {
+    let path = folder.join("stages.json");
+    fs::write(&path, config.to_string()).expect("a temporary folder");
+    path
+}
+
+fn train(config: &Path, out: &Path) -> Command {
+    let mut train = gambol("train");
+    train.arg("--config").arg(config).arg("--out").arg(out).arg("--no-report");
+    train
+}
+
+/// All files of a run that are a function of its configuration, by their paths within it.
+fn lasting(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let of_clock = |path: &Path| path.ends_with("timing.jsonl") || path.ends_with(".lock");
+    let files = contents(folder).into_iter().filter(|(path, _)| path.is_file() && !of_clock(path));
+    files.map(|(path, bytes)| (path.strip_prefix(folder).expect("within").to_owned(), bytes)).collect()
+}
+
+fn legs(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder.join("stages")).expect("stages");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("readable").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn stages_follow_each_other_and_their_champions_are_kept() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (config, run_folder) = (write(folder.path(), &three_stages()), folder.path().join("run"));
+    let ended = run(train(&config, &run_folder).args(["--threads", "1"]));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert_says(
+        &ended.stderr,
+        &[
+            "stage 1 of 3, run\n",
+            "stage 2 of 3, feel: goes on with the population of 01-run (generation 14); ",
+            "new inputs: speed of ",
+            "stage 3 of 3, jump: goes on with the population of 02-feel (generation 13); all ",
+        ],
+    );
+    assert_says(&ended.stdout, &["the generations were done"]);
+    assert_eq!(legs(&run_folder), ["01-run", "02-feel", "03-jump"]);
+    let generations = |leg: &str| {
+        json(&run_folder.join("stages").join(leg).join("checkpoint"))["content"]["progress"]["generations"].clone()
+    };
+    assert_eq!(["01-run", "02-feel", "03-jump"].map(generations), [json!(14), json!(13), json!(13)]);
+    // The run's champion is that of the last stage, and each stage's is proved like any other.
+    let champion = |path: &Path| json(&path.join("champion.json"))["content"].clone();
+    assert_eq!(champion(&run_folder), champion(&run_folder.join("stages/03-jump")));
+    for leg in ["", "stages/01-run", "stages/02-feel"] {
+        assert_says(&succeed(gambol("verify").arg(run_folder.join(leg).join("champion.json"))), &["identical: "]);
+    }
+    // A stage is a run: its report can be made, and the run's own shows all stages.
+    succeed(gambol("report").arg(run_folder.join("stages/02-feel")));
+    succeed(gambol("report").arg(&run_folder));
+    let page = fs::read_to_string(run_folder.join("report.html"))?;
+    assert_says(
+        &page,
+        &[
+            "\"stages\":[{\"number\":1,\"name\":\"run\",\"first_generation\":1,\"last_generation\":14",
+            "\"first_generation\":15,\"last_generation\":27",
+        ],
+    );
+    // With more generations the last stage goes on.
+    succeed(gambol("resume").arg(&run_folder).args(["--generations", "45", "--no-report", "--quiet"]));
+    assert_eq!(generations("03-jump"), json!(18));
+    Ok(())
+}
+
+/// Kills the program once it has told of so many lines.
+fn kill_after(command: &mut Command, lines: usize) {
+    let mut child = command.arg("--json").stdout(Stdio::piped()).stderr(Stdio::null()).spawn().expect("it starts");
+    let output = BufReader::new(child.stdout.take().expect("a pipe"));
+    assert_eq!(output.lines().take(lines).filter(Result::is_ok).count(), lines);
+    child.kill().expect("it can be killed");
+    child.wait().expect("it was started");
+}
+
+#[test]
+fn a_run_killed_in_any_stage_and_resumed_gives_the_same_bytes() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let config = write(folder.path(), &three_stages());
+    let whole = folder.path().join("whole");
+    succeed(train(&config, &whole).args(["--threads", "1", "--quiet"]));
+    let expected = lasting(&whole);
+    assert!(expected.iter().any(|(path, _)| path.ends_with("03-jump/checkpoint")));
+    // In each stage, at its first generation and where it ends.
+    for lines in [2, 9, 14, 15, 16, 17, 24, 29, 30, 31, 36] {
+        let path = folder.path().join(format!("killed-after-{lines}"));
+        kill_after(train(&config, &path).args(["--threads", "2"]), lines);
+        succeed(gambol("resume").arg(&path).args(["--no-report", "--quiet"]));
+        let found = lasting(&path);
+        assert_eq!(found.len(), expected.len(), "after {lines} lines");
+        for ((name, found), (_, expected)) in found.iter().zip(&expected) {
+            assert!(found == expected, "{} differs after {lines} lines", name.display());
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn populations_are_sent_back() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut config = three_stages();
+    config["stages"] = json!([
+        { "name": "run", "promotion": { "generations": 4 } },
+        { "name": "feel", "changes": { "trials": { "count": 2 } }, "promotion": { "fitness": 1e9 }, "demotion": { "generations": 3 } }
+    ]);
+    config["stop"] = json!({ "generations": 12 });
+    let (config, run_folder) = (write(folder.path(), &config), folder.path().join("run"));
+    let ended = run(&mut train(&config, &run_folder));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert_eq!(legs(&run_folder), ["01-run", "02-feel", "03-run", "04-feel"]);
+    assert_says(&ended.stderr, &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); all "]);
+    Ok(())
+}
+
+#[test]
+fn neat_finds_a_topology_and_another_strategy_its_weights() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut config = three_stages();
+    config["strategy"] = json!({ "neat": { "population": 12 } });
+    config["stages"] = json!([
+        { "name": "topology", "promotion": { "generations": 8 } },
+        { "name": "weights", "changes": { "strategy": { "cma-es": { "population": 8 } } }, "promotion": { "generations": 6 } },
+        { "name": "feel", "add_sensors": ["joint-speeds"], "promotion": { "generations": 4 } }
+    ]);
+    let (config, run_folder) = (write(folder.path(), &config), folder.path().join("run"));
+    let ended = run(&mut train(&config, &run_folder));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert_says(
+        &ended.stderr,
+        &[
+            "stage 2 of 3, weights: goes on with the net of the champion of 01-topology (generation ",
+            "stage 3 of 3, feel: goes on with the population of 02-weights (generation 6); ",
+        ],
+    );
+    assert_says(&ended.stdout, &["the stage was passed"]);
+    let topology =
+        |leg: &str| json(&run_folder.join("stages").join(leg).join("config.json"))["content"]["topology"].clone();
+    assert_eq!(topology("01-topology"), Value::Null);
+    assert!(topology("02-weights").is_object() && topology("03-feel") != topology("02-weights"));
+    Ok(())
+}
+
+#[test]
+fn a_run_goes_on_from_another_run_or_a_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small_run(&path("first"), 6).arg("--quiet"));
+    let from = |source: &str, out: &str| {
+        let mut train = gambol("train");
+        train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report"]);
+        train.args(["--generations", "4", "--from"]).arg(path(source)).arg("--out").arg(path(out));
+        train
+    };
+    succeed(from("first", "second").arg("--quiet"));
+    assert_says(&succeed(gambol("verify").arg(path("second/champion.json"))), &["identical: "]);
+    let origin = json(&path("second/config.json"))["content"]["origin"].clone();
+    assert_eq!(
+        (&origin["carried"], &origin["generation"], &origin["weights_new"]),
+        (&json!("population"), &json!(6), &json!(0))
+    );
+    // The same again from the same source, and another way from the champion.
+    succeed(from("first", "again").args(["--quiet", "--threads", "1"]));
+    assert_eq!(read(&path("second/checkpoint")), read(&path("again/checkpoint")));
+    for carried in ["champion", "topology"] {
+        succeed(from("first", carried).args(["--carry", carried, "--quiet"]));
+        assert_eq!(json(&path(carried).join("config.json"))["content"]["origin"]["carried"], json!(carried));
+    }
+    succeed(from("first/champion.json", "of-a-champion").arg("--quiet"));
+    assert_eq!(json(&path("of-a-champion/config.json"))["content"]["origin"]["carried"], json!("topology"));
+    // A configuration that went on from somewhere says so.
+    let mut repeat = gambol("train");
+    repeat
+        .arg("--config")
+        .arg(path("second/config.json"))
+        .arg("--out")
+        .arg(path("repeated"))
+        .args(["--no-report", "--quiet"]);
+    assert_says(&fail(&mut repeat), &["the configuration goes on from ", "--from "]);
+    succeed(repeat.arg("--from").arg(path("first")));
+    assert_eq!(read(&path("second/checkpoint")), read(&path("repeated/checkpoint")));
+    Ok(())
+}
+
+#[test]
+fn what_cannot_be_carried_is_said_before_training() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small_run(&path("first"), 3).arg("--quiet"));
+    let from = |arguments: &[&str]| {
+        let mut train = gambol("train");
+        train.args(arguments).args(["--generations", "2", "--no-report", "--quiet", "--from"]).arg(path("first"));
+        train.arg("--out").arg(path("second"));
+        let message = fail(&mut train);
+        assert!(!path("second").exists());
+        message
+    };
+    assert_says(
+        &from(&["apod", "running"]),
+        &["what was learned with it would be lost; keep it, or allow it with --forget"],
+    );
+    assert_says(&from(&["biped-1", "running", "--strategy", "neat"]), &["NEAT goes on from a population of its own"]);
+    assert_says(
+        &from(&["biped-1", "running", "--strategy", "ga", "--carry", "population"]),
+        &["a population of cma-es is none of conventional"],
+    );
+    assert_says(&from(&["biped-1", "running", "--carry", "champoin"]), &["did you mean \"champion\"?"]);
+    let mut missing = gambol("train");
+    missing.args(["biped-1", "running", "--from"]).arg(path("nowhere")).arg("--out").arg(path("second"));
+    assert_says(&fail(&mut missing), &[text(&path("nowhere"))]);
+    // Stages are checked before anything is written, too.
+    let mut config = three_stages();
+    config["stages"][1]["promotion"] = json!({ "measurement": { "name": "joy", "at_least": 1 } });
+    let message = fail(train(&write(folder.path(), &config), &path("second")).arg("--quiet"));
+    assert_says(
+        &message,
+        &["stages[1] (\"feel\"): promotion.measurement.name = \"joy\": must be one of those there are: "],
+    );
+    assert!(!path("second").exists());
+    Ok(())
+}
