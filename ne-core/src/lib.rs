@@ -9,7 +9,7 @@
 //! | [`Task`] | scores a phenotype |
 //! | [`Selector`] | picks parents by their scores |
 //! | [`Strategy`] | asks for evaluations of genomes, is told their results |
-//! | `Evaluator` | spreads evaluations over threads |
+//! | `Evaluator` | spreads evaluations over threads, or saves them for the promising |
 //! | `Observer` | is told of each generation |
 //! | `Jury` | judges the best of all generations in one world |
 //!
@@ -133,7 +133,7 @@ pub use task::Task;
 #[cfg(feature = "evolution")]
 pub use checkpoint::{CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Checkpoint};
 #[cfg(feature = "evolution")]
-pub use evaluator::{Evaluator, Serial};
+pub use evaluator::{Evaluator, Heat, Heats, Serial};
 #[cfg(feature = "parallel")]
 pub use evaluator::{Parallel, ThreadsError};
 #[cfg(feature = "evolution")]

@@ -1,4 +1,6 @@
+mod heats;
 mod serial;
+pub use heats::{Heat, Heats};
 pub use serial::Serial;
 
 #[cfg(feature = "parallel")]
@@ -10,11 +12,21 @@ use crate::{Evaluation, Failure, Genome, Seed, Task};
 
 /// Spreads the evaluations of a generation over whatever there is: this thread, several threads, machines later.
 ///
-/// An implementor owes: one evaluation for each genome, in order, each to the bit what
-/// [`Task::evaluate`] gives for that genome's phenotype and this seed.
+/// An implementor owes:
+/// - one evaluation for each genome, in order, the same whatever it is spread over;
+/// - each is to the bit what [`Task::evaluate`] gives for that genome's phenotype and this seed, or, for one that
+///   [saves the whole evaluation](Heats) for the promising, a cheaper one, which then ranks below all that are whole and
+///   have not failed. Whoever was evaluated whole differs from what the task gives in nothing but the steps, which are all
+///   that were spent on it.
 pub trait Evaluator {
     /// Evaluates every genome of a generation.
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation>;
+}
+
+impl<E: Evaluator> Evaluator for &E {
+    fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
+        (**self).evaluate(task, genomes, seed)
+    }
 }
 
 /// Expresses a few genomes and evaluates them as one batch; a batch with too many or too few evaluations has failed.

@@ -4,6 +4,7 @@
 mod champion;
 #[path = "../common/mod.rs"]
 mod common;
+mod heats;
 mod jury;
 mod observers;
 mod resuming;

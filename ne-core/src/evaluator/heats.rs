@@ -1,0 +1,210 @@
+use super::Evaluator;
+use crate::{Evaluation, Failure, Fitness, Genome, Seed, Task};
+use std::{cmp::Reverse, fmt};
+
+/// Spends the whole evaluation on the promising: everybody is evaluated on a cheaper task first, and only the best go on
+/// to the next heat, or to the task itself.
+///
+/// This is successive halving (Karnin, Koren & Somekh 2013; Jamieson & Talwalkar 2016) within a generation, with a share
+/// and a task of your own for each heat.
+///
+/// - Whoever reaches the end has the evaluation that the inner evaluator gives.
+/// - Whoever is left behind keeps the evaluation of the last heat it ran. If the best of those left behind in a heat has
+///   not less fitness than the lowest of those who went on, the fitness of all who were left behind there is lowered by
+///   the same amount, so that it has. Their order stays, and so do their differences, as far as `f64` can tell. Only the
+///   fitness is lowered, not objectives or measurements.
+/// - A failed evaluation ranks lowest, and of equals the first goes on first.
+/// - If all who went on have failed, as many of the next in rank go on too, until somebody succeeds or everybody has been
+///   evaluated whole. So the best of a generation is never one who was left behind.
+/// - The steps of an evaluation are those of all the heats its individual ran.
+///
+/// Without heats it is the inner evaluator.
+#[derive(Debug)]
+pub struct Heats<E> {
+    inner: E,
+    heats: Vec<Heat>,
+}
+
+/// A cheaper evaluation that comes before the whole one.
+pub struct Heat {
+    /// What is evaluated in this heat, for phenotypes of the same shape.
+    pub task: Box<dyn Task>,
+    /// The share of those who ran this heat that goes on, above 0 and below 1; rounded up, and at least one.
+    pub share: f64,
+}
+
+impl fmt::Debug for Heat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Heat").field("share", &self.share).finish_non_exhaustive()
+    }
+}
+
+impl<E> Heats<E> {
+    /// Evaluates in these heats, the first one first. Shares are used as they are.
+    pub fn new(inner: E, heats: Vec<Heat>) -> Self {
+        Self { inner, heats }
+    }
+}
+
+impl<E: Evaluator> Evaluator for Heats<E> {
+    fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
+        self.evaluate_from(&self.heats, task, genomes, seed)
+    }
+}
+
+impl<E: Evaluator> Heats<E> {
+    /// Evaluates these genomes in these heats and, those who get so far, on the task. Either one of them succeeds there,
+    /// or all have failed there.
+    fn evaluate_from<G: Genome>(&self, heats: &[Heat], task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
+        let Some((heat, later)) = heats.split_first() else { return self.inner.evaluate(task, genomes, seed) };
+        let mut evaluations = self.inner.evaluate(&*heat.task, genomes, seed);
+        if evaluations.len() != genomes.len() {
+            // Nobody can say which belongs to whom; whoever asked sees that some are missing.
+            return Vec::new();
+        }
+        let (ranking, places) = (ranking(&evaluations), places(heat.share, genomes.len()));
+        let mut behind = &ranking[..];
+        let mut lowest = None;
+        while lowest.is_none() && !behind.is_empty() {
+            let (group, next) = behind.split_at(places.min(behind.len()));
+            behind = next;
+            // In the order of the generation again, so that of equals the first goes on first in the next heat too.
+            let mut group = group.to_vec();
+            group.sort_unstable();
+            let promoted: Vec<G> = group.iter().map(|&index| genomes[index].clone()).collect();
+            let further = self.evaluate_from(later, task, &promoted, seed);
+            if further.len() != group.len() {
+                return Vec::new();
+            }
+            lowest = further.iter().filter_map(Evaluation::fitness).min();
+            for (&index, evaluation) in group.iter().zip(further) {
+                let steps = evaluations[index].steps + evaluation.steps;
+                evaluations[index] = evaluation.with_steps(steps);
+            }
+        }
+        if let Some(lowest) = lowest {
+            put_below(lowest, behind, &mut evaluations);
+        }
+        evaluations
+    }
+}
+
+/// How many of `count` go on: this share of them, rounded up, and at least one.
+fn places(share: f64, count: usize) -> usize {
+    // 0.07 × 100 is 7.000000000000001 in binary: 7 places, not 8.
+    let places = (share * count as f64 - 1e-9).ceil();
+    (places as usize).clamp(1, count.max(1))
+}
+
+/// The indices of all, the best first, of equals the first; failures last.
+fn ranking(evaluations: &[Evaluation]) -> Vec<usize> {
+    let mut ranking: Vec<usize> = (0..evaluations.len()).collect();
+    // A stable sort leaves equals in their order.
+    ranking.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
+    ranking
+}
+
+/// Lowers the fitness of those left behind, who are given in the order of their rank, by one constant, so that the best of
+/// them is strictly below `lowest`.
+///
+/// Where rounding would make equals of two who are not, the lower one goes down to the next number. Below the lowest number
+/// of all there is only failure.
+fn put_below(lowest: Fitness, behind: &[usize], evaluations: &mut [Evaluation]) {
+    let fitness = |index: usize| evaluations[index].fitness().map(Fitness::get);
+    let Some(best) = behind.first().and_then(|&index| fitness(index)).filter(|&best| best >= lowest.get()) else {
+        return;
+    };
+    let top = lowest.get().next_down();
+    let mut above = (best, top);
+    for &index in behind {
+        // The others have failed, and are below already.
+        let Some(fitness) = evaluations[index].fitness().map(Fitness::get) else { return };
+        if fitness < above.0 {
+            // In this order the differences are exact wherever they can be, and the best comes to `top` itself.
+            let lowered = ((fitness - best) + top).max(f64::MIN);
+            above = (fitness, lowered.min(above.1.next_down()));
+        }
+        let left_behind = || Failure::Other { what: "left behind in a heat, where no number is low enough".into() };
+        evaluations[index].outcome = Fitness::new(above.1).map_err(|_| left_behind());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::{num, prelude::*};
+
+    fn fitnesses(evaluations: &[Evaluation]) -> Vec<Option<f64>> {
+        evaluations.iter().map(|evaluation| evaluation.fitness().map(Fitness::get)).collect()
+    }
+
+    fn below(lowest: f64, fitness: &[f64]) -> Vec<Option<f64>> {
+        let mut evaluations: Vec<Evaluation> = fitness.iter().map(|&fitness| Evaluation::new(fitness)).collect();
+        let ranked = ranking(&evaluations);
+        put_below(Fitness::new(lowest).expect("finite"), &ranked, &mut evaluations);
+        fitnesses(&evaluations)
+    }
+
+    #[test]
+    fn whoever_is_below_already_stays_where_it_is() {
+        assert_eq!(below(3.0, &[1.0, f64::NAN, 2.5, 1.0]), [Some(1.0), None, Some(2.5), Some(1.0)]);
+    }
+
+    #[test]
+    fn all_are_lowered_alike() {
+        let top = 2.0_f64.next_down();
+        assert_eq!(below(2.0, &[4.0, 8.0, f64::NAN, 8.0]), [Some(top - 4.0), Some(top), None, Some(top)]);
+        assert_eq!(below(2.0, &[2.0]), [Some(top)]);
+        assert_eq!(below(0.0, &[0.0, -1.0]), [Some(0.0_f64.next_down()), Some(-1.0 + 0.0_f64.next_down())]);
+    }
+
+    #[test]
+    fn the_order_survives_where_differences_do_not() {
+        // At 10¹⁵ neighbours are 0.125 apart.
+        let found = below(-1e15, &[0.3, 0.29, 0.29, 0.28]);
+        let top = (-1e15_f64).next_down();
+        assert_eq!(found, [Some(top), Some(top - 0.125), Some(top - 0.125), Some(top - 0.25)]);
+        assert_eq!(below(-1e308, &[1e308, -1e308])[1], Some(f64::MIN));
+        // Below the lowest number there is none.
+        assert_eq!(below(f64::MIN.next_up(), &[2.0, 1.0, 2.0]), [Some(f64::MIN), None, Some(f64::MIN)]);
+        assert_eq!(below(f64::MIN, &[1.0]), [None]);
+    }
+
+    #[test]
+    fn shares_are_rounded_up_and_never_nobody() {
+        for (share, count, expected) in
+            [(0.5, 10, 5), (0.5, 11, 6), (0.07, 100, 7), (0.55, 100, 55), (0.01, 3, 1), (0.99, 3, 3), (0.5, 1, 1)]
+        {
+            assert_eq!(places(share, count), expected, "{share} of {count}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn strictly_below_and_in_order_whatever_the_numbers(
+            lowest in num::f64::NORMAL | num::f64::SUBNORMAL | num::f64::ZERO,
+            left in prop::collection::vec(
+                prop_oneof![num::f64::NORMAL | num::f64::SUBNORMAL | num::f64::ZERO, (-3..3).prop_map(f64::from)], 1..12),
+        ) {
+            let found = below(lowest, &left);
+            for (old, new) in left.iter().zip(&found) {
+                prop_assert!(new.is_none_or(|new| new < lowest));
+                for (other, others) in left.iter().zip(&found) {
+                    // Those for whom no number is low enough are failures alike.
+                    prop_assert!(new.partial_cmp(others) == old.partial_cmp(other) || (*new, *others) == (None, None));
+                }
+            }
+            // Room there is for all but the most extreme.
+            prop_assert!(lowest < -1e300 || found.iter().all(Option::is_some));
+        }
+
+        #[test]
+        fn differences_are_kept(lowest in -100.0..100.0_f64, left in prop::collection::vec(-100.0..100.0_f64, 1..12)) {
+            let found = below(lowest, &left);
+            for (old, new) in left.iter().zip(&found) {
+                let (first, firsts) = (left[0], found[0].expect("room"));
+                prop_assert!(((new.expect("room") - firsts) - (old - first)).abs() < 1e-12);
+            }
+        }
+    }
+}
