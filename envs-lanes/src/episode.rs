@@ -71,6 +71,13 @@ impl LaneEpisode {
     pub fn shortened(&self, steps: u32) -> Self {
         Self { steps: self.steps.min(steps).max(1), ..self.clone() }
     }
+
+    /// The same episodes, with the first `count` trials of an evaluation alone, and at least 1.
+    #[must_use]
+    pub fn with_fewer_trials(&self, count: u32) -> Self {
+        let trials = Trials { count: self.trials.count.min(count).max(1), ..self.trials };
+        Self { trials, ..self.clone() }
+    }
 }
 
 impl Task for LaneEpisode {

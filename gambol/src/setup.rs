@@ -1,7 +1,7 @@
 //! From a configuration to the things a run is made of.
 
 use crate::{
-    config::{ControllerSettings, EngineChoice, FrozenTopology, RunConfig, StrategySettings},
+    config::{ControllerSettings, EngineChoice, FrozenTopology, HeatSettings, RunConfig, StrategySettings},
     gait::Stage,
     limbs::{self, Limbs},
     shaping, suggest,
@@ -9,7 +9,7 @@ use crate::{
 use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
-use ne_core::{Seed, SettingError};
+use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
 
@@ -20,6 +20,8 @@ pub use crate::{nominal::Nominal, training_task::TrainingTask};
 pub struct Setup {
     /// The task of training.
     pub task: TrainingTask,
+    /// What comes before it.
+    heats: Vec<HeatSettings>,
     /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
     /// Where the champion is chosen, if training varies the world.
@@ -218,7 +220,17 @@ impl Setup {
             Some(steps) => task.shortened(steps),
             None => task,
         };
-        Ok(Self { task, episode, nominal, topology, weight_names, unit })
+        HeatSettings::validate(&config.heats, task.steps(), config.trials.count)?;
+        Ok(Self { task, heats: config.heats.clone(), episode, nominal, topology, weight_names, unit })
+    }
+
+    /// The heats that come before the task of training, the first one first.
+    pub fn heats(&self) -> Vec<Heat> {
+        let heat = |&HeatSettings { steps, trials, share }: &HeatSettings| {
+            let task = self.task.shortened(steps.unwrap_or(u32::MAX));
+            Heat { task: Box::new(task.with_fewer_trials(trials.unwrap_or(u32::MAX))), share }
+        };
+        self.heats.iter().map(heat).collect()
     }
 
     /// What each input of the controller is.

@@ -10,7 +10,7 @@ use crate::{
     setup::{Setup, SetupError},
 };
 use ne_core::{
-    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Moment, Observer, Parallel, Progress,
+    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel, Progress,
     Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
 use ne_net::Network;
@@ -346,7 +346,8 @@ where
     }
     let ended = {
         let mut observers: [Box<dyn Observer<S> + '_>; 1] = [Box::new(&mut recorder)];
-        evolution.run(&setup.task, &*evaluator, &mut observers)
+        // The jury evaluates its finalists without heats: all of them are promising.
+        evolution.run(&setup.task, &Heats::new(&*evaluator, setup.heats()), &mut observers)
     };
     let progress = evolution.progress();
     let reason = ended.map_err(|source| TrainError::BrokeOff {

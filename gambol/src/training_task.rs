@@ -31,6 +31,23 @@ impl TrainingTask {
         }
     }
 
+    /// The same episodes, with the first `count` trials of an evaluation alone, and at least 1.
+    #[must_use]
+    pub fn with_fewer_trials(&self, count: u32) -> Self {
+        match self {
+            Self::Rapier(episode) => Self::Rapier(Box::new(episode.with_fewer_trials(count))),
+            Self::Lanes(episode) => Self::Lanes(Box::new(episode.with_fewer_trials(count))),
+        }
+    }
+
+    /// The longest an episode lasts, in steps.
+    pub fn steps(&self) -> u32 {
+        match self {
+            Self::Rapier(episode) => episode.steps(),
+            Self::Lanes(episode) => episode.steps(),
+        }
+    }
+
     fn task(&self) -> &dyn Task {
         match self {
             Self::Rapier(episode) => &**episode,

@@ -91,6 +91,13 @@ impl<E: Environment> Episode<E> {
         Self { steps: self.steps.min(steps).max(1), ..self.clone() }
     }
 
+    /// The same episodes, with the first `count` trials of an evaluation alone, and at least 1.
+    #[must_use]
+    pub fn with_fewer_trials(&self, count: u32) -> Self {
+        let trials = Trials { count: self.trials.count.min(count).max(1), ..self.trials };
+        Self { trials, ..self.clone() }
+    }
+
     /// Plays one trial under the eyes of a watcher: exactly what an evaluation does. A phenotype of another shape fails
     /// before the first step.
     pub fn play(&self, phenotype: &mut dyn Phenotype, seed: Seed, watcher: &mut impl Watcher) -> Played {

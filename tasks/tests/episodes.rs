@@ -95,6 +95,18 @@ fn trials_are_different_and_become_their_mean_or_their_worst() {
     assert!((worst.measurements["start-place"] - fitness(&mean)).abs() < 1e-12);
 }
 
+#[test]
+fn fewer_trials_are_the_first_ones() {
+    let evaluate = |count, fewer: u32| {
+        let trials = Trials { count, combine: Combine::Worst };
+        let whole = episode(PointMass::varied(1.0, 1e6), StartPlace::default(), 3, trials);
+        whole.with_fewer_trials(fewer).evaluate(&mut Constant(0.0), SEED)
+    };
+    for (fewer, count) in [(0, 1), (1, 1), (3, 3), (5, 5), (9, 5)] {
+        assert_eq!(evaluate(5, fewer), evaluate(count, count), "{fewer} of 5");
+    }
+}
+
 /// Ends the episode beyond a place.
 #[derive(Clone)]
 struct Until(f32, Running);

@@ -6,7 +6,9 @@ use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::{Instructions, LaneEpisode};
 use ne_core::{Evaluation, Phenotype, Seed, Task};
 use ne_net::DenseNet;
-use tasks::{Combine, Energy, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials};
+use tasks::{
+    Combine, Energy, Environment, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials,
+};
 
 fn movement() -> Box<dyn Movement> {
     let all = Sum::of(Running::default()).plus(-1e-4, Energy::default()).plus(0.5, Jumping::default());
@@ -61,5 +63,23 @@ fn neither_neighbours_nor_instructions_change_a_bit() {
             let found: Vec<Evaluation> = nets.chunks_mut(size).flat_map(|nets| batch(&task, nets, seed)).collect();
             assert_eq!(found, alone, "batches of {size}, {instructions}");
         }
+    }
+}
+
+#[test]
+fn fewer_trials_and_steps_are_the_first_ones() {
+    let blueprint = shipped("biped-1");
+    let sensors = blueprint.creature().sensors.clone();
+    let (_, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), Variation::light());
+    let task = |steps, count| {
+        let trials = Trials { count, combine: Combine::Worst };
+        LaneEpisode::new(lanes.clone(), movement(), steps, trials).expect("valid")
+    };
+    let mut nets = nets(lanes.inputs(), lanes.outputs(), 5);
+    let mut evaluate = |task: &LaneEpisode| batch(task, &mut nets, Seed::of_run(4));
+    let whole = task(60, 4);
+    for (fewer, count) in [(0, 1), (1, 1), (3, 3), (4, 4), (9, 4)] {
+        let cheaper = whole.shortened(20).with_fewer_trials(fewer);
+        assert_eq!(evaluate(&cheaper), evaluate(&task(20, count)), "{fewer} of 4 trials");
     }
 }

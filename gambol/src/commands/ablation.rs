@@ -2,7 +2,7 @@
 
 use creatures::{Actuation, Sensor};
 use envs_rapier::Variation;
-use gambol::config::{LimbPhases, RunConfig, StrategySettings, strategy};
+use gambol::config::{HeatSettings, LimbPhases, RunConfig, StrategySettings, strategy};
 use ne_net::Activation;
 
 /// A change to a configuration.
@@ -62,6 +62,8 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
     Variant { name: "no terms at all", change: |config| config.movement.terms.clear() },
     Variant { name: "whole episodes in training", change: |config| config.rehearsal = config.movement.steps },
+    Variant { name: "a heat of half the steps", change: |config| run_heats(config, &[2]) },
+    Variant { name: "heats of a quarter and half the steps", change: |config| run_heats(config, &[4, 2]) },
     Variant { name: "no variation", change: |config| config.variation = Variation::default() },
     Variant { name: "strong variation", change: |config| config.variation = Variation::strong() },
     Variant { name: "population 16", change: |config| config.strategy.set_population(16) },
@@ -83,6 +85,13 @@ fn keep_sensors(config: &mut RunConfig, keep: fn(&Sensor) -> bool) {
 
 fn drop_term(config: &mut RunConfig, name: &str) {
     config.movement.terms.retain(|term| term.term != name);
+}
+
+/// Heats that are so many times shorter than training; half of those who ran one go on.
+fn run_heats(config: &mut RunConfig, shorter: &[u32]) {
+    let Some(steps) = config.rehearsal.or(config.movement.steps) else { return };
+    let heat = |times: &u32| HeatSettings { steps: Some((steps / times).max(1)), trials: None, share: 0.5 };
+    config.heats = shorter.iter().map(heat).collect();
 }
 
 fn search_with(config: &mut RunConfig, name: &str) {

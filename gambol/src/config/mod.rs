@@ -3,12 +3,14 @@
 mod assembly;
 mod coaching;
 mod engine;
+mod heats;
 mod presets;
 mod request;
 mod strategy;
 
 pub use assembly::{Assembly, ConfigError};
 pub use engine::EngineChoice;
+pub use heats::HeatSettings;
 pub use presets::{PRESETS, Preset, VARIATIONS, preset, variation};
 pub use request::{Request, RequestError};
 pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
@@ -45,6 +47,10 @@ pub struct RunConfig {
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
     #[serde(default)]
     pub rehearsal: Option<u32>,
+    /// Cheaper evaluations before that of training, the first one first: after each only the best share goes on. At most
+    /// 8; none, the default: everybody has the evaluation of training.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub heats: Vec<HeatSettings>,
     /// What steps the creatures in training.
     #[serde(default = "EngineChoice::of_old")]
     pub engine: EngineChoice,

@@ -82,6 +82,7 @@ impl Preset {
             trials: Trials::default(),
             variation: (self.variation)(),
             rehearsal: None,
+            heats: Vec::new(),
             engine: EngineChoice::Lanes,
             strategy: (self.strategy)(),
             controller: ControllerSettings {

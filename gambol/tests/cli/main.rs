@@ -14,6 +14,7 @@ mod engines;
 mod folder;
 mod full_disk;
 mod gait;
+mod heats;
 mod help;
 mod interrupted;
 mod jury;
