@@ -246,7 +246,7 @@ proptest! {
     fn threads_change_nothing((shares, entrants) in field()) {
         let serial = evaluate(Serial, &shares, &entrants);
         for threads in [1, 2, 3] {
-            prop_assert_eq!(&evaluate(&Parallel::new(threads).expect("threads start"), &shares, &entrants), &serial);
+            prop_assert_eq!(&evaluate(Parallel::new(threads).expect("threads start"), &shares, &entrants), &serial);
         }
     }
 
