@@ -10,8 +10,8 @@ use crate::{
     setup::{Setup, SetupError},
 };
 use ne_core::{
-    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel, Progress,
-    Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
+    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel,
+    Progress, Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
 };
 use ne_net::Network;
 use std::{path::Path, sync::Arc};

@@ -3,7 +3,7 @@ use super::{
     carry::{CarryError, Manner, check_planned},
 };
 use crate::{
-    config::{Assembly, ConfigError, RunConfig, preset},
+    config::{Assembly, ConfigError, RunConfig, preset, strategy},
     setup::{Setup, SetupError},
 };
 use creatures::Sensor;
@@ -141,6 +141,11 @@ fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, St
         // Null first: a movement is merged, and terms of the old one must not stay.
         assembly.lay_over(json!({ "movement": null, "rehearsal": fresh.rehearsal }));
         assembly.lay_over(json!({ "movement": fresh.movement }));
+    }
+    let chosen = settings.changes.get("strategy").and_then(Value::as_object).and_then(|choice| choice.keys().next());
+    if let Some(entry) = chosen.and_then(|name| strategy(name)).filter(|entry| entry.name != before.strategy.name()) {
+        // Another strategy begins with its own defaults.
+        assembly.lay_over(json!({ "strategy": (entry.settings)() }));
     }
     if settings.changes.contains_key("terrain") {
         // A terrain is chosen as a whole: the one before must not shine through.
