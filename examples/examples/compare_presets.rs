@@ -91,7 +91,7 @@ fn best(
     // What counts is how far or high it gets in rapier in an episode of the usual length, whatever it was trained for:
     // presets differ in their terms and in the length of their episodes.
     let Ok(champion) = Champion::read(&folder.champion()) else { return Ok(f64::NEG_INFINITY) };
-    let plain = MovementSpec { name: movement.into(), steps: None, terms: Vec::new() };
+    let plain = MovementSpec::new(movement);
     let parts = EpisodeParts { movement: &plain, ..champion.episode_parts() };
     let episode = parts.nominal().build(&MovementCatalogue::default())?;
     let evaluation = episode.evaluate(&mut champion.network.clone(), Seed::of_run(seed));

@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut config = preset("default").ok_or("there is a default preset")?.config(creature, "running");
     config.movement.steps = Some(500);
     // A lamp whose shade touches the ground has fallen: its episode ends, and it gets as far as it got.
-    config.movement.terms = vec![TermSpec { term: "fall-ends".into(), weight: -1.0 }];
+    config.movement.terms = vec![TermSpec::new("fall-ends", -1.0)];
     config.stop.generations = Some(40);
 
     let setup = Setup::new(&config, &catalogue)?;

@@ -12,6 +12,7 @@
 //! | [`search`] | the strategies a configuration can name |
 //! | [`training`] | train, resume |
 //! | [`shaping`] | train in stages, go on from what was learned |
+//! | [`lesson`] | train, report and verify in one call |
 //! | [`run_folder`] | which file is what |
 //! | [`compare`] | strategies against each other, with paired seeds |
 //! | [`champion`] | the saved champion; verifying it |
@@ -52,6 +53,7 @@ pub mod config;
 pub mod dot;
 pub mod gait;
 mod jury;
+pub mod lesson;
 mod limbs;
 mod lines;
 mod nominal;

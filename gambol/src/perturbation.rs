@@ -71,7 +71,7 @@ pub(crate) mod tests {
             creature: &creatures::find(creature).expect("shipped"),
             sensors: None,
             input_range: DEFAULT_INPUT_RANGE,
-            movement: &MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
+            movement: &MovementSpec::new(movement),
             trials: Trials::default(),
             variation: Variation::default(),
             physics: PhysicsSettings::default(),

@@ -90,7 +90,7 @@ pub enum RobustnessError {
     #[error(transparent)]
     Setting(#[from] SettingError),
     /// There is no telling what is usable.
-    #[error("the movement \"{movement}\" is not judged: only running and jumping are")]
+    #[error("the movement \"{movement}\" is not judged: only {} are", Kind::JUDGED.join(", "))]
     NotJudged {
         /// Its name.
         movement: String,
@@ -146,7 +146,7 @@ fn is_usable(report: &GaitReport) -> bool {
 /// What the movement is about, m.
 fn progress(kind: Kind, report: &GaitReport) -> f64 {
     match kind {
-        Kind::Running => report.travel.distance,
+        Kind::Running | Kind::Backwards => report.travel.distance,
         Kind::Jumping => report.aloft.highest.unwrap_or(0.0),
     }
 }

@@ -11,7 +11,7 @@ use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
-use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials};
+use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials, gait::Kind};
 
 pub use crate::{nominal::Nominal, training_task::TrainingTask};
 
@@ -41,7 +41,7 @@ pub enum SetupError {
     /// The creature is not valid.
     #[error("creature: {0}")]
     Creature(#[from] CreatureError),
-    /// The movement is unknown or its terms are.
+    /// The movement is unknown or its terms are, or their settings are wrong.
     #[error("movement.{}", with_nearest(.0))]
     Movement(#[from] MovementSpecError),
     /// A setting is out of range.
@@ -62,10 +62,15 @@ pub enum SetupError {
 }
 
 fn with_nearest(error: &MovementSpecError) -> String {
-    let MovementSpecError::Unknown { name, known, .. } = error else { return error.to_string() };
-    match suggest::nearest(name, known.iter().map(String::as_str)) {
-        Some(nearest) => format!("{error}; did you mean \"{nearest}\"?"),
-        None => error.to_string(),
+    match error {
+        MovementSpecError::Unknown { name, known, .. } => {
+            match suggest::nearest(name, known.iter().map(String::as_str)) {
+                Some(nearest) => format!("{error}; did you mean \"{nearest}\"?"),
+                None => error.to_string(),
+            }
+        }
+        MovementSpecError::Settings { field, message } => format!("{field}: {}", suggest::explain(message)),
+        _ => error.to_string(),
     }
 }
 
@@ -212,8 +217,11 @@ impl Setup {
             }
         };
         if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
-            let allowed = "null where no gaits are judged during training: only those of running and jumping are, and only \
-                           in runs with a variation or a rehearsal";
+            let allowed = format!(
+                "null where no gaits are judged during training: only those of {} are, and only in runs with a variation or a \
+                 rehearsal",
+                Kind::JUDGED.join(", ")
+            );
             return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
         }
         let task = match config.rehearsal {

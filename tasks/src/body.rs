@@ -98,6 +98,15 @@ impl BodyHinge {
 }
 
 impl BodyPart {
+    /// Its longest side, m: the larger of its extents along the two axes of its own frame.
+    pub fn length(&self) -> f32 {
+        let extent = |axis: usize| {
+            let along = || self.corners.iter().map(|corner| corner[axis]);
+            along().fold(f32::NEG_INFINITY, f32::max) - along().fold(f32::INFINITY, f32::min) + 2.0 * self.radius
+        };
+        if self.corners.is_empty() { 0.0 } else { extent(0).max(extent(1)) }
+    }
+
     /// The height of its lowest point, m, when it is where `state` says.
     pub fn lowest_point(&self, state: &crate::PartState) -> f32 {
         let height = |[x, y]: &[f32; 2]| state.y + state.sin * x + state.cos * y;

@@ -1,9 +1,10 @@
 use crate::{
-    Energy, FallEnds, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement, Rollovers, Running, Sum,
-    TimeAloft, Upright, Vibration,
+    Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping, Idleness, Jumping,
+    Leap, LongJump, Movement, Rollovers, Running, Standing, Sum, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde_json::{Map, Value};
 use std::{fmt, sync::Arc};
 
 /// The movements that can be chosen by name: the built-in ones and those a program adds.
@@ -33,8 +34,14 @@ pub struct MovementEntry {
     /// How many steps its episodes last unless the settings say otherwise; `None` for a term that only makes sense
     /// beside a movement.
     pub steps: Option<u32>,
-    make: Arc<dyn Fn() -> Box<dyn Movement> + Send + Sync>,
+    make: Arc<Make>,
 }
+
+/// Makes a movement with these settings. Fields in errors are seen from the settings.
+type Make = dyn Fn(&MovementSettings) -> Result<Box<dyn Movement>, MovementSpecError> + Send + Sync;
+
+/// Settings of a movement or a term, as a configuration file has them: a JSON object.
+pub type MovementSettings = Map<String, Value>;
 
 impl fmt::Debug for MovementEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -51,6 +58,9 @@ pub struct MovementSpec {
     /// Steps an episode lasts at most; `None` means the movement's own number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<u32>,
+    /// Settings of its own; what is left out has its default.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub settings: MovementSettings,
     /// What is added to the movement's value.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub terms: Vec<TermSpec>,
@@ -65,6 +75,9 @@ pub struct TermSpec {
     /// What its value is multiplied with, in the movement's unit per the term's; finite. Default 1.
     #[serde(default = "one")]
     pub weight: f64,
+    /// Settings of its own; what is left out has its default.
+    #[serde(default, skip_serializing_if = "Map::is_empty")]
+    pub settings: MovementSettings,
 }
 
 fn one() -> f64 {
@@ -84,9 +97,43 @@ pub enum MovementSpecError {
         /// The names there are.
         known: Vec<String>,
     },
+    /// A setting is unknown, missing or of the wrong type.
+    #[error("{field}: {message}")]
+    Settings {
+        /// Where in the spec.
+        field: String,
+        /// What is wrong.
+        message: String,
+    },
     /// A number is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
+}
+
+impl MovementSpec {
+    /// A movement by its name, as it is: with the length, the settings and the terms it has by itself.
+    pub fn new(name: &str) -> Self {
+        Self { name: name.into(), steps: None, settings: Map::new(), terms: Vec::new() }
+    }
+}
+
+impl TermSpec {
+    /// A term by its name, with its weight and the settings it has by itself.
+    pub fn new(term: &str, weight: f64) -> Self {
+        Self { term: term.into(), weight, settings: Map::new() }
+    }
+}
+
+impl MovementSpecError {
+    /// The same error, with the field seen from further out: `speed` within `settings` is `settings.speed`.
+    fn within(self, parent: &str) -> Self {
+        match self {
+            Self::Setting(error) => error.within(parent).into(),
+            Self::Settings { field, message } if field.is_empty() => Self::Settings { field: parent.into(), message },
+            Self::Settings { field, message } => Self::Settings { field: format!("{parent}.{field}"), message },
+            Self::Unknown { field, name, known } => Self::Unknown { field: format!("{parent}.{field}"), name, known },
+        }
+    }
 }
 
 impl Default for MovementCatalogue {
@@ -96,13 +143,37 @@ impl Default for MovementCatalogue {
         let running = "distance the torso covers, forwards";
         let jumping = "height the torso reaches above its start";
         catalogue.add::<Running>(Some(2000), running).add::<Jumping>(Some(500), jumping);
+        catalogue.add::<LongJump>(Some(500), "distance the torso covers in its longest flight");
+        catalogue.add::<Hopping>(Some(1000), "heights of all hops on the spot, added up");
+        catalogue.add_with_settings(
+            Some(2000),
+            "distance covered at a walk; settings: speed, body lengths/s (1)",
+            Walking::new,
+        );
+        catalogue.add_with_settings(
+            Some(1000),
+            "time it stands still and upright; settings: after, s (2), from when on",
+            Standing::new,
+        );
+        catalogue.add::<Climbing>(Some(2000), "height of the ground the feet reach, and a fifth of the distance");
+        catalogue.add_with_settings(
+            Some(1000),
+            "how far a creature that starts lying is up at the end; settings: turn, degrees (180), to upright",
+            GettingUp::new,
+        );
+        catalogue.add::<Carrying>(Some(2000), "distance covered with a torso that neither tilts nor shakes");
+        catalogue.add::<Backwards>(Some(2000), "distance the torso covers, backwards");
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");
         catalogue.add::<Rollovers>(None, "how often the torso turned over; weigh it negatively");
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");
         catalogue.add::<TimeAloft>(None, "time without any part on the ground");
         catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
         catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 1.5 s; how many were not");
-        catalogue.add::<Headway>(None, "ends the episode when there is no headway for 1 s; 1 if there was none");
+        catalogue.add_with_settings(
+            None,
+            "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",
+            Headway::new,
+        );
         catalogue.add::<Honest>(None, "fails the evaluation of a body that lives on the errors of its physics");
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
@@ -126,9 +197,72 @@ impl MovementCatalogue {
         make: impl Fn() -> Box<dyn Movement> + Send + Sync + 'static,
     ) -> &mut Self {
         let sample = make();
+        let name = sample.name().to_owned();
+        let plain = move |settings: &MovementSettings| match settings.keys().next() {
+            None => Ok(make()),
+            Some(field) => {
+                let message = format!("unknown field; \"{name}\" has no settings");
+                Err(MovementSpecError::Settings { field: field.clone(), message })
+            }
+        };
+        self.insert(&*sample, steps, description, Arc::new(plain))
+    }
+
+    /// As [`add`](Self::add), for a movement with settings, which are read from the `settings` of a [`MovementSpec`] or a
+    /// [`TermSpec`]. `configure` checks them and makes the movement; the movement's default is what it is without any.
+    ///
+    /// Settings derive `Deserialize` with `#[serde(default, deny_unknown_fields)]`: a file need not say all of them, and
+    /// a misspelt one is an error. The fields of `configure`'s errors are seen from the settings.
+    ///
+    /// ```
+    /// use ne_core::SettingError;
+    /// use serde::Deserialize;
+    /// use tasks::{Movement, MovementCatalogue, MovementSpec, Snapshot, Verdict};
+    ///
+    /// #[derive(Default, Deserialize)]
+    /// #[serde(default, deny_unknown_fields)]
+    /// struct Goal { x: f64 }
+    ///
+    /// /// How far the torso is from a goal, m.
+    /// #[derive(Clone, Default)]
+    /// struct Approach { goal: f64, x: f64 }
+    /// impl Approach {
+    ///     fn new(goal: Goal) -> Result<Self, SettingError> {
+    ///         SettingError::check_range("x", goal.x, -100.0, 100.0)?;
+    ///         Ok(Self { goal: goal.x, x: 0.0 })
+    ///     }
+    /// }
+    /// impl Movement for Approach {
+    ///     fn name(&self) -> &str { "approach" }
+    ///     fn unit(&self) -> &str { "m" }
+    ///     fn begin(&mut self, start: &Snapshot) { self.x = start.torso().x.into() }
+    ///     fn observe(&mut self, now: &Snapshot) -> Verdict { self.x = now.torso().x.into(); Verdict::GoOn }
+    ///     fn value(&self) -> f64 { -(self.goal - self.x).abs() }
+    /// }
+    ///
+    /// let mut catalogue = MovementCatalogue::default();
+    /// catalogue.add_with_settings(Some(500), "how near the torso is to a goal", Approach::new);
+    /// let spec: MovementSpec = serde_json::from_str(r#"{ "name": "approach", "settings": { "x": 101 } }"#)?;
+    /// let error = catalogue.build(&spec).err().ok_or("it is too far")?;
+    /// assert_eq!(error.to_string(), "settings.x = 101: must be from -100 to 100");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn add_with_settings<M: Movement + Default + 'static, S: DeserializeOwned>(
+        &mut self,
+        steps: Option<u32>,
+        description: &str,
+        configure: impl Fn(S) -> Result<M, SettingError> + Send + Sync + 'static,
+    ) -> &mut Self {
+        let make = move |settings: &MovementSettings| -> Result<Box<dyn Movement>, MovementSpecError> {
+            Ok(Box::new(configure(parse(settings)?)?))
+        };
+        self.insert(&M::default(), steps, description, Arc::new(make))
+    }
+
+    fn insert(&mut self, sample: &dyn Movement, steps: Option<u32>, description: &str, make: Arc<Make>) -> &mut Self {
         let (name, unit) = (sample.name().to_owned(), sample.unit().to_owned());
         self.entries.retain(|entry| entry.name != name);
-        self.entries.push(MovementEntry { name, description: description.into(), unit, steps, make: Arc::new(make) });
+        self.entries.push(MovementEntry { name, description: description.into(), unit, steps, make });
         self
     }
 
@@ -145,9 +279,10 @@ impl MovementCatalogue {
     /// The movement a spec describes.
     ///
     /// # Errors
-    /// If a name is unknown or a weight is not finite; the error names the field.
+    /// If a name or a setting is unknown, a setting is of the wrong type or out of range, or a weight is not finite; the
+    /// error names the field.
     pub fn build(&self, spec: &MovementSpec) -> Result<Box<dyn Movement>, MovementSpecError> {
-        let movement = self.make("name".into(), &spec.name)?;
+        let movement = self.make("name".into(), &spec.name, &spec.settings, "settings")?;
         if spec.terms.is_empty() {
             return Ok(movement);
         }
@@ -161,7 +296,8 @@ impl MovementCatalogue {
             if earlier.into_iter().any(|name| *name == term.term) {
                 return Err(SettingError::new(field("term"), &term.term, "named once; add the weights up").into());
             }
-            sum = sum.plus_boxed(term.weight, self.make(field("term"), &term.term)?);
+            let made = self.make(field("term"), &term.term, &term.settings, &field("settings"))?;
+            sum = sum.plus_boxed(term.weight, made);
         }
         Ok(Box::new(sum))
     }
@@ -182,8 +318,15 @@ impl MovementCatalogue {
         Ok(steps)
     }
 
-    fn make(&self, field: String, name: &str) -> Result<Box<dyn Movement>, MovementSpecError> {
-        Ok((self.entry(field, name)?.make)())
+    /// The movement of this name, which stands in `field`, with its settings, which stand in `settings_field`.
+    fn make(
+        &self,
+        field: String,
+        name: &str,
+        settings: &MovementSettings,
+        settings_field: &str,
+    ) -> Result<Box<dyn Movement>, MovementSpecError> {
+        (self.entry(field, name)?.make)(settings).map_err(|error| error.within(settings_field))
     }
 
     fn entry(&self, field: String, name: &str) -> Result<&MovementEntry, MovementSpecError> {
@@ -192,4 +335,13 @@ impl MovementCatalogue {
             MovementSpecError::Unknown { field, name: name.into(), known }
         })
     }
+}
+
+/// Reads settings of their own type from what a file says.
+fn parse<S: DeserializeOwned>(settings: &MovementSettings) -> Result<S, MovementSpecError> {
+    serde_path_to_error::deserialize(&Value::Object(settings.clone())).map_err(|error| {
+        let path = error.path().to_string();
+        let field = if path == "." { String::new() } else { path };
+        MovementSpecError::Settings { field, message: error.into_inner().to_string() }
+    })
 }

@@ -46,7 +46,7 @@ mod snapshot;
 mod trials;
 
 pub use body::{Body, BodyHinge, BodyMotor, BodyPart};
-pub use catalogue::{MovementCatalogue, MovementEntry, MovementSpec, MovementSpecError, TermSpec};
+pub use catalogue::{MovementCatalogue, MovementEntry, MovementSettings, MovementSpec, MovementSpecError, TermSpec};
 pub use classic::{
     Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings, Generalization, OutputRange, PoleFitness,
     Xor, XorSettings,
@@ -54,8 +54,9 @@ pub use classic::{
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
-    Energy, FallEnds, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement, MovementClone, Rollovers, Running,
-    Sum, TimeAloft, Upright, Verdict, Vibration,
+    Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, GettingUpSettings, Headway, HeadwaySettings,
+    Honest, Hopping, Idleness, Jumping, Leap, LongJump, Movement, MovementClone, Rollovers, Running, Standing,
+    StandingSettings, Sum, TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trials};

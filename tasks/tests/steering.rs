@@ -153,7 +153,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
         assert_eq!(check_movement(&*movement), Ok(()), "{name}, unmet");
         movement.meet(&simple);
         assert_eq!(check_movement(&*movement), Ok(()), "{name}, met");
-        let spec = MovementSpec { name: name.clone(), steps: Some(10), terms: Vec::new() };
+        let spec = MovementSpec { steps: Some(10), ..MovementSpec::new(&name) };
         assert_eq!(catalogue.build(&spec).expect("it is in the catalogue").name(), name);
     }
 }
@@ -406,11 +406,7 @@ fn a_sum_passes_on_the_strictest_verdict() {
 #[test]
 fn terms_of_a_sum_meet_the_body() {
     let rests = script(3.0, |_| Pose::default());
-    let spec = |term: &str| MovementSpec {
-        name: "running".into(),
-        steps: None,
-        terms: vec![TermSpec { term: term.into(), weight: -1.0 }],
-    };
+    let spec = |term: &str| MovementSpec { terms: vec![TermSpec::new(term, -1.0)], ..MovementSpec::new("running") };
     let catalogue = MovementCatalogue::default();
     for (term, at) in [("footfalls", 1.5), ("headway", 1.0)] {
         let mut movement = catalogue.build(&spec(term)).expect("it is in the catalogue");

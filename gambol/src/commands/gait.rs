@@ -27,7 +27,8 @@ Examples:
   gambol replay champion.json --seconds 20 --trajectory gait.csv
   gambol gait gait.csv --creature biped-1 --movement running
 
-A champion is replayed in rapier, for as long as its movement is judged: 20 s of running, 5 s of jumping. A trajectory is
+A champion is replayed in rapier, for as long as its movement is judged: 20 s of running and what is judged like it, 5 s
+of jumps, 20 s of what is not judged. A trajectory is
 taken as it is; of flat ground, with gravity as on Earth. It holds no torques: what a step costs is not known, and energy
 from nowhere is not looked for.
 
@@ -40,7 +41,7 @@ pub(crate) struct Gait {
     #[arg(long, value_name = "NAME|FILE")]
     creature: Option<String>,
     /// As what a trajectory is judged [default: it is measured alone]
-    #[arg(long, value_parser = ["running", "jumping"])]
+    #[arg(long, value_parser = Kind::JUDGED)]
     movement: Option<String>,
     /// Print the report as JSON
     #[arg(long)]

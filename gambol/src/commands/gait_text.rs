@@ -1,7 +1,7 @@
 //! A gait report as text for people.
 
 use std::fmt::Write;
-use tasks::gait::{GaitReport, JointUse, LegUse};
+use tasks::gait::{GaitReport, JointUse, Kind, LegUse};
 
 /// How much of the end the footfall diagram shows, s.
 const DIAGRAM_SECONDS: f64 = 3.0;
@@ -31,7 +31,7 @@ fn line(text: &mut String, line: &str) {
 fn verdict(name: &str, report: &GaitReport) -> String {
     let mut text = String::new();
     match &report.verdict {
-        None => line(&mut text, &format!("{name}: not judged; only running and jumping are")),
+        None => line(&mut text, &format!("{name}: not judged; only {} are", Kind::JUDGED.join(", "))),
         Some(verdict) if verdict.usable => line(&mut text, &format!("{name}: usable")),
         Some(verdict) => {
             line(&mut text, &format!("{name}: not usable:"));
@@ -57,7 +57,10 @@ fn measurements(report: &GaitReport) -> Vec<(&'static str, String)> {
     };
     let rollovers = if torso.rollovers == 1.0 { "rollover" } else { "rollovers" };
     let mut rows = vec![
-        ("distance", format!("{:.2} m in {:.2} s", travel.distance, report.duration)),
+        (
+            if report.kind == Some(Kind::Backwards) { "way back" } else { "distance" },
+            format!("{:.2} m in {:.2} s", travel.distance, report.duration),
+        ),
         ("speed", format!("{:.2} m/s, {:.2} body lengths/s", travel.speed, travel.relative_speed)),
         (
             "  second half",
@@ -155,10 +158,7 @@ fn footfalls(report: &GaitReport) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use tasks::{
-        Body, BodyPart, PartState, Snapshot,
-        gait::{Kind, Trajectory},
-    };
+    use tasks::{Body, BodyPart, PartState, Snapshot, gait::Trajectory};
 
     /// A lone foot that stands in every other 0.2 s.
     fn report() -> GaitReport {

@@ -12,7 +12,9 @@ use tasks::TermSpec;
 pub(super) fn equip(config: &mut RunConfig) {
     let movement = Movement::of(&config.movement.name);
     let blueprint = Blueprint::new(config.creature.clone()).ok();
-    let legs = blueprint.filter(|blueprint| !blueprint.is_legless()).map_or(0, |blueprint| blueprint.legs().len());
+    // Who lies on its back has legs all the same.
+    let on_legs = |blueprint: &Blueprint| movement == Movement::GettingUp || !blueprint.is_legless();
+    let legs = blueprint.filter(on_legs).map_or(0, |blueprint| blueprint.legs().len());
     let legless = legs == 0;
     let controller = &mut config.controller;
     controller.hidden = vec![4];
@@ -33,52 +35,69 @@ pub(super) fn equip(config: &mut RunConfig) {
 /// What is known of a movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Movement {
+    /// Running, and what gets ahead like it.
     Running,
+    Backwards,
+    /// At a speed that is a setting.
+    Walking,
     Jumping,
+    LongJump,
+    Hopping,
+    Standing,
+    GettingUp,
+    /// Somebody else's.
     Other,
 }
 
 impl Movement {
     fn of(name: &str) -> Self {
         match name {
-            "running" => Self::Running,
+            "running" | "climbing" | "carrying" => Self::Running,
+            "backwards" => Self::Backwards,
+            "walking" => Self::Walking,
             "jumping" => Self::Jumping,
+            "long-jump" => Self::LongJump,
+            "hopping" => Self::Hopping,
+            "standing" => Self::Standing,
+            "getting-up" => Self::GettingUp,
             _ => Self::Other,
         }
+    }
+
+    /// Whether it is about getting off the ground.
+    fn leaps(self) -> bool {
+        matches!(self, Self::Jumping | Self::LongJump | Self::Hopping)
     }
 
     /// Of the motors' angle law, 1/s: strides swing, waves and the leap of a biped must follow closely, and many legs that
     /// snap at once tear at their joints.
     fn gain(self, legs: usize) -> f32 {
-        match (self, legs) {
+        match (self.leaps(), legs) {
             (_, 0) => 20.0,
-            (Self::Jumping, 1..=2) => 20.0,
-            (Self::Jumping, _) => 15.0,
-            (Self::Running | Self::Other, _) => 10.0,
+            (true, 1..=2) => 20.0,
+            (true, _) => 15.0,
+            (false, _) => 10.0,
         }
     }
 
     /// Many legs leap together; of two, one goes forwards and one backwards, and closing them lifts the body.
     fn phases(self, legs: usize) -> LimbPhases {
-        match self {
-            Self::Jumping if legs > 2 => LimbPhases::Together,
-            Self::Running | Self::Jumping | Self::Other => LimbPhases::Alternating,
-        }
+        if self.leaps() && legs > 2 { LimbPhases::Together } else { LimbPhases::Alternating }
     }
 
-    /// A stride, and a leap with its run-up, s.
+    /// A stride or a hop, and a leap with its run-up, s.
     fn period(self) -> f32 {
-        match self {
-            Self::Running | Self::Other => 0.5,
-            Self::Jumping => 1.0,
-        }
+        if matches!(self, Self::Jumping | Self::LongJump) { 1.0 } else { 0.5 }
     }
 
-    /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s and 2 s for a jump.
+    /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s and 2 s for a jump,
+    /// which is long enough for a run-up; 10 s and 4 to 6 s for what is to last.
     fn steps(self) -> Option<(u32, u32)> {
         match self {
-            Self::Running => Some((1000, 500)),
-            Self::Jumping => Some((250, 100)),
+            Self::Running | Self::Backwards | Self::Walking => Some((1000, 500)),
+            Self::Jumping | Self::LongJump => Some((250, 100)),
+            Self::Hopping => Some((500, 200)),
+            Self::Standing | Self::GettingUp => Some((500, 300)),
             Self::Other => None,
         }
     }
@@ -86,16 +105,27 @@ impl Movement {
     fn terms(self, legless: bool) -> Vec<TermSpec> {
         let terms: &[(&str, f64)] = match self {
             // What ends an episode is charged for by the distance it then cannot cover.
-            Self::Running if legless => {
+            Self::Running | Self::Backwards if legless => {
                 &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)]
             }
-            Self::Running => {
+            Self::Running | Self::Backwards => {
                 &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("footfalls", 0.0), ("vibration", -0.2)]
             }
+            // Headway would ask for a speed of its own.
+            Self::Walking if legless => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
+            Self::Walking => &[("honest", 0.0), ("upright", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
             Self::Jumping => &[("honest", 0.0), ("leap", 2.0), ("vibration", -0.02)],
+            Self::LongJump => &[("honest", 0.0), ("leap", 1.0), ("vibration", -0.02)],
+            Self::Hopping => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)],
+            Self::Standing => &[("honest", 0.0), ("vibration", -0.1)],
+            Self::GettingUp => &[("honest", 0.0), ("vibration", -0.01)],
             Self::Other => &[],
         };
-        terms.iter().map(|&(term, weight)| TermSpec { term: term.into(), weight }).collect()
+        let mut terms: Vec<_> = terms.iter().map(|&(term, weight)| TermSpec::new(term, weight)).collect();
+        if let Some(headway) = terms.iter_mut().find(|term| self == Self::Backwards && term.term == "headway") {
+            headway.settings.insert("backwards".into(), true.into());
+        }
+        terms
     }
 }
 

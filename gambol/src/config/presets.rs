@@ -78,7 +78,7 @@ impl Preset {
         let mut config = RunConfig {
             preset: self.name.into(),
             seed: 1,
-            movement: MovementSpec { name: movement.into(), steps: None, terms: Vec::new() },
+            movement: MovementSpec::new(movement),
             trials: Trials::default(),
             variation: (self.variation)(),
             rehearsal: None,

@@ -4,11 +4,12 @@ use creatures::{Creature, Joint, Motor, Part, Sensor, Shape};
 use ne_core::Phenotype;
 use ne_net::Topology;
 
-const EXAMPLES: [&str; 5] = [
+const EXAMPLES: [&str; 6] = [
     include_str!("../../../examples/creatures/biped-with-feet.json"),
     include_str!("../../../examples/creatures/hexapod.json"),
     include_str!("../../../examples/creatures/hopper.json"),
     include_str!("../../../examples/creatures/long-apod.json"),
+    include_str!("../../../examples/creatures/tetrapod-on-its-back.json"),
     include_str!("../../../examples/creatures/tripod.json"),
 ];
 

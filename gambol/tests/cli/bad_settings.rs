@@ -75,6 +75,10 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("heats={\"steps\":50,\"share\":0.5}",          &["heats: invalid type: map"]),
     ("movement.terms=[{\"term\":\"uprihgt\"}]",     &["movement.terms[0].term", "\"uprihgt\"", "did you mean \"upright\"?"]),
     ("sensors=[\"torso-spni\"]",                    &["sensors[0]: unknown variant", "did you mean `torso-spin`?"]),
+    ("movement.settings.speed=1",                   &["movement.settings.speed: unknown field; \"running\" has no settings"]),
+    ("movement.settings=fast",                      &["movement.settings: invalid type: string \"fast\""]),
+    ("movement.terms=[{\"term\":\"headway\",\"settings\":{\"backward\":true}}]",
+                                                    &["movement.terms[0].settings.backward: unknown field", "did you mean `backwards`?"]),
     ("preset=thesis",                               &["a preset is chosen with --preset"]),
     ("movement.terms=[{\"term\":\"energy\"},{\"term\":\"energy\"}]", &["movement.terms[1].term = energy", "named once"]),
     ("physics.time_step=0",                         &["physics.time_step = 0: must be from 0.001 to 0.05"]),
@@ -166,6 +170,21 @@ fn a_wrong_field_of_a_configuration_file_is_named_with_its_file() -> Outcome {
     for (content, says) in WHOLE_FILES {
         fs::write(&file, content)?;
         refused(&["--config", text(&file)], &[&[text(&file)], *says].concat())?;
+    }
+    Ok(())
+}
+
+#[test]
+fn a_wrong_setting_of_a_movement_is_named() -> Outcome {
+    for (movement, setting, says) in [
+        ("walking", "speed=-1", "movement.settings.speed = -1: must be from 0 to 100"),
+        ("walking", "speed=fast", "movement.settings.speed: invalid type: string \"fast\""),
+        ("walking", "spede=1", "movement.settings.spede: unknown field `spede`, expected `speed`; did you mean `speed`?"),
+        ("standing", "after=1001", "movement.settings.after = 1001: must be from 0 to 1000"),
+        ("getting-up", "turn=0", "movement.settings.turn = 0: must be from 10 to 180, or from -180 to -10"),
+    ] {
+        let setting = format!("movement.settings.{setting}");
+        refused(&["tetrapod-1", movement, "--generations", "1", "--set", &setting], &[says])?;
     }
     Ok(())
 }

@@ -1,7 +1,7 @@
 //! What a movement owes.
 
-use super::stories::{Story, stories};
-use crate::{Movement, Verdict};
+use super::stories::{Story, bodies, stories, stories_of};
+use crate::{Body, Movement, Verdict};
 use ne_core::conformance::{Promise, Violation};
 use std::collections::BTreeSet;
 
@@ -26,35 +26,52 @@ pub const CLONES: Promise =
 pub const MEASURES: Promise =
     Promise::new("movement", "measurements are finite and have the same names, once each, in every episode");
 
-/// All of them.
-pub const PROMISES: &[Promise] = &[LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES];
+/// Any body will do.
+pub const MEETS: Promise = Promise::new(
+    "movement",
+    "`meet` takes any body, changes neither name nor unit, and changes nothing when the same body is met again",
+);
 
-/// Checks a movement by showing it bodies that stand, walk, jump, spin, rock and fall.
+/// All of them.
+pub const PROMISES: &[Promise] = &[LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES, MEETS];
+
+/// Checks a movement by showing it bodies that stand, walk, jump, spin, rock and fall: first without telling it whose
+/// movement it watches, then having had it meet bodies with legs, without, and without any limbs.
 ///
 /// # Errors
 /// The first promise that is not kept; the text says in which of the episodes.
 pub fn check_movement(movement: &dyn Movement) -> Result<(), Violation> {
-    let stories = stories();
-    LABELS.check(|| labels(movement, &stories))?;
+    check_watching(movement, &stories())?;
+    for (name, body) in bodies() {
+        let stories = stories_of(&body, name);
+        let met = MEETS.check(|| meets(movement, &body, &stories))?;
+        check_watching(&*met, &stories)?;
+    }
+    Ok(())
+}
+
+/// Every promise but [`MEETS`].
+fn check_watching(movement: &dyn Movement, stories: &[Story]) -> Result<(), Violation> {
+    LABELS.check(|| labels(movement, stories))?;
     let alone = DETERMINISTIC.check(|| {
         let watch =
             || stories.iter().map(|story| watch(&mut *movement.boxed_clone(), story, Asked::EachStep)).collect();
         let (first, second): (Vec<Seen>, Vec<Seen>) = (watch(), watch());
-        each(&second, &first, &stories, "watched by another clone")?;
+        each(&second, &first, stories, "watched by another clone")?;
         Ok(first)
     })?;
     FINITE.check(|| {
-        for (seen, story) in alone.iter().zip(&stories) {
+        for (seen, story) in alone.iter().zip(stories) {
             if let Some(step) = seen.values.iter().position(|value| !value.is_finite()) {
                 return Err(format!("{} after step {step} of {}", seen.values[step], story.name));
             }
         }
         Ok(())
     })?;
-    PURE.check(|| pure(movement, &stories, &alone))?;
+    PURE.check(|| pure(movement, stories, &alone))?;
     FORGETS.check(|| {
         let mut used = movement.boxed_clone();
-        for old in &stories {
+        for old in stories {
             for (story, expected) in stories.iter().zip(&alone) {
                 watch(&mut *used, old, Asked::EachStep);
                 let what = format!("{} after {}, against alone", story.name, old.name);
@@ -63,8 +80,25 @@ pub fn check_movement(movement: &dyn Movement) -> Result<(), Violation> {
         }
         Ok(())
     })?;
-    CLONES.check(|| clones(movement, &stories, &alone))?;
-    MEASURES.check(|| measures(movement, &stories))
+    CLONES.check(|| clones(movement, stories, &alone))?;
+    MEASURES.check(|| measures(movement, stories))
+}
+
+/// A clone that has met the body.
+fn meets(movement: &dyn Movement, body: &Body, stories: &[Story]) -> Result<Box<dyn Movement>, String> {
+    let labels = |of: &dyn Movement| (of.name().to_owned(), of.unit().to_owned());
+    let mut met = movement.boxed_clone();
+    met.meet(body);
+    if labels(&*met) != labels(movement) {
+        return Err(format!("{:?} at first, {:?} afterwards", labels(movement), labels(&*met)));
+    }
+    let mut again = met.boxed_clone();
+    again.meet(body);
+    for story in stories {
+        let once = watch(&mut *met.boxed_clone(), story, Asked::EachStep);
+        watch(&mut *again.boxed_clone(), story, Asked::EachStep).same(&once, &format!("{}, twice", story.name))?;
+    }
+    Ok(met)
 }
 
 /// When the value is asked for.

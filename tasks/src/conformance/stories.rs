@@ -1,13 +1,13 @@
 //! Small trajectories, as no engine would make them, that movements are shown.
 
-use crate::{PartState, Snapshot};
+use crate::{Body, BodyHinge, BodyMotor, BodyPart, PartState, Snapshot};
 
 const STEPS: usize = 150;
 const TIME_STEP: f32 = 1.0 / 60.0;
 
 /// Snapshots of one episode; the first is the start.
 pub(super) struct Story {
-    pub(super) name: &'static str,
+    pub(super) name: String,
     pub(super) snapshots: Vec<Snapshot>,
 }
 
@@ -23,10 +23,58 @@ struct Path {
 
 /// Standing, moving, jumping, spinning and falling bodies, of one to four parts.
 pub(super) fn stories() -> Vec<Story> {
+    paths().iter().map(Path::story).collect()
+}
+
+/// The same, all of one body, with a name for it.
+pub(super) fn stories_of(body: &Body, name: &str) -> Vec<Story> {
+    let with_body = |path: Path| {
+        let Story { name: path, snapshots } = Path { parts: body.parts.len(), ..path }.story();
+        Story { name: format!("{path}, having met {name}"), snapshots }
+    };
+    paths().into_iter().map(with_body).collect()
+}
+
+/// Bodies to meet: a lonely torso, one that crawls, and one on a leg with a knee and a leg without, with names.
+pub(super) fn bodies() -> [(&'static str, Body); 3] {
+    let part = |index: usize| BodyPart {
+        name: format!("part {index}"),
+        mass: 1.0,
+        inertia: 0.01,
+        corners: vec![[-0.1, -0.2], [0.1, -0.2], [0.1, 0.2], [-0.1, 0.2]],
+        radius: 0.0,
+    };
+    let hinge = |(parent, child): (usize, usize)| BodyHinge {
+        parent,
+        child,
+        parent_anchor: [0.0, -0.2],
+        child_anchor: [0.0, 0.2],
+        start_angle: 0.0,
+        limits: [-1.0, 1.0],
+        motor: Some(BodyMotor { top_speed: 10.0, top_torque: 10.0 }),
+    };
+    let body = |parts: usize, hinges: &[(usize, usize)], legs: &[&[usize]]| Body {
+        body_length: 1.0,
+        start_height: 1.0,
+        gravity: 9.81,
+        parts: (0..parts).map(part).collect(),
+        hinges: hinges.iter().copied().map(hinge).collect(),
+        legs: legs.iter().map(|leg| leg.to_vec()).collect(),
+        legless: false,
+    };
+    let crawling = Body { legless: true, ..body(3, &[(0, 1), (1, 2)], &[&[1, 2]]) };
+    [
+        ("a torso without limbs", body(1, &[], &[])),
+        ("a body without legs", crawling),
+        ("a body with legs", body(4, &[(0, 1), (1, 2), (0, 3)], &[&[1, 2], &[3]])),
+    ]
+}
+
+fn paths() -> [Path; 9] {
     const NOTHING: fn(f32) -> f32 = |_| 0.0;
     let still = Path { name: "standing", parts: 3, x: NOTHING, y: |_| 1.0, angle: NOTHING, work: |_| 0.0 };
     let tireless = |time: f32| 5.0 * f64::from(time);
-    let paths = [
+    [
         Path { name: "walking", x: |time| 0.8 * time, work: tireless, ..still },
         Path { name: "going backwards", parts: 1, x: |time| 7.0 - 30.0 * time, ..still },
         Path { name: "jumping", parts: 4, y: |time| 1.0 + (libm::sinf(6.0 * time)).max(0.0), work: tireless, ..still },
@@ -36,13 +84,15 @@ pub(super) fn stories() -> Vec<Story> {
         Path { name: "falling", parts: 2, y: |time| (1.0 - time).max(0.0), angle: |time| time.min(1.5), ..still },
         Path { name: "flying away", x: |time| 1e4 * time, y: |time| 2.0 + 1e4 * time, ..still },
         still,
-    ];
-    paths.iter().map(Path::story).collect()
+    ]
 }
 
 impl Path {
     fn story(&self) -> Story {
-        Story { name: self.name, snapshots: (0..=STEPS).map(|step| self.snapshot(step as f32 * TIME_STEP)).collect() }
+        Story {
+            name: self.name.into(),
+            snapshots: (0..=STEPS).map(|step| self.snapshot(step as f32 * TIME_STEP)).collect(),
+        }
     }
 
     fn snapshot(&self, time: f32) -> Snapshot {

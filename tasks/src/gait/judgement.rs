@@ -5,21 +5,36 @@ use serde::{Deserialize, Serialize};
 const CLOCK_ERROR: f64 = 1e-5;
 
 /// What a gait is judged as.
+///
+/// | movement | judged as | why |
+/// |---|---|---|
+/// | `running`, `climbing`, `carrying` | running | they get ahead, upright and step by step |
+/// | `backwards` | backwards | the same, the other way |
+/// | `jumping`, `long-jump` | jumping | what gets far without getting high off all legs is a stride |
+///
+/// Others are measured and audited, and not judged: how fast a walk has to be is a setting, and hopping, standing and
+/// getting up have no rules yet that a game agrees on. Nor are movements of other crates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
     /// Getting ahead.
     Running,
+    /// Getting ahead backwards: running, with every way measured against the direction the creature faces.
+    Backwards,
     /// Getting off the ground.
     Jumping,
 }
 
 impl Kind {
-    /// How a movement of this name is judged: `running` and `jumping` are, others are not.
+    /// The movements whose gaits are judged.
+    pub const JUDGED: [&str; 6] = ["running", "jumping", "long-jump", "climbing", "carrying", "backwards"];
+
+    /// How a movement of this name is judged, if it is.
     pub fn of(movement: &str) -> Option<Self> {
         match movement {
-            "running" => Some(Self::Running),
-            "jumping" => Some(Self::Jumping),
+            "running" | "climbing" | "carrying" => Some(Self::Running),
+            "backwards" => Some(Self::Backwards),
+            "jumping" | "long-jump" => Some(Self::Jumping),
             _ => None,
         }
     }
@@ -27,7 +42,7 @@ impl Kind {
     /// How long the episode to judge must last, s. All of a longer one is judged.
     pub fn judged_seconds(self) -> f64 {
         match self {
-            Self::Running => RUNNING_SECONDS,
+            Self::Running | Self::Backwards => RUNNING_SECONDS,
             Self::Jumping => JUMPING_SECONDS,
         }
     }
@@ -39,7 +54,7 @@ impl Kind {
 /// in each quarter of the episode and in each quarter of its second half; the torso never tilts more than 90° from its
 /// start; every leg touches down and lifts off at least once every 3 s, from the start to the end (legless, or without
 /// an actuated leg: every actuated joint moves by at least 20° in the second half); no actuated joint's dominant frequency
-/// is above 5 Hz; and no cheat is flagged.
+/// is above 5 Hz; and no cheat is flagged. **Backwards** is the same, where ahead is backwards.
 ///
 /// **Jumping** is, if in one and the same flight every part is off the ground for at least 0.15 s; the torso rises at
 /// least 0.3 × its start height above its start; and all legs lose contact within 0.3 s before it (not asked of a legless
@@ -64,7 +79,7 @@ impl Judgement {
         }
         let mut best_flight = None;
         match kind {
-            Kind::Running => running(report, trajectory, &mut reasons),
+            Kind::Running | Kind::Backwards => running(report, trajectory, &mut reasons),
             Kind::Jumping => match judge_flights(report, trajectory) {
                 Ok(best) => best_flight = Some(best),
                 Err(against) => reasons.extend(against),

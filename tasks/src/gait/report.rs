@@ -14,7 +14,7 @@ pub struct GaitReport {
     /// How long a step lasted, s.
     #[serde(rename = "time_step_s")]
     pub time_step: f64,
-    /// Distance, speed and cost.
+    /// Distance, speed and cost; backwards, if it was judged as [`Kind::Backwards`].
     pub travel: Travel,
     /// The torso's turning.
     pub torso: Uprightness,
@@ -44,12 +44,20 @@ impl GaitReport {
         Ok(Self::of(&Trajectory::new(body, trajectory)?, kind))
     }
 
-    /// Measures a trajectory.
+    /// Measures a trajectory; one to be judged as [`Kind::Backwards`] with backwards as the way ahead.
     pub fn of(trajectory: &Trajectory<'_>, kind: Option<Kind>) -> Self {
+        if kind == Some(Kind::Backwards) {
+            return Self::facing(&trajectory.clone().backwards(), kind);
+        }
+        Self::facing(trajectory, kind)
+    }
+
+    /// Measures a trajectory that knows which way is ahead.
+    fn facing(trajectory: &Trajectory<'_>, kind: Option<Kind>) -> Self {
         let body = trajectory.body();
         let window = match kind {
             Some(Kind::Jumping) => 0..=trajectory.steps(),
-            Some(Kind::Running) | None => trajectory.at(0.5)..=trajectory.steps(),
+            Some(Kind::Running | Kind::Backwards) | None => trajectory.at(0.5)..=trajectory.steps(),
         };
         let spectrum = Spectrum::new(window.end() - window.start() + 1, trajectory.time_step());
         let hinges = body.hinges.iter().enumerate();

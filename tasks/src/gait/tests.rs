@@ -211,10 +211,33 @@ fn a_report_survives_a_file() {
 }
 
 #[test]
+fn a_walker_backwards_is_judged_as_one_forwards() {
+    let backwards = |step: usize| Pose { x: -Pose::walking(step).x, ..Pose::walking(step) };
+    let report_of_a_run = report(20.0, Kind::Running, Pose::walking);
+    let report_of_a_retreat = report(20.0, Kind::Backwards, backwards);
+    assert_eq!(reasons(&report_of_a_retreat), Vec::<String>::new());
+    assert_eq!(report_of_a_retreat.travel, report_of_a_run.travel);
+    assert_eq!(report_of_a_retreat.kind, Some(Kind::Backwards));
+    // Forwards is the wrong way, and so is backwards for a run.
+    for wrong in [report(20.0, Kind::Backwards, Pose::walking), report(20.0, Kind::Running, backwards)] {
+        let reasons = reasons(&wrong);
+        assert!(reasons[0].starts_with("second half: -1.00 body lengths/s") && reasons.len() == 9, "{reasons:?}");
+    }
+    // A slide is one in either direction.
+    let sliding = |step: usize| Pose { touching: [false, true, true], ..backwards(step) };
+    let cheats = report(20.0, Kind::Backwards, sliding).cheats;
+    assert_eq!(cheats.iter().map(|cheat| cheat.kind.name()).collect::<Vec<_>>(), ["friction-ratchet"]);
+}
+
+#[test]
 fn names_of_movements_tell_the_kind() {
     assert_eq!(Kind::of("running"), Some(Kind::Running));
     assert_eq!(Kind::of("jumping"), Some(Kind::Jumping));
     assert_eq!(Kind::of("time-aloft"), None);
+    assert_eq!(Kind::of("walking"), None);
+    let judged: Vec<_> = Kind::JUDGED.iter().filter_map(|movement| Kind::of(movement)).collect();
+    use Kind::{Backwards, Jumping, Running};
+    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Backwards]);
 }
 
 #[test]

@@ -21,6 +21,7 @@ pub struct Trajectory<'a> {
     hinge_angles: Vec<Vec<f64>>,
     work_known: bool,
     flat: bool,
+    backwards: bool,
 }
 
 impl<'a> Trajectory<'a> {
@@ -60,13 +61,19 @@ impl<'a> Trajectory<'a> {
         Self { flat: false, ..self }
     }
 
+    /// The same, with backwards as the way ahead.
+    #[must_use]
+    pub(super) fn backwards(self) -> Self {
+        Self { backwards: true, ..self }
+    }
+
     fn checked(body: &'a Body, snapshots: Cow<'a, [Snapshot]>, work_known: bool) -> Result<Self, GaitError> {
         let time_step = check(body, &snapshots)?;
         let mut tilts = unwrapped(snapshots.iter().map(|snapshot| angle_of(snapshot.torso())));
         let start = tilts[0];
         tilts.iter_mut().for_each(|tilt| *tilt -= start);
         let hinge_angles = body.hinges.iter().map(|hinge| angles(hinge, &snapshots)).collect();
-        Ok(Self { body, snapshots, time_step, tilts, hinge_angles, work_known, flat: true })
+        Ok(Self { body, snapshots, time_step, tilts, hinge_angles, work_known, flat: true, backwards: false })
     }
 
     /// Whose it is.
@@ -104,9 +111,10 @@ impl<'a> Trajectory<'a> {
         (libm::floor(share * self.steps() as f64) as usize).min(self.steps())
     }
 
-    /// How far forward the torso has come from one snapshot to another, m.
+    /// How far ahead the torso has come from one snapshot to another, m.
     pub(super) fn progress(&self, from: usize, to: usize) -> f64 {
-        f64::from(self.snapshots[to].torso().x) - f64::from(self.snapshots[from].torso().x)
+        let way = f64::from(self.snapshots[to].torso().x) - f64::from(self.snapshots[from].torso().x);
+        if self.backwards { -way } else { way }
     }
 
     /// How far the torso is above where it started, m.

@@ -1,7 +1,8 @@
 use super::Trajectory;
 use serde::{Deserialize, Serialize};
 
-/// How far, how fast and at what cost the torso travels. Forward is positive.
+/// How far, how fast and at what cost the torso travels. Ahead is positive: forwards, or backwards for a gait that is
+/// judged as [`Backwards`](super::Kind::Backwards).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Travel {
     /// From start to end, m.

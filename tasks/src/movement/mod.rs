@@ -1,24 +1,52 @@
 //! Movements: what is rewarded, each in a file of its own.
 
+mod backwards;
+mod carrying;
+mod climbing;
 mod energy;
 mod fall_ends;
+mod flights;
 mod footfalls;
+mod getting_up;
 mod headway;
 mod honest;
+mod hopping;
 mod idleness;
 mod jumping;
 mod leap;
+mod long_jump;
 mod rollovers;
 mod running;
+mod standing;
 mod sum;
 mod time_aloft;
 mod upright;
 mod vibration;
+mod walking;
 
 pub use {
-    energy::Energy, fall_ends::FallEnds, footfalls::Footfalls, headway::Headway, honest::Honest, idleness::Idleness,
-    jumping::Jumping, leap::Leap, rollovers::Rollovers, running::Running, sum::Sum, time_aloft::TimeAloft,
-    upright::Upright, vibration::Vibration,
+    backwards::Backwards,
+    carrying::Carrying,
+    climbing::Climbing,
+    energy::Energy,
+    fall_ends::FallEnds,
+    footfalls::Footfalls,
+    getting_up::{GettingUp, GettingUpSettings},
+    headway::{Headway, HeadwaySettings},
+    honest::Honest,
+    hopping::Hopping,
+    idleness::Idleness,
+    jumping::Jumping,
+    leap::Leap,
+    long_jump::LongJump,
+    rollovers::Rollovers,
+    running::Running,
+    standing::{Standing, StandingSettings},
+    sum::Sum,
+    time_aloft::TimeAloft,
+    upright::Upright,
+    vibration::Vibration,
+    walking::{Walking, WalkingSettings},
 };
 
 use crate::{Body, Snapshot};

@@ -5,7 +5,7 @@ use std::sync::{
     atomic::{AtomicU32, Ordering},
 };
 use tasks::{
-    Movement, Running, Snapshot, Sum, Verdict,
+    Body, Movement, Running, Snapshot, Sum, Verdict,
     conformance::{check_movement, movement::*},
 };
 
@@ -16,6 +16,9 @@ struct Flawed {
     steps: u32,
     begun: u32,
     asked: Arc<AtomicU32>,
+    met: u32,
+    /// Of the body it has met, m.
+    body_length: f64,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -36,13 +39,18 @@ enum Flaw {
     MeasuresNan,
     MeasuresAtHeightsOnly,
     Panics,
+    MeetsBodiesWithLegsOnly,
+    MeetingIsCounted,
+    MeetingGivesAName,
+    InfiniteOnceMet,
+    KeepsTheSumOnceMet,
 }
 
 static WATCHED: AtomicU32 = AtomicU32::new(0);
 
 impl Flawed {
     fn new(flaw: Flaw) -> Self {
-        Self { flaw, sum: 0.0, steps: 0, begun: 0, asked: Arc::default() }
+        Self { flaw, sum: 0.0, steps: 0, begun: 0, asked: Arc::default(), met: 0, body_length: 0.0 }
     }
 
     fn is(&self, flaw: Flaw) -> bool {
@@ -65,6 +73,7 @@ impl Movement for Flawed {
         match self.flaw {
             Flaw::NameWithSpace => "mean height",
             Flaw::NameCounts if self.begun > 0 => "mean-height-1",
+            Flaw::MeetingGivesAName if self.met > 0 => "mean-height-of-a-friend",
             _ => "mean-height",
         }
     }
@@ -73,8 +82,15 @@ impl Movement for Flawed {
         if self.is(Flaw::NoUnit) { "" } else { "m" }
     }
 
+    fn meet(&mut self, body: &Body) {
+        assert!(!(self.is(Flaw::MeetsBodiesWithLegsOnly) && body.legs.is_empty()), "on purpose");
+        self.met += 1;
+        self.body_length = body.body_length.into();
+    }
+
     fn begin(&mut self, _: &Snapshot) {
-        if !self.is(Flaw::BeginKeepsTheSum) {
+        let keeps = self.is(Flaw::BeginKeepsTheSum) || self.is(Flaw::KeepsTheSumOnceMet) && self.met > 0;
+        if !keeps {
             self.sum = 0.0;
         }
         self.steps = 0;
@@ -105,7 +121,12 @@ impl Movement for Flawed {
         let asked = if self.is(Flaw::ObserverNeedsAsking) { 0 } else { asked };
         let watched = if self.is(Flaw::CountsAllClones) { WATCHED.load(Ordering::Relaxed) } else { 0 };
         let steps = if self.is(Flaw::DividesByZeroAtFirst) { self.steps } else { self.steps.max(1) };
-        self.sum / f64::from(steps) + f64::from(asked) + f64::from(watched)
+        let met = match self.flaw {
+            Flaw::MeetingIsCounted => f64::from(self.met),
+            Flaw::InfiniteOnceMet if self.met > 0 => f64::INFINITY,
+            _ => self.body_length,
+        };
+        self.sum / f64::from(steps) + f64::from(asked) + f64::from(watched) + met
     }
 
     fn measurements(&self, tell: &mut dyn FnMut(&str, f64)) {
@@ -142,6 +163,11 @@ fn broken_movements_are_caught() {
         (MEASURES, "a sum of two of the same name", twice),
         (MEASURES, "measures NaN", check(Flaw::MeasuresNan)),
         (MEASURES, "measures at heights only", check(Flaw::MeasuresAtHeightsOnly)),
+        (MEETS, "meets bodies with legs only", check(Flaw::MeetsBodiesWithLegsOnly)),
+        (MEETS, "meeting is counted", check(Flaw::MeetingIsCounted)),
+        (MEETS, "meeting gives it a name", check(Flaw::MeetingGivesAName)),
+        (FINITE, "infinite once it has met a body", check(Flaw::InfiniteOnceMet)),
+        (FORGETS, "begin keeps the sum once it has met a body", check(Flaw::KeepsTheSumOnceMet)),
     ];
     assert_caught(&cases, PROMISES);
 }

@@ -25,7 +25,7 @@ function buildVerdict(gait) {
   const usable = gait.verdict?.usable;
   verdict.textContent = usable === undefined ? "Not judged" : usable ? "Usable" : "Not usable";
   verdict.classList.add(usable === undefined ? "verdict-none" : usable ? "verdict-good" : "verdict-bad");
-  const note = usable === undefined ? "Only running and jumping are judged." : usable ? "Nothing speaks against it, and no cheat was flagged." : "";
+  const note = usable === undefined ? "Gaits of this movement are not judged." : usable ? "Nothing speaks against it, and no cheat was flagged." : "";
   document.getElementById("gait-note").textContent = note;
   const against = usable === undefined ? gait.flagged : gait.against;
   const list = document.getElementById("gait-against");

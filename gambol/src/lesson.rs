@@ -1,0 +1,108 @@
+//! A lesson: a movement learnt from the first generation to the proof, in one call.
+
+use crate::{
+    champion::{Champion, Verification},
+    config::RunConfig,
+    report::{ReportError, write_report},
+    setup::SetupError,
+    training::{TrainError, TrainOptions, train},
+};
+use std::path::Path;
+use tasks::MovementCatalogue;
+
+/// Why a lesson came to nothing.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LessonError {
+    /// The run could not be started, or broke off.
+    #[error(transparent)]
+    Train(#[from] TrainError),
+    /// The report could not be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// The champion's task cannot be built again.
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    /// There is no champion.
+    #[error("every evaluation failed; the report in {folder} says why")]
+    NoChampion {
+        /// The run's folder.
+        folder: String,
+    },
+    /// The champion does not repeat itself, as a movement that is not deterministic makes it.
+    #[error("the champion does not repeat itself: {0:?}")]
+    NotRepeated(Verification),
+}
+
+/// Trains a configuration on all cores, writes the report into the run's folder, and verifies the champion: what `gambol
+/// train` and `gambol verify` do, for a program with movements of its own.
+///
+/// # Errors
+/// As [`train`] and [`write_report`]; and if every evaluation failed, or the champion does not do the same again.
+pub fn teach(config: &RunConfig, folder: &Path, catalogue: &MovementCatalogue) -> Result<Champion, LessonError> {
+    let options = TrainOptions {
+        threads: 0,
+        catalogue: catalogue.clone(),
+        signal: Default::default(),
+        on_generation: &mut |_| {},
+    };
+    let outcome = train(config, folder, options)?;
+    write_report(&outcome.folder, catalogue, Some(outcome.reason))?;
+    let no_champion = || LessonError::NoChampion { folder: folder.display().to_string() };
+    let champion = outcome.champion.ok_or_else(no_champion)?;
+    match champion.verify(catalogue)? {
+        verification if verification.is_identical() => Ok(champion),
+        verification => Err(LessonError::NotRepeated(verification)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::config::PRESETS;
+    use std::sync::atomic::{AtomicU32, Ordering};
+    use tasks::{Movement, Snapshot, Verdict};
+
+    /// A movement with a flaw, which is its name.
+    #[derive(Clone, Default)]
+    struct Flawed<const FAILS: bool>;
+
+    static BEGUN: AtomicU32 = AtomicU32::new(0);
+
+    impl<const FAILS: bool> Movement for Flawed<FAILS> {
+        fn name(&self) -> &str {
+            if FAILS { "failing" } else { "counting" }
+        }
+        fn unit(&self) -> &str {
+            "1"
+        }
+        fn begin(&mut self, _: &Snapshot) {
+            BEGUN.fetch_add(1, Ordering::Relaxed);
+        }
+        fn observe(&mut self, _: &Snapshot) -> Verdict {
+            if FAILS { Verdict::Fail("on purpose") } else { Verdict::GoOn }
+        }
+        fn value(&self) -> f64 {
+            BEGUN.load(Ordering::Relaxed).into()
+        }
+    }
+
+    #[test]
+    fn a_lesson_tells_why_it_came_to_nothing() -> Result<(), Box<dyn std::error::Error>> {
+        let mut catalogue = MovementCatalogue::default();
+        catalogue.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
+        let folder = tempfile::tempdir()?;
+        for (movement, says) in [
+            ("failing", "every evaluation failed; the report in"),
+            ("counting", "the champion does not repeat itself: Verification"),
+            ("nothing", "movement.name: there is no movement or term \"nothing\""),
+        ] {
+            let mut config = PRESETS[1].config(creatures::find("biped-1")?, movement);
+            config.stop.generations = Some(1);
+            let message = teach(&config, &folder.path().join(movement), &catalogue).map(|_| ()).expect_err(movement);
+            assert!(message.to_string().starts_with(says), "{message}");
+        }
+        assert!(folder.path().join("failing/report.html").is_file());
+        Ok(())
+    }
+}
