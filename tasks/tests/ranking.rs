@@ -192,7 +192,7 @@ fn standing_is_to_be_still_and_upright_and_up() {
     assert_near(worth(&stops), 8.0);
     assert_ranked(&[
         ("still", worth(&|_| Pose::default())),
-        ("swaying", worth(&|_| Pose { kick: 0.1, ..Pose::default() })),
+        ("swaying", worth(&|_| Pose { kick: 0.05, ..Pose::default() })),
         ("leaning", worth(&|time| Pose { turn: if time > 0.0 { 0.6 } else { 0.0 }, ..Pose::default() })),
         ("kicking", worth(&|_| Pose { kick: 1.0, ..Pose::default() })),
     ]);

@@ -115,7 +115,8 @@ impl Movement {
             Self::Walking if legless => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
             Self::Walking => &[("honest", 0.0), ("upright", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
             Self::Jumping => &[("honest", 0.0), ("leap", 2.0), ("vibration", -0.02)],
-            Self::LongJump => &[("honest", 0.0), ("leap", 1.0), ("vibration", -0.02)],
+            // A somersault also gets far.
+            Self::LongJump => &[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)],
             Self::Hopping => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)],
             Self::Standing => &[("honest", 0.0), ("vibration", -0.1)],
             Self::GettingUp => &[("honest", 0.0), ("vibration", -0.01)],

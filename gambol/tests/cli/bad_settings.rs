@@ -179,7 +179,11 @@ fn a_wrong_setting_of_a_movement_is_named() -> Outcome {
     for (movement, setting, says) in [
         ("walking", "speed=-1", "movement.settings.speed = -1: must be from 0 to 100"),
         ("walking", "speed=fast", "movement.settings.speed: invalid type: string \"fast\""),
-        ("walking", "spede=1", "movement.settings.spede: unknown field `spede`, expected `speed`; did you mean `speed`?"),
+        (
+            "walking",
+            "spede=1",
+            "movement.settings.spede: unknown field `spede`, expected `speed`; did you mean `speed`?",
+        ),
         ("standing", "after=1001", "movement.settings.after = 1001: must be from 0 to 1000"),
         ("getting-up", "turn=0", "movement.settings.turn = 0: must be from 10 to 180, or from -180 to -10"),
     ] {

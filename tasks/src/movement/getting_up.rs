@@ -6,9 +6,9 @@ use serde::Deserialize;
 /// How far it has got up at the end, for a creature that is drawn lying on its back or its side: 0 as it lies, 1 when it
 /// stands upright.
 ///
-/// Half of it is the torso's turn from the start pose to upright; the other half, which also needs the turn, is its rise
-/// above where it lay, by 0.8 times the length of its longest leg (without legs the turn is all). Turning
-/// half-way is worth a quarter, so that a body that stands on its end falls over to the side where more is to be had. The
+/// Two fifths of it are the torso's turn from the start pose to upright; the rest, which also needs the turn, is its rise
+/// above where it lay, by 0.8 times the length of its longest leg (without legs the turn is all). A body on its end is
+/// worth at most a quarter, so that it does better to fall over to the right side, even if it lies on its belly then. The
 /// value is a mean that forgets within a second or so: what is not held until the end is lost, and a somersault that comes
 /// to lie again is worth nothing.
 #[derive(Clone, Debug)]
@@ -34,6 +34,8 @@ pub struct GettingUpSettings {
 
 /// The least turn, degrees.
 const LEAST: f64 = 10.0;
+/// What the turn alone is worth.
+const TURN: f64 = 0.4;
 /// Of the longest leg's length.
 const RISE: f64 = 0.8;
 /// What is forgotten, s.
@@ -68,7 +70,7 @@ impl GettingUp {
             true => ((f64::from(torso.y) - f64::from(self.start.y)) / self.rise).clamp(0.0, 1.0),
             false => 1.0,
         };
-        turned * turned * (0.5 + 0.5 * risen)
+        turned * turned * (TURN + (1.0 - TURN) * risen)
     }
 }
 

@@ -6,8 +6,8 @@ use serde::Deserialize;
 /// How long it stands still and upright, in s, counted from a given time on; what it does before is its own affair.
 ///
 /// Each moment counts from 0 to 1, the product of three: *still* is 1 if no part moves, and a half if the fastest one moves
-/// at 0.2 body lengths a second; *upright* is 1 in the start pose and 0 from 60° of tilt on; *up* is 1 if the torso is at
-/// least 0.9 times as high as at the start and 0 at half of that height. A torso that lies on the ground counts 0, unless
+/// at 0.1 body lengths a second; *upright* is 1 in the start pose and 0 from 60° of tilt on; *up* is 1 if the torso is at
+/// least 0.95 times as high as at the start and 0 at half of that height. A torso that lies on the ground counts 0, unless
 /// it did so at the start, as that of an apod does. So neither lying still nor running upright is worth much. For level
 /// ground.
 #[derive(Clone, Debug)]
@@ -29,11 +29,11 @@ pub struct StandingSettings {
 }
 
 /// At this speed, in body lengths a second, it is half as still as can be.
-const RESTLESS: f64 = 0.2;
+const RESTLESS: f64 = 0.1;
 /// The cosine of the tilt from which on it is not upright: of 60°.
 const TILTED: f64 = 0.5;
 /// Of the start height.
-const UP: f64 = 0.9;
+const UP: f64 = 0.95;
 const DOWN: f64 = 0.5;
 
 impl Default for StandingSettings {
