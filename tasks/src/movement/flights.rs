@@ -38,7 +38,7 @@ impl Flights {
     /// The flight that a step is part of, if it is.
     pub(super) fn observe(&mut self, now: &Snapshot) -> Option<Flight> {
         if now.aloft() {
-            return self.pushing.then(|| Flight { take_off: self.take_off, seconds: now.time - self.since });
+            return self.pushing.then_some(Flight { take_off: self.take_off, seconds: now.time - self.since });
         }
         self.stand(now);
         None
