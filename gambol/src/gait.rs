@@ -40,7 +40,7 @@ impl Stage {
         parts.physics.validate().map_err(|error| error.within("physics"))?;
         let kind = Kind::of(&parts.movement.name);
         let steps = Some(judged_steps(kind, parts.physics.time_step));
-        let movement = MovementSpec { steps, terms: Vec::new(), ..parts.movement.clone() };
+        let movement = MovementSpec { steps, terms: Vec::new(), objectives: Vec::new(), ..parts.movement.clone() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
         Ok(Self { episode: parts.build(catalogue)?, movement, kind, flat: true })

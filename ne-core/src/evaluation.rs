@@ -45,6 +45,16 @@ impl Evaluation {
     pub fn fitness(&self) -> Option<Fitness> {
         self.outcome.as_ref().ok().copied()
     }
+
+    /// The objectives, or the fitness as the only one if the task has no others; `None` if the evaluation failed or an
+    /// objective is no finite number.
+    pub fn objectives(&self) -> Option<Vec<Fitness>> {
+        let fitness = self.fitness()?;
+        if self.objectives.is_empty() {
+            return Some(vec![fitness]);
+        }
+        self.objectives.iter().map(|&objective| Fitness::new(objective).ok()).collect()
+    }
 }
 
 /// Why an evaluation has no fitness.
@@ -101,6 +111,17 @@ mod tests {
         let failed = Evaluation::new(f64::NAN);
         assert_eq!(failed.outcome, Err(Failure::NonFinite { what: "fitness".into() }));
         assert!(failed.fitness() < Evaluation::new(-1e300).fitness());
+    }
+
+    #[test]
+    fn the_fitness_is_the_only_objective_of_a_task_without() {
+        let values =
+            |evaluation: Evaluation| evaluation.objectives().map(|v| v.into_iter().map(Fitness::get).collect());
+        let with = |objectives: Vec<f64>| Evaluation { objectives, ..Evaluation::new(1.0) };
+        assert_eq!(values(with(vec![])), Some(vec![1.0]));
+        assert_eq!(values(with(vec![2.0, -3.0])), Some(vec![2.0, -3.0]));
+        assert_eq!(values(with(vec![2.0, f64::NAN])), None);
+        assert_eq!(values(Evaluation { objectives: vec![2.0], ..Evaluation::new(f64::NAN) }), None);
     }
 
     #[test]

@@ -90,6 +90,7 @@ pub mod conformance;
 mod evaluation;
 mod fitness;
 mod genome;
+pub mod pareto;
 mod phenotype;
 mod seed;
 mod selector;
@@ -127,7 +128,7 @@ pub use selector::Selector;
 #[cfg(feature = "selection")]
 pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
 pub use setting::SettingError;
-pub use strategy::{SpeciesReport, Statistic, Strategy};
+pub use strategy::{FrontPoint, SpeciesReport, Statistic, Strategy};
 pub use task::Task;
 
 #[cfg(feature = "evolution")]

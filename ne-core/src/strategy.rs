@@ -37,6 +37,26 @@ pub trait Strategy: Serialize + DeserializeOwned + Send {
     fn species(&self) -> Vec<SpeciesReport> {
         Vec::new()
     }
+
+    /// The best compromises between several objectives after `tell`, for strategies that look for them: none
+    /// [dominates](crate::pareto::dominates) another, and no two are equal in all objectives. From the best in the first
+    /// objective to the worst. `None`, the default: the strategy knows no front.
+    fn front(&self) -> Option<Vec<FrontPoint<'_, Self::Genome>>> {
+        None
+    }
+}
+
+/// A compromise between objectives that a [`Strategy`] has found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrontPoint<'a, G> {
+    /// The genome.
+    pub genome: &'a G,
+    /// Its fitness.
+    pub fitness: Fitness,
+    /// What it came to in each objective, all maximised.
+    pub objectives: &'a [Fitness],
+    /// The generation it was evaluated in, from 1: with its seed the task gives fitness and objectives again.
+    pub generation: u64,
 }
 
 /// One species of a generation.

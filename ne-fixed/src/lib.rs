@@ -8,6 +8,7 @@
 //! | [`CmaEs`] | a normal distribution that learns size and shape; restarts with other populations | up to a thousand weights; the fewest evaluations where fitness says much |
 //! | [`OpenEs`] | a centre that climbs an estimated gradient | thousands of weights, noisy fitness, many processors |
 //! | [`Cosyne`] | a subpopulation for each weight, whose members meet in ever new nets | small nets, few evaluations |
+//! | [`Nsga2`] | a genetic algorithm that keeps a front of compromises between objectives | where several things are wanted that cannot all be had |
 //!
 //! They take any [`Topology`](ne_net::Topology), a dense shape or a frozen graph, recurrent ones included.
 //!
@@ -63,6 +64,7 @@ mod growing;
 mod initialization;
 mod mutation;
 mod normal;
+mod nsga2;
 mod open_es;
 mod ranking;
 mod setting;
@@ -75,6 +77,7 @@ pub use crossover::{Arithmetic, Crossover, CrossoverChoice, OnePoint, TwoPoint, 
 pub use genome::{WeightVector, WeightVectorError};
 pub use initialization::Initialization;
 pub use mutation::{GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation};
+pub use nsga2::{Nsga2, Nsga2Settings};
 pub use open_es::{Adam, OpenEs, OpenEsSettings};
 pub use setting::Setting;
 pub use state_error::StateError;

@@ -1,6 +1,6 @@
 use crate::{
     Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping, Idleness, Jumping,
-    Leap, LongJump, Movement, Rollovers, Running, Standing, Sum, TimeAloft, Upright, Vibration, Walking,
+    Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -64,6 +64,10 @@ pub struct MovementSpec {
     /// What is added to the movement's value.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub terms: Vec<TermSpec>,
+    /// What is measured beside the fitness for a strategy that searches for several objectives at once: none, or from 2
+    /// to 4 different ones. They are maximised, so that what is to be small has a weight below 0.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub objectives: Vec<TermSpec>,
 }
 
 /// A weighted term.
@@ -113,7 +117,7 @@ pub enum MovementSpecError {
 impl MovementSpec {
     /// A movement by its name, as it is: with the length, the settings and the terms it has by itself.
     pub fn new(name: &str) -> Self {
-        Self { name: name.into(), steps: None, settings: Map::new(), terms: Vec::new() }
+        Self { name: name.into(), steps: None, settings: Map::new(), terms: Vec::new(), objectives: Vec::new() }
     }
 }
 
@@ -279,9 +283,37 @@ impl MovementCatalogue {
     /// The movement a spec describes.
     ///
     /// # Errors
-    /// If a name or a setting is unknown, a setting is of the wrong type or out of range, or a weight is not finite; the
-    /// error names the field.
+    /// If a name or a setting is unknown, a setting is of the wrong type or out of range, a weight is not finite, or the
+    /// objectives are not as [`MovementSpec::objectives`] says; the error names the field.
     pub fn build(&self, spec: &MovementSpec) -> Result<Box<dyn Movement>, MovementSpecError> {
+        let movement = self.sum(spec)?;
+        if spec.objectives.is_empty() {
+            return Ok(movement);
+        }
+        if !(2..=4).contains(&spec.objectives.len()) {
+            let found = format!("{} objectives", spec.objectives.len());
+            return Err(SettingError::new("objectives", found, "from 2 to 4 objectives, or none").into());
+        }
+        let mut objectives = Objectives::beside(movement);
+        for (index, objective) in spec.objectives.iter().enumerate() {
+            let field = |name| format!("objectives[{index}].{name}");
+            if !objective.weight.is_finite() || objective.weight == 0.0 {
+                let error = SettingError::new(field("weight"), objective.weight, "a finite number other than 0");
+                return Err(error.into());
+            }
+            if spec.objectives[..index].iter().any(|earlier| earlier.term == objective.term) {
+                return Err(SettingError::new(field("term"), &objective.term, "named once").into());
+            }
+            objectives = objectives.and(
+                objective.weight,
+                self.make(field("term"), &objective.term, &objective.settings, &field("settings"))?,
+            );
+        }
+        Ok(Box::new(objectives))
+    }
+
+    /// The movement with its terms.
+    fn sum(&self, spec: &MovementSpec) -> Result<Box<dyn Movement>, MovementSpecError> {
         let movement = self.make("name".into(), &spec.name, &spec.settings, "settings")?;
         if spec.terms.is_empty() {
             return Ok(movement);

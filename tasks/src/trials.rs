@@ -61,13 +61,15 @@ pub struct Tally {
     steps: u64,
     sum: f64,
     worst: f64,
+    objectives: Vec<f64>,
     measurements: BTreeMap<String, f64>,
 }
 
 impl Tally {
     /// Of no trials yet.
     pub fn new(trials: Trials) -> Self {
-        Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, measurements: BTreeMap::new() }
+        let (objectives, measurements) = (Vec::new(), BTreeMap::new());
+        Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, objectives, measurements }
     }
 
     /// The number of the trial that comes next, from 0.
@@ -76,7 +78,7 @@ impl Tally {
     }
 
     /// Adds a trial, watched by this movement; gives the evaluation once it is complete: after the last trial, and after
-    /// one that failed or has no finite value.
+    /// one that failed or has no finite value. The objectives are the means of the trials', however values combine.
     pub fn add(&mut self, outcome: Outcome, movement: &dyn Movement) -> Option<Evaluation> {
         self.done += 1;
         self.steps += u64::from(outcome.steps);
@@ -90,6 +92,18 @@ impl Tally {
         self.sum += value;
         self.worst = self.worst.min(value);
         let count = f64::from(self.trials.count);
+        let mut index = 0;
+        movement.objectives(&mut |objective| {
+            match self.objectives.get_mut(index) {
+                Some(mean) => *mean += objective / count,
+                None => self.objectives.push(objective / count),
+            }
+            index += 1;
+        });
+        if let Some(index) = self.objectives.iter().position(|objective| !objective.is_finite()) {
+            let failure = Failure::NonFinite { what: format!("objective {index}") };
+            return Some(Evaluation::failed(failure).with_steps(self.steps));
+        }
         let mut tell = |name: &str, value: f64| match self.measurements.get_mut(name) {
             Some(mean) => *mean += value / count,
             None => drop(self.measurements.insert(name.to_owned(), value / count)),
@@ -103,7 +117,7 @@ impl Tally {
             Combine::Mean => self.sum / count,
             Combine::Worst => self.worst,
         };
-        let measurements = std::mem::take(&mut self.measurements);
-        Some(Evaluation { measurements, ..Evaluation::new(fitness).with_steps(self.steps) })
+        let (objectives, measurements) = (std::mem::take(&mut self.objectives), std::mem::take(&mut self.measurements));
+        Some(Evaluation { objectives, measurements, ..Evaluation::new(fitness).with_steps(self.steps) })
     }
 }

@@ -10,7 +10,9 @@ use std::{
     alloc::{GlobalAlloc, Layout, System},
     cell::Cell,
 };
-use tasks::{Combine, Energy, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials};
+use tasks::{
+    Combine, Energy, Episode, FallEnds, Jumping, Movement, Objectives, Rollovers, Running, Sum, TimeAloft, Trials,
+};
 
 thread_local! {
     static COUNT: Cell<u64> = const { Cell::new(0) };
@@ -43,7 +45,8 @@ fn allocations(steps: u32, trials: u32) -> (u64, Evaluation) {
         .plus(-1.0, Rollovers::default())
         .plus(0.5, TimeAloft::default())
         .plus(-1.0, FallEnds::default());
-    let movement: Box<dyn Movement> = Box::new(movement);
+    let objectives = Objectives::beside(Box::new(movement)).and(-1.0, Box::new(Energy::default()));
+    let movement: Box<dyn Movement> = Box::new(objectives.and(1.0, Box::new(Running::default())));
     let trials = Trials { count: trials, combine: Combine::Mean };
     let episode = Episode::new(PointMass::new(), movement, steps, trials).expect("settings in range");
     let before = COUNT.get();

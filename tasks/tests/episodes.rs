@@ -7,7 +7,10 @@ use ne_core::{
     Evaluation, Failure, Genome, Seed, Task,
     conformance::{Puppet, check_task},
 };
-use tasks::{Combine, Energy, Environment, Episode, Moment, Movement, Running, Snapshot, Sum, Trials, Verdict};
+use tasks::{
+    Combine, Energy, Environment, Episode, Moment, Movement, MovementCatalogue, MovementSpec, Objectives, Running,
+    Snapshot, Sum, Trials, Verdict,
+};
 
 const SEED: Seed = Seed::of_run(1);
 const ONE: Trials = Trials { count: 1, combine: Combine::Mean };
@@ -243,6 +246,106 @@ fn measurements_have_the_names_of_the_terms() {
     assert_eq!(evaluation.measurements["running"], way(16));
     assert_eq!(evaluation.measurements["duration"], 1.0);
     assert_eq!(fitness(&evaluation), way(16) - 0.5 * evaluation.measurements["energy"]);
+}
+
+#[test]
+fn objectives_are_weighed_means_over_the_trials_and_leave_the_rest_alone() -> Result<(), Box<dyn std::error::Error>> {
+    let movement = || Sum::of(Running::default()).plus(-0.5, Energy::default());
+    let objectives = || {
+        let beside = Objectives::beside(Box::new(movement()));
+        let beside = beside.and(-2.0, Box::new(Energy::default())).and(1.0, Box::new(StartPlace::default()));
+        // They would end the episode, and fail it; but objectives only watch.
+        beside.and(3.0, Box::new(Says(Verdict::End))).and(4.0, Box::new(Says(Verdict::Fail("on purpose"))))
+    };
+    for trials in [ONE, Trials { count: 4, combine: Combine::Worst }] {
+        let place = PointMass::varied(0.5, 1e6);
+        let task = episode(place.clone(), objectives(), 16, trials);
+        check_task(&task, &Puppet::sample(2, 1, 6), SEED)?;
+        let found = task.evaluate(&mut Constant(1.0), SEED);
+        let plain = episode(place.clone(), movement(), 16, trials).evaluate(&mut Constant(1.0), SEED);
+        assert_eq!(Evaluation { objectives: Vec::new(), ..found.clone() }, plain);
+        let of_trial = |movement: Box<dyn Movement>, trial| {
+            let once = Episode::new(place.clone(), movement, 16, ONE).expect("in range");
+            once.play(&mut Constant(1.0), SEED.trial(trial), &mut ()).movement.value()
+        };
+        let mean = |movement: &dyn Movement| {
+            let values = (0..trials.count).map(|trial| of_trial(movement.boxed_clone(), trial));
+            values.sum::<f64>() / f64::from(trials.count)
+        };
+        let (energy, start) = (mean(&Energy::default()), mean(&StartPlace::default()));
+        for (objective, expected) in found.objectives.iter().zip([-2.0 * energy, start, 3.0, 4.0]) {
+            assert!((objective - expected).abs() < 1e-12, "{:?}", found.objectives);
+        }
+        assert_eq!(found.objectives.len(), 4);
+    }
+    Ok(())
+}
+
+/// Says the same after each step, and is worth 1.
+#[derive(Clone)]
+struct Says(Verdict);
+
+impl Movement for Says {
+    fn name(&self) -> &str {
+        "says"
+    }
+    fn unit(&self) -> &str {
+        "1"
+    }
+    fn begin(&mut self, _: &Snapshot) {}
+    fn observe(&mut self, _: &Snapshot) -> Verdict {
+        self.0
+    }
+    fn value(&self) -> f64 {
+        1.0
+    }
+}
+
+#[test]
+fn an_objective_without_a_number_fails() {
+    let beside = Objectives::beside(Box::new(Running::default())).and(1.0, Box::new(Energy::default()));
+    let movement = beside.and(1.0, Box::new(Nonsense));
+    let evaluation = episode(PointMass::new(), movement, 10, ONE).evaluate(&mut Constant(0.0), SEED);
+    assert_eq!(evaluation.outcome, Err(Failure::NonFinite { what: "objective 1".into() }));
+    assert_eq!((evaluation.steps, evaluation.objectives), (10, vec![]));
+}
+
+#[test]
+fn objectives_are_named_in_files_and_their_errors_name_the_field() -> Result<(), Box<dyn std::error::Error>> {
+    let built = |objectives: &str| {
+        let text = format!(r#"{{"name":"running","objectives":{objectives}}}"#);
+        let spec: MovementSpec = serde_json::from_str(&text)?;
+        assert_eq!(serde_json::to_string(&spec)?, text, "written as it was read");
+        Ok::<_, serde_json::Error>(MovementCatalogue::default().build(&spec).map_err(|error| error.to_string()))
+    };
+    let two = r#"[{"term":"running","weight":1.0},{"term":"energy","weight":-1.0}]"#;
+    let movement = built(two)?.map_err(|error| error.to_string())?;
+    assert_eq!((movement.name(), movement.unit()), ("running", "m"));
+    let mut count = 0;
+    movement.objectives(&mut |_| count += 1);
+    assert_eq!(count, 2);
+    for (objectives, message) in [
+        (r#"[{"term":"running","weight":1.0}]"#, "objectives = 1 objectives: must be from 2 to 4 objectives, or none"),
+        (
+            r#"[{"term":"running","weight":1.0},{"term":"energy","weight":0.0}]"#,
+            "objectives[1].weight = 0: must be a finite number other than 0",
+        ),
+        (
+            r#"[{"term":"running","weight":1.0},{"term":"running","weight":-1.0}]"#,
+            "objectives[1].term = running: must be named once",
+        ),
+        (
+            r#"[{"term":"running","weight":1.0},{"term":"enrgy","weight":-1.0}]"#,
+            "objectives[1].term: there is no movement or term \"enrgy\"",
+        ),
+    ] {
+        let error = built(objectives)?.err().ok_or("it was built")?;
+        assert!(error.starts_with(message), "{error}");
+    }
+    let five = vec![r#"{"term":"running","weight":1.0}"#; 5].join(",");
+    let error = built(&format!("[{five}]"))?.err().ok_or("it was built")?;
+    assert!(error.starts_with("objectives = 5 objectives: must be"), "{error}");
+    Ok(())
 }
 
 #[test]

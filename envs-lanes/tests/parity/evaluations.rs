@@ -7,12 +7,16 @@ use envs_lanes::{Instructions, LaneEpisode};
 use ne_core::{Evaluation, Phenotype, Seed, Task};
 use ne_net::DenseNet;
 use tasks::{
-    Combine, Energy, Environment, Episode, FallEnds, Jumping, Movement, Rollovers, Running, Sum, TimeAloft, Trials,
+    Combine, Energy, Environment, Episode, FallEnds, Jumping, Movement, Objectives, Rollovers, Running, Sum, TimeAloft,
+    Trials,
 };
 
 fn movement() -> Box<dyn Movement> {
     let all = Sum::of(Running::default()).plus(-1e-4, Energy::default()).plus(0.5, Jumping::default());
-    Box::new(all.plus(-0.1, Rollovers::default()).plus(0.2, TimeAloft::default()))
+    let all = all.plus(-0.1, Rollovers::default()).plus(0.2, TimeAloft::default());
+    // An objective that would end the episode must not.
+    let energy = Objectives::beside(Box::new(all)).and(-1.0, Box::new(Energy::default()));
+    Box::new(energy.and(1.0, Box::new(Running::default())).and(-2.0, Box::new(FallEnds::default())))
 }
 
 fn batch(task: &LaneEpisode, nets: &mut [DenseNet], seed: Seed) -> Vec<Evaluation> {
@@ -37,6 +41,7 @@ fn a_batch_gives_what_rapier_gives() {
             let mut nets = nets(rapier.inputs(), rapier.outputs(), 20);
             let found = batch(&lanes, &mut nets, Seed::of_run(3));
             for (net, found) in nets.iter_mut().zip(found) {
+                assert_eq!(found.objectives.len(), if found.outcome.is_ok() { 3 } else { 0 });
                 assert_eq!(found, rapier.evaluate(net, Seed::of_run(3)), "{name}, {variation:?}");
             }
         }

@@ -5,5 +5,6 @@ mod cma_es_convergence;
 mod common;
 mod cosyne;
 mod growing;
+mod nsga2;
 mod open_es;
 mod poles;

@@ -15,6 +15,7 @@ mod idleness;
 mod jumping;
 mod leap;
 mod long_jump;
+mod objectives;
 mod rollovers;
 mod running;
 mod standing;
@@ -39,6 +40,7 @@ pub use {
     jumping::Jumping,
     leap::Leap,
     long_jump::LongJump,
+    objectives::Objectives,
     rollovers::Rollovers,
     running::Running,
     standing::{Standing, StandingSettings},
@@ -90,6 +92,12 @@ pub trait Movement: MovementClone + Send + Sync {
     /// movement itself.
     fn measurements(&self, tell: &mut dyn FnMut(&str, f64)) {
         tell(self.name(), self.value());
+    }
+
+    /// Calls `tell` with each objective of a search for several, all to be maximised: as many, in the same order, each
+    /// time. By default there are none, and the value is all there is to be had.
+    fn objectives(&self, tell: &mut dyn FnMut(f64)) {
+        let _ = tell;
     }
 }
 
