@@ -17,7 +17,7 @@ use gambol::{
 use ne_core::digest::Digest;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, env, error::Error, fs};
-use tasks::MovementCatalogue;
+use tasks::{MovementCatalogue, TermSpec};
 
 /// What a run is known by.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -46,6 +46,11 @@ fn tiny_run(from: From, creature: &str, movement: &str, engine: EngineChoice) ->
             let mut config = base("default")?.config(creatures::find(creature)?, movement);
             config.strategy = (strategy(name).ok_or("there is no such strategy")?.settings)();
             config.variation = Default::default();
+            if name == "nsga2" {
+                // It shows what it can only with something to choose between.
+                let term = |term: &str, weight| TermSpec { term: term.into(), weight };
+                config.movement.objectives = vec![term(movement, 1.0), term("energy", -1.0)];
+            }
             config
         }
     };
@@ -107,5 +112,5 @@ fn runs_of_the_presets_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
 
 #[test]
 fn runs_of_the_strategies_come_out_as_recorded() -> Result<(), Box<dyn Error>> {
-    ["neat", "cma-es", "open-es", "cosyne"].into_iter().try_for_each(|name| check(From::Strategy(name)))
+    ["neat", "cma-es", "open-es", "cosyne", "nsga2"].into_iter().try_for_each(|name| check(From::Strategy(name)))
 }

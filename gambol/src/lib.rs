@@ -16,6 +16,7 @@
 //! | [`run_folder`] | which file is what |
 //! | [`compare`] | strategies against each other, with paired seeds |
 //! | [`champion`] | the saved champion; verifying it |
+//! | [`front`] | the saved compromises between several objectives |
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
 //! | [`gait`] | a champion's gait, measured and judged: whether it is usable |
@@ -51,6 +52,7 @@ pub mod champion;
 pub mod compare;
 pub mod config;
 pub mod dot;
+pub mod front;
 pub mod gait;
 mod jury;
 pub mod lesson;

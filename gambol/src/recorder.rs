@@ -3,6 +3,7 @@
 use crate::{
     champion::Champion,
     config::RunConfig,
+    front::Front,
     lines::{Kept, LineFile},
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing},
     setup::Setup,
@@ -15,7 +16,7 @@ use std::time::Instant;
 
 /// The observer that fills a run folder.
 ///
-/// Lines are appended each generation; checkpoint and champion are brought up to date every few generations, after the
+/// Lines are appended each generation; checkpoint, champion and front are brought up to date every few generations, after the
 /// lines they belong to are on the disk.
 pub(crate) struct Recorder<'a> {
     folder: &'a RunFolder,
@@ -71,7 +72,7 @@ impl<'a> Recorder<'a> {
         Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), written: None, called })
     }
 
-    /// Brings everything to the disk: lines first, then champion, then checkpoint.
+    /// Brings everything to the disk: lines first, then champion and front, then checkpoint.
     ///
     /// Between two hearings of a jury the champion file has whoever would be champion now. The checkpoint does not know of
     /// it, so that the run goes on as if nobody had asked.
@@ -81,6 +82,7 @@ impl<'a> Recorder<'a> {
     {
         self.sync()?;
         self.write_champion(evolution.strategy().name(), evolution.champion_if_heard().as_ref())?;
+        self.write_front(evolution.strategy(), evolution.progress().generations)?;
         Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
     }
 
@@ -111,6 +113,17 @@ impl<'a> Recorder<'a> {
         Ok(())
     }
 
+    /// Nothing, for a strategy that knows no front.
+    fn write_front<S: Strategy>(&self, strategy: &S, generation: u64) -> Result<(), FolderError>
+    where
+        <S::Genome as Genome>::Phenotype: Into<Network>,
+    {
+        match strategy.front() {
+            Some(points) => Ok(Front::new(generation, &self.setup.objectives, &points).write(&self.folder.front())?),
+            None => Ok(()),
+        }
+    }
+
     fn keep(&mut self, generation: u64, kind: GalleryKind, members: Vec<GalleryMember>) -> Result<(), FolderError> {
         Ok(self.gallery.write(&GalleryEntry { generation, kind, members })?)
     }
@@ -139,6 +152,7 @@ impl<'a> Recorder<'a> {
         if generation.is_multiple_of(self.config.record.checkpoint_every) {
             self.sync()?;
             self.write_champion(event.strategy.name(), event.champion)?;
+            self.write_front(event.strategy, generation)?;
             event.write_checkpoint(&self.folder.checkpoint())?;
         }
         Ok(())

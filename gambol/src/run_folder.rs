@@ -26,6 +26,7 @@ use std::{
 /// | `timing.jsonl` | seconds of wall clock for each generation: the one file that differs between equal runs |
 /// | `checkpoint` | to resume from |
 /// | `champion.json` | the best so far |
+/// | `front.json` | the compromises found so far, with strategies that search for several objectives |
 /// | `report.html` | to look at |
 /// | `stages/` | of a run with stages: the folder of each, in their order; the run itself has no log and no checkpoint |
 /// | `.lock` | empty; locked while a process works in the folder |
@@ -263,6 +264,11 @@ impl RunFolder {
     /// Path of the champion.
     pub fn champion(&self) -> PathBuf {
         self.path.join("champion.json")
+    }
+
+    /// Path of the front.
+    pub fn front(&self) -> PathBuf {
+        self.path.join("front.json")
     }
 
     /// Path of the report.

@@ -3,8 +3,8 @@
 use crate::config::StrategySettings;
 use ne_core::{Genome, SettingError, Strategy};
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Mutation, OpenEs,
-    OpenEsSettings, WeightVector,
+    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Mutation, Nsga2,
+    Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
 };
 use ne_neat::{Neat, NeatGenome, NeatSettings};
 use ne_net::{Growth, Network, Topology};
@@ -91,6 +91,7 @@ impl StrategySettings {
             Self::CmaEs(settings) => visitor.visit::<CmaEs>(settings),
             Self::OpenEs(settings) => visitor.visit::<OpenEs>(settings),
             Self::Cosyne(settings) => visitor.visit::<Cosyne>(settings),
+            Self::Nsga2(settings) => visitor.visit::<Nsga2>(settings),
             Self::Custom(name) => visitor.foreign(name),
         }
     }
@@ -236,6 +237,31 @@ impl Search for Cosyne {
 
     fn begin_at(settings: &CosyneSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
         Self::build(settings, topology)?.with_start(&[weights.to_vec()])
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
+}
+
+impl Search for Nsga2 {
+    type Settings = Nsga2Settings;
+
+    fn build(settings: &Nsga2Settings, topology: &Topology) -> Result<Self, SettingError> {
+        Self::new(settings.clone(), topology.clone())
+    }
+
+    fn settings(&self) -> &Nsga2Settings {
+        self.settings()
+    }
+
+    fn grown(self, settings: &Nsga2Settings, passage: &Passage<'_>) -> Result<Self, SettingError> {
+        Self::grown(self, settings.clone(), passage.topology.clone(), passage.genes)
+    }
+
+    fn begin_at(settings: &Nsga2Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        let champion = WeightVector::new(topology.clone(), weights.to_vec(), settings.mutation.initial_deviation());
+        Self::build(settings, topology)?.with_start(vec![champion.map_err(weights_error)?])
     }
 
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {

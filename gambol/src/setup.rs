@@ -11,7 +11,8 @@ use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
-use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, Trials, gait::Kind};
+use serde::{Deserialize, Serialize};
+use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials, gait::Kind};
 
 pub use crate::{nominal::Nominal, training_task::TrainingTask};
 
@@ -32,6 +33,21 @@ pub struct Setup {
     pub weight_names: Vec<String>,
     /// The unit of the fitness.
     pub unit: String,
+    /// What a strategy that searches for several objectives finds compromises between; the fitness alone if the movement
+    /// has no objectives.
+    pub objectives: Vec<Objective>,
+}
+
+/// One of the objectives of a search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Objective {
+    /// The name of what is measured.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// What the measured value is multiplied with to be maximised: below 0 where less is better.
+    pub weight: f64,
 }
 
 /// Why a configuration cannot be built. Each says which field.
@@ -201,6 +217,7 @@ impl Setup {
         config.strategy.validate(&topology)?;
         check_size(&config.strategy, &topology)?;
         let unit = catalogue.build(&config.movement)?.unit().to_owned();
+        let objectives = objectives(&config.movement, catalogue, &unit);
         if let Some(steps) = config.rehearsal {
             SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
         }
@@ -229,7 +246,7 @@ impl Setup {
             None => task,
         };
         HeatSettings::validate(&config.heats, task.steps(), config.trials.count)?;
-        Ok(Self { task, heats: config.heats.clone(), episode, nominal, topology, weight_names, unit })
+        Ok(Self { task, heats: config.heats.clone(), episode, nominal, topology, weight_names, unit, objectives })
     }
 
     /// The heats that come before the task of training, the first one first.
@@ -250,6 +267,19 @@ impl Setup {
     pub fn outputs(&self) -> &[Channel] {
         self.episode.environment().motors().channels()
     }
+}
+
+/// What is measured for a search with several objectives, or else the fitness.
+fn objectives(movement: &MovementSpec, catalogue: &MovementCatalogue, unit: &str) -> Vec<Objective> {
+    if movement.objectives.is_empty() {
+        return vec![Objective { name: "fitness".into(), unit: unit.into(), weight: 1.0 }];
+    }
+    let objective = |spec: &TermSpec| Objective {
+        name: spec.term.clone(),
+        unit: catalogue.find(&spec.term).map_or_else(String::new, |entry| entry.unit.clone()),
+        weight: spec.weight,
+    };
+    movement.objectives.iter().map(objective).collect()
 }
 
 impl RunConfig {

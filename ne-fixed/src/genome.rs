@@ -1,5 +1,5 @@
 use ne_core::{Genome, SettingError};
-use ne_net::{Network, NetworkError, Topology};
+use ne_net::{Growth, Network, NetworkError, Topology};
 use serde::{Deserialize, Serialize};
 
 /// The weights of a net of fixed topology, as a string of genes.
@@ -52,6 +52,12 @@ impl WeightVector {
     pub(crate) fn zero(topology: Topology) -> Self {
         let weights = vec![0.0; topology.weight_count()];
         Self { topology, weights, mutation_deviation: 0.0 }
+    }
+
+    /// The same individual in a net that has grown: what is new begins at 0.
+    pub(crate) fn grown(&self, topology: &Topology, growth: &Growth) -> Self {
+        let weights = growth.carry(&self.weights, 0.0);
+        Self { topology: topology.clone(), weights, mutation_deviation: self.mutation_deviation }
     }
 
     /// The net without its weights.

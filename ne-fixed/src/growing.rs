@@ -1,3 +1,4 @@
+use crate::WeightVector;
 use ne_core::SettingError;
 use ne_net::{Growth, Topology};
 
@@ -10,4 +11,15 @@ pub(crate) fn check(growth: &Growth, old: &Topology, new: &Topology) -> Result<(
     }
     let found = format!("from {} to {} weights", found[0], found[1]);
     Err(SettingError::new("growth", found, format!("from {} to {}, as the topologies have", expected[0], expected[1])))
+}
+
+/// Checks that individuals a search is to begin with are of its topology.
+pub(crate) fn check_start(start: &[WeightVector], topology: &Topology) -> Result<(), SettingError> {
+    match start.iter().enumerate().find(|(_, individual)| individual.topology() != topology) {
+        None => Ok(()),
+        Some((index, individual)) => {
+            let (found, allowed) = (individual.topology().to_string(), format!("of shape {topology}"));
+            Err(SettingError::new(format!("start[{index}]"), found, allowed))
+        }
+    }
 }

@@ -1,8 +1,12 @@
 use super::Outcome;
 use clap::Args;
-use gambol::{champion::Champion, dot::dot, report, trajectory::Recording};
+use gambol::{Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, trajectory::Recording};
 use ne_core::archive;
-use std::{path::PathBuf, process::ExitCode};
+use std::{
+    error::Error,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 use tasks::MovementCatalogue;
 
 #[derive(Args)]
@@ -11,12 +15,19 @@ Examples:
   gambol replay runs/biped-1-running/champion.json --html gait.html
   gambol replay champion.json --trajectory gait.csv --seconds 10
   gambol replay champion.json --dot net.dot              then, with Graphviz: dot -Tsvg net.dot > net.svg
+  gambol replay runs/tetrapod-1-running --point 3 --trajectory thrifty.csv --save thrifty.json
 
 The trajectory has a row for each step and part, the start included:
   step,time_s,part,x_m,y_m,angle_rad,ground_contact")]
 pub(crate) struct Replay {
-    /// A champion file
+    /// A champion file; with --point the folder of a run
     champion: PathBuf,
+    /// Replay this point of the run's front (see: --strategy nsga2), from 1, which is the best in the first objective
+    #[arg(long, value_name = "NUMBER")]
+    point: Option<usize>,
+    /// Write the point as a champion file
+    #[arg(long, value_name = "FILE", requires = "point")]
+    save: Option<PathBuf>,
     /// Write a page that shows the gait
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
@@ -38,7 +49,14 @@ impl Replay {
     pub(crate) fn run(self) -> Outcome {
         self.check_outputs()?;
         let catalogue = MovementCatalogue::default();
-        let mut champion = Champion::read(&self.champion)?;
+        let mut champion = match self.point {
+            Some(number) => point(&self.champion, number, &catalogue)?,
+            None => Champion::read(&self.champion)?,
+        };
+        if let Some(path) = &self.save {
+            champion.write(path)?;
+            say!("champion    {}", path.display())?;
+        }
         if let Some(seconds) = self.seconds {
             let steps = seconds / f64::from(champion.physics.time_step);
             if !(1.0..=1e6).contains(&steps) {
@@ -77,7 +95,8 @@ impl Replay {
 
     /// Nothing may be overwritten unasked, and the files must be different ones.
     fn check_outputs(&self) -> Result<(), String> {
-        let outputs = [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot)];
+        let outputs =
+            [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot), ("champion", &self.save)];
         let outputs: Vec<_> = outputs.iter().filter_map(|(what, path)| Some((what, path.as_ref()?))).collect();
         let file = |path: &PathBuf| path.canonicalize().ok();
         for (index, &(what, path)) in outputs.iter().enumerate() {
@@ -92,5 +111,24 @@ impl Replay {
             }
         }
         Ok(())
+    }
+}
+
+/// A point of the front in a run's folder, counted from 1.
+fn point(folder: &Path, number: usize, catalogue: &MovementCatalogue) -> Result<Champion, Box<dyn Error>> {
+    let folder = RunFolder::open(folder)?;
+    let config = folder.read_config()?;
+    if !folder.front().is_file() {
+        let (path, strategy) = (folder.path().display(), config.strategy.name());
+        return Err(format!("{path} has no front.json: {strategy} looks for no front; --strategy nsga2 does").into());
+    }
+    let front = Front::read(&folder.front())?;
+    let setup = Setup::new(&config, catalogue)?;
+    match number.checked_sub(1).and_then(|index| front.points.get(index)) {
+        Some(point) => Ok(point.champion(&config, &setup)),
+        None if front.points.is_empty() => {
+            Err(format!("--point {number}: the front in {} is empty", folder.front().display()).into())
+        }
+        None => Err(format!("--point {number}: must be from 1 to {}", front.points.len()).into()),
     }
 }

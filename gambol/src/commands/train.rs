@@ -30,6 +30,8 @@ Examples:
   gambol train biped-1 running --strategy ga --topology-from runs/biped-1-running/champion.json
   gambol train apod running --set strategy.cma-es.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
+  gambol train tetrapod-1 running --strategy nsga2 \\
+      --set 'movement.objectives=[{\"term\":\"running\"},{\"term\":\"energy\",\"weight\":-1}]'
   gambol train --config runs/leap/config.json --out runs/leap-again
   gambol train --config shaping/run-then-gaps-then-thrift.json
   gambol train tetrapod-2 jumping --from runs/tetrapod-2-running
@@ -43,7 +45,7 @@ pub(crate) struct Train {
     /// Where to start from: default, thesis (the reference algorithm), or stanley-2002 (NEAT as in its paper)
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// How it is searched (see: gambol strategies): ga, neat, cma-es, open-es, cosyne
+    /// How it is searched (see: gambol strategies): ga, neat, cma-es, open-es, cosyne, nsga2
     #[arg(long, value_name = "NAME")]
     strategy: Option<String>,
     /// Keep the topology of this champion's net (one that NEAT has found, say) and search its weights anew

@@ -1,6 +1,6 @@
 //! The search a configuration names.
 
-use ne_fixed::{CmaEsSettings, ConventionalNeSettings, CosyneSettings, OpenEsSettings};
+use ne_fixed::{CmaEsSettings, ConventionalNeSettings, CosyneSettings, Nsga2Settings, OpenEsSettings};
 use ne_neat::NeatSettings;
 use serde::{Deserialize, Serialize};
 
@@ -19,6 +19,8 @@ pub enum StrategySettings {
     OpenEs(OpenEsSettings),
     /// CoSyNE: the weights of each place in the net form a subpopulation and coevolve.
     Cosyne(CosyneSettings),
+    /// NSGA-II: a front of compromises between the movement's objectives.
+    Nsga2(Nsga2Settings),
     /// A strategy of another program, by the name it has there. That program trains and resumes
     /// ([`train_with`](crate::training::train_with)); ours reports, replays and verifies.
     Custom(String),
@@ -69,6 +71,12 @@ pub const STRATEGIES: &[StrategyEntry] = &[
         description: "cooperative synapse neuroevolution: the weights of each place in the net coevolve",
         settings: || StrategySettings::Cosyne(CosyneSettings::default()),
     },
+    StrategyEntry {
+        name: "nsga2",
+        alias: None,
+        description: "NSGA-II: a front of compromises between several objectives (movement.objectives)",
+        settings: || StrategySettings::Nsga2(Nsga2Settings::default()),
+    },
 ];
 
 /// The strategy of this name or alias.
@@ -85,6 +93,7 @@ impl StrategySettings {
             Self::CmaEs(_) => "cma-es",
             Self::OpenEs(_) => "open-es",
             Self::Cosyne(_) => "cosyne",
+            Self::Nsga2(_) => "nsga2",
             Self::Custom(name) => name,
         }
     }
@@ -97,6 +106,7 @@ impl StrategySettings {
             Self::CmaEs(settings) => settings.population,
             Self::OpenEs(settings) => Some(settings.population),
             Self::Cosyne(settings) => Some(settings.population),
+            Self::Nsga2(settings) => Some(settings.population),
             Self::Custom(_) => None,
         }
     }
@@ -109,6 +119,7 @@ impl StrategySettings {
             Self::CmaEs(settings) => settings.population = Some(population),
             Self::OpenEs(settings) => settings.population = population,
             Self::Cosyne(settings) => settings.population = population,
+            Self::Nsga2(settings) => settings.population = population,
             Self::Custom(_) => {}
         }
     }

@@ -1,6 +1,7 @@
 //! What the page is given: plain data, lengths in metres, angles in radians, times in seconds.
 
 use super::{
+    front::FrontData,
     gait::GaitData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
     network::NetworkData,
@@ -31,6 +32,9 @@ pub(super) struct Report {
     pub(super) champion: Option<ChampionData>,
     /// How the champion moves; `None` if there is nothing to measure.
     pub(super) gait: Option<GaitData>,
+    /// The compromises found, if the search was for several objectives.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) front: Option<FrontData>,
     pub(super) strip: Vec<StripEntry>,
     pub(super) populations: Vec<PopulationEntry>,
     pub(super) settings: Vec<Fact>,
@@ -192,6 +196,10 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         Fact::new("Seed", config.seed),
     ];
     facts.splice(4..4, topology(config));
+    if !config.movement.objectives.is_empty() {
+        let objectives = config.movement.objectives.iter().map(|term| format!("{} × {}", term.weight, term.term));
+        facts.insert(2, Fact::new("Objectives", objectives.collect::<Vec<_>>().join(", ")));
+    }
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts
 }

@@ -1,7 +1,8 @@
 //! The report: one HTML file that works offline, with the champion's replay, its gait measured and
-//! judged, the fitness curves, the species, the gait as it emerged and the net at work.
+//! judged, the fitness curves, the front of compromises, the species, the gait as it emerged and the net at work.
 
 mod data;
+mod front;
 mod gait;
 mod history;
 mod network;
@@ -12,11 +13,13 @@ mod stages;
 
 use crate::{
     champion::Champion,
+    front::Front,
     gait::Stage,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     setup::SetupError,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
+use front::FrontData;
 use gait::GaitData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
@@ -115,6 +118,7 @@ fn compose(
         statistics: history::statistics(&log),
         gait: champion.as_ref().map(|champion| gait_data(champion, catalogue)).transpose()?.flatten(),
         champion: champion_data,
+        front: front_data(folder, &stills)?,
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
         settings: data::settings(&config),
@@ -141,6 +145,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         statistics: Vec::new(),
         champion: Some(champion_data(champion, catalogue)?),
         gait: gait_data(champion, catalogue)?,
+        front: None,
         strip: Vec::new(),
         populations: Vec::new(),
         settings: vec![
@@ -196,6 +201,15 @@ fn champion_film(champion: &Champion, catalogue: &MovementCatalogue) -> Result<d
 fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
     Ok(stage.judge(&champion.network).map(GaitData::from))
+}
+
+fn front_data(folder: &RunFolder, stills: &Stills<'_>) -> Result<Option<FrontData>, ReportError> {
+    if !folder.front().is_file() {
+        return Ok(None);
+    }
+    let front = Front::read(&folder.front()).map_err(FolderError::from)?;
+    let command = format!("gambol replay {} --trajectory gait.csv --point", folder.path().display());
+    Ok(FrontData::new(&front, stills, command))
 }
 
 /// About `count` of the items, evenly spread, the first and the last among them.

@@ -14,6 +14,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("assets/statistics.js"),
     include_str!("assets/species.js"),
     include_str!("assets/strip.js"),
+    include_str!("assets/front.js"),
     include_str!("assets/network_layout.js"),
     include_str!("assets/network.js"),
     include_str!("assets/gait.js"),

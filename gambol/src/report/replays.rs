@@ -7,7 +7,7 @@ use crate::{
     trajectory::Recording,
 };
 use envs_rapier::RapierEnvironment;
-use ne_core::{Fitness, Seed};
+use ne_core::{Evaluation, Fitness, Seed, Task};
 use ne_net::Network;
 use rayon::prelude::*;
 use tasks::Episode;
@@ -58,14 +58,24 @@ impl<'a> Stills<'a> {
     pub(super) fn champions(&self, entries: &[&GalleryEntry]) -> Vec<StripEntry> {
         let still = |entry: &&GalleryEntry| {
             let champion = entry.members.first()?;
-            // Where a jury chose it, it is shown in the jury's world.
-            let replay = match &self.setup.nominal {
-                Some(nominal) => self.replay(&nominal.episode, nominal.seed, champion),
-                None => self.replay(&self.setup.episode, self.seed.generation(entry.generation), champion),
-            };
+            let replay = self.found(&champion.network, entry.generation);
             Some(StripEntry { generation: entry.generation, fitness: champion.fitness.map(Fitness::get), replay })
         };
         entries.par_iter().filter_map(still).collect()
+    }
+
+    /// One that was found in this generation; where there is a jury, in the jury's world.
+    pub(super) fn found(&self, network: &Network, generation: u64) -> Replay {
+        match &self.setup.nominal {
+            Some(nominal) => self.replay(&nominal.episode, nominal.seed, network),
+            None => self.replay(&self.setup.episode, self.seed.generation(generation), network),
+        }
+    }
+
+    /// What a controller comes to where champions are judged, if training is elsewhere.
+    pub(super) fn judged(&self, network: &Network) -> Option<Evaluation> {
+        let nominal = self.setup.nominal.as_ref()?;
+        Some(nominal.task.evaluate(&mut network.clone(), nominal.seed))
     }
 
     pub(super) fn populations(&self, entries: &[&GalleryEntry]) -> Vec<PopulationEntry> {
@@ -76,15 +86,15 @@ impl<'a> Stills<'a> {
             let members = super::spread(&members, MEMBERS);
             let member = |member: &&GalleryMember| PopulationMember {
                 fitness: member.fitness.map(Fitness::get),
-                replay: self.replay(&self.setup.episode, self.seed.generation(entry.generation), member),
+                replay: self.replay(&self.setup.episode, self.seed.generation(entry.generation), &member.network),
             };
             PopulationEntry { generation: entry.generation, members: members.par_iter().map(member).collect() }
         };
         entries.iter().map(population).collect()
     }
 
-    fn replay(&self, episode: &Episode<RapierEnvironment>, seed: Seed, member: &GalleryMember) -> Replay {
-        let recording = play(episode, member.network.clone(), seed, self.steps);
+    fn replay(&self, episode: &Episode<RapierEnvironment>, seed: Seed, network: &Network) -> Replay {
+        let recording = play(episode, network.clone(), seed, self.steps);
         let time_step = episode.environment().settings().time_step;
         Replay::new(&recording.snapshots, time_step, self.stride)
     }

@@ -12,6 +12,7 @@ mod comparing;
 mod damage;
 mod engines;
 mod folder;
+mod front;
 mod full_disk;
 mod gait;
 mod heats;

@@ -10,7 +10,7 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const STRATEGIES: [&str; 5] = ["ga", "neat", "cma-es", "open-es", "cosyne"];
+const STRATEGIES: [&str; 6] = ["ga", "neat", "cma-es", "open-es", "cosyne", "nsga2"];
 
 fn small_run(strategy: &str, folder: &Path, generations: u32) -> Command {
     let mut train = gambol("train");
@@ -54,7 +54,8 @@ fn another_seed_is_another_run() -> Outcome {
 
 #[test]
 fn the_report_of_every_strategy_can_be_made_and_names_it() -> Outcome {
-    for (strategy, name) in STRATEGIES.into_iter().zip(["conventional", "neat", "cma-es", "open-es", "cosyne"]) {
+    for (strategy, name) in STRATEGIES.into_iter().zip(["conventional", "neat", "cma-es", "open-es", "cosyne", "nsga2"])
+    {
         let folder = tempfile::tempdir()?;
         let run = folder.path().join("run");
         succeed(&mut small_run(strategy, &run, 4));
@@ -67,7 +68,10 @@ fn the_report_of_every_strategy_can_be_made_and_names_it() -> Outcome {
 
 #[test]
 fn they_are_listed_and_a_misspelt_one_is_corrected() -> Outcome {
-    assert_says(&succeed(&mut gambol("strategies")), &["conventional (or ga)", "neat", "cma-es", "open-es", "cosyne"]);
+    assert_says(
+        &succeed(&mut gambol("strategies")),
+        &["conventional (or ga)", "neat", "cma-es", "open-es", "cosyne", "nsga2"],
+    );
     let listed: serde_json::Value = serde_json::from_str(&succeed(gambol("strategies").arg("--json")))?;
     assert_eq!(listed.as_array().map(Vec::len), Some(STRATEGIES.len()));
     let message = fail(gambol("train").args(["biped-1", "running", "--strategy", "naet"]));
@@ -116,6 +120,8 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("open-es", "deviation=1e-300",                 "must be from 0.000001 to 1000"),
     ("cosyne", "parents=0",                         "strategy.cosyne.parents = 0: must be above 0 and at most 1"),
     ("cosyne", "popultion=3",                       "did you mean `population`?"),
+    ("nsga2", "population=3",                       "strategy.nsga2.population = 3: must be from 4 to 10000"),
+    ("nsga2", "parents_agian=false",                "did you mean `parents_again`?"),
 ];
 
 #[test]
@@ -171,7 +177,7 @@ fn the_weights_of_a_found_topology_can_be_searched() -> Outcome {
     let found = folder.path().join("found");
     succeed(small_run("neat", &found, 6).arg("--no-report"));
     let champion = found.join("champion.json");
-    for strategy in ["ga", "cma-es", "open-es", "cosyne"] {
+    for strategy in ["ga", "cma-es", "open-es", "cosyne", "nsga2"] {
         let run = folder.path().join(strategy);
         succeed(small_run(strategy, &run, 3).arg("--topology-from").arg(&champion));
         let (old, new) = (json(&champion), json(&run.join("champion.json")));

@@ -1,6 +1,8 @@
 use super::{ConventionalNeSettings, state::State};
 use crate::{
-    Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector, diversity::diversity, growing::check,
+    Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector,
+    diversity::diversity,
+    growing::{check, check_start},
     ranking::best_first,
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
@@ -103,12 +105,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     /// # Errors
     /// If one is not of this search's topology; the error names it: `start[3]`.
     pub fn with_start(self, start: Vec<WeightVector>) -> Result<Self, SettingError> {
-        for (index, individual) in start.iter().enumerate() {
-            if *individual.topology() != self.topology {
-                let (found, allowed) = (individual.topology().to_string(), format!("of shape {}", self.topology));
-                return Err(SettingError::new(format!("start[{index}]"), found, allowed));
-            }
-        }
+        check_start(&start, &self.topology)?;
         Ok(Self { start, ..self })
     }
 
@@ -125,18 +122,11 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
-        let mut start = Vec::with_capacity(self.parents.len());
         let (parents, order) = match self.parents.is_empty() {
             true => (&self.start, (0..self.start.len()).collect()),
             false => (&self.parents, best_first(&self.scores)),
         };
-        for index in order {
-            let mut individual = WeightVector::zero(next.topology.clone());
-            let (weights, deviation) = individual.genes_mut();
-            weights.copy_from_slice(&growth.carry(parents[index].weights(), 0.0));
-            *deviation = parents[index].mutation_deviation();
-            start.push(individual);
-        }
+        let start = order.into_iter().map(|index| parents[index].grown(&next.topology, growth)).collect();
         Ok(Self { start, ..next })
     }
 

@@ -14,6 +14,9 @@ pub(super) struct State {
     settings: Nsga2Settings,
     topology: Topology,
     reference: Option<Vec<Fitness>>,
+    /// Who is in the first generation, if it is not drawn; empty after it.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    start: Vec<Genes>,
     /// The survivors of the generation last told; empty before the first.
     parents: Vec<SavedParent>,
     /// The generation asked and not told yet; empty between generations.
@@ -48,6 +51,7 @@ impl From<Nsga2> for State {
             settings: strategy.settings,
             topology: strategy.topology,
             reference: strategy.reference,
+            start: strategy.start.iter().map(Genes::from).collect(),
             parents: strategy.parents.into_iter().map(saved).collect(),
             asked: strategy.population.iter().map(Genes::from).collect(),
         }
@@ -67,6 +71,8 @@ impl TryFrom<State> for Nsga2 {
         let parents = generation("parents", parents, strategy.settings.parent_count(), topology)?;
         let parent = |(genome, (scores, generation))| Parent { genome, scores, generation };
         strategy.parents = parents.into_iter().zip(evaluated).map(parent).collect();
+        let begins = state.start.len();
+        strategy.start = generation("start", state.start.into_iter().map(genes), begins, topology)?;
         let asked = state.asked.into_iter().map(genes);
         strategy.population = generation("asked", asked, strategy.settings.population, topology)?;
         strategy.reference = state.reference;

@@ -1,10 +1,14 @@
 use super::{Nsga2Settings, state::State};
-use crate::{Crossover, Mutation, WeightVector, diversity::diversity};
+use crate::{
+    Crossover, Mutation, WeightVector,
+    diversity::diversity,
+    growing::{check, check_start},
+};
 use ne_core::{
     Evaluation, Fitness, FrontPoint, Purpose, Seed, Selector, SettingError, Statistic, Strategy,
     pareto::{self, Point, Rank},
 };
-use ne_net::Topology;
+use ne_net::{Growth, Topology};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -41,6 +45,8 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 pub struct Nsga2 {
     pub(super) settings: Nsga2Settings,
     pub(super) topology: Topology,
+    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    pub(super) start: Vec<WeightVector>,
     /// The survivors of the generation last told, best first. Empty before the first.
     pub(super) parents: Vec<Parent>,
     /// The generation asked and not told yet; empty between generations.
@@ -82,7 +88,40 @@ impl Nsga2 {
         let topology = topology.into();
         settings.validate()?;
         topology.validate().map_err(|error| error.within("topology"))?;
-        Ok(Self { settings, topology, parents: Vec::new(), population: Vec::new(), reference: None })
+        let (start, parents, population) = (Vec::new(), Vec::new(), Vec::new());
+        Ok(Self { settings, topology, start, parents, population, reference: None })
+    }
+
+    /// The search whose first generation has these individuals, best first, in place of drawn ones. If they are more than
+    /// a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without effect
+    /// once a generation was told.
+    ///
+    /// # Errors
+    /// If one is not of this search's topology; the error names it: `start[3]`.
+    pub fn with_start(self, start: Vec<WeightVector>) -> Result<Self, SettingError> {
+        check_start(&start, &self.topology)?;
+        Ok(Self { start, ..self })
+    }
+
+    /// Goes on with other settings, on another task, or with nets that have grown: the survivors of the generation last
+    /// told are the first generation, best first, and what is new in their nets begins with weights of 0.
+    ///
+    /// # Errors
+    /// If a setting is out of range, or the growth is not from this topology to that one.
+    pub fn grown(
+        self,
+        settings: Nsga2Settings,
+        topology: impl Into<Topology>,
+        growth: &Growth,
+    ) -> Result<Self, SettingError> {
+        let next = Self::new(settings, topology)?;
+        check(growth, &self.topology, &next.topology)?;
+        let survivors: Vec<&WeightVector> = match self.parents.is_empty() {
+            true => self.start.iter().collect(),
+            false => self.parents.iter().map(|parent| &parent.genome).collect(),
+        };
+        let start = survivors.into_iter().map(|genome| genome.grown(&next.topology, growth)).collect();
+        Ok(Self { start, ..next })
     }
 
     /// The settings.
@@ -100,6 +139,16 @@ impl Nsga2 {
         let mut individual = WeightVector::zero(self.topology.clone());
         self.settings.initialization.draw(&mut individual, &mut seed.stream(FIRST_GENERATION));
         *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
+        individual
+    }
+
+    /// An individual of a first generation that is not drawn: one of those it begins with, or a copy that has mutated.
+    fn begin(&self, index: usize, seed: Seed) -> WeightVector {
+        let mut individual = self.start[index % self.start.len()].clone();
+        if index >= self.start.len() {
+            let (weights, deviation) = individual.genes_mut();
+            self.settings.mutation.mutate(weights, deviation, 1.0, &mut seed.stream(REPRODUCTION));
+        }
         individual
     }
 
@@ -158,7 +207,9 @@ impl Strategy for Nsga2 {
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let size = self.settings.population;
         let place = |index: usize| seed.individual(index as u64);
-        self.population = if self.parents.is_empty() {
+        self.population = if self.parents.is_empty() && !self.start.is_empty() {
+            (0..size).map(|index| self.begin(index, place(index))).collect()
+        } else if self.parents.is_empty() {
             (0..size).map(|index| self.draw(place(index))).collect()
         } else {
             let kept = if self.settings.parents_again { self.parents.len() } else { 0 };
@@ -172,6 +223,7 @@ impl Strategy for Nsga2 {
 
     fn tell(&mut self, evaluations: &[Evaluation], seed: Seed) {
         debug_assert_eq!(evaluations.len(), self.population.len());
+        self.start.clear();
         let generation = seed.generation_index();
         let told = std::mem::take(&mut self.population).into_iter().zip(evaluations).map(|(genome, evaluation)| {
             let scores = evaluation.fitness().zip(evaluation.objectives());

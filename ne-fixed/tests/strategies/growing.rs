@@ -3,8 +3,8 @@
 use crate::common::{assert_resumes, dense, generation, recurrent, reload};
 use ne_core::{Phenotype, Seed, Strategy};
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, CovarianceModel, OpenEs,
-    OpenEsSettings, WeightVector,
+    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, CovarianceModel, Nsga2,
+    Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
 };
 use ne_net::{DenseShape, Growth, Topology};
 
@@ -97,6 +97,21 @@ fn populations_go_on_in_grown_nets() {
         let new = strategy.grown(settings(size), topology.clone(), &growth).expect("grows");
         assert_population_goes_on(old, new, size);
     }
+}
+
+#[test]
+fn the_survivors_of_a_search_for_compromises_go_on() {
+    let (topology, growth) = grown();
+    let settings = Nsga2Settings::default();
+    let (strategy, _) = trained(Nsga2::new(settings.clone(), dense()).expect("valid"));
+    let front = strategy.front().expect("it has one")[0].genome.weights().to_vec();
+    let mut new = strategy.grown(settings, topology, &growth).expect("grows");
+    let first = new.clone().ask(Seed::of_run(2).generation(1)).to_vec();
+    assert_eq!(reload(&new).ask(Seed::of_run(2).generation(1)), first);
+    // With the fitness as the only objective the front is the best.
+    assert_same_behaviour(&front, first[0].weights());
+    generation(&mut new, 1);
+    assert_resumes(new, 3);
 }
 
 #[test]

@@ -169,6 +169,7 @@ function startPage() {
   buildChampion(run, model);
   buildStages(run, model);
   buildGait(run);
+  buildFront(run, model);
   buildFitness(run);
   buildStatistics(run);
   buildSpecies(run);
