@@ -36,7 +36,8 @@ pub struct Front {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SavedPoint {
-    /// The generation it was evaluated in, from 1: in the worlds of that one the task of training gives its numbers again.
+    /// The generation it was evaluated in, from 1: in the worlds of that one the task of training gives its numbers
+    /// again.
     pub generation: u64,
     /// Its fitness.
     pub fitness: Fitness,

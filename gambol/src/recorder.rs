@@ -16,8 +16,8 @@ use std::time::Instant;
 
 /// The observer that fills a run folder.
 ///
-/// Lines are appended each generation; checkpoint, champion and front are brought up to date every few generations, after the
-/// lines they belong to are on the disk.
+/// Lines are appended each generation; checkpoint, champion and front are brought up to date every few generations,
+/// after the lines they belong to are on the disk.
 pub(crate) struct Recorder<'a> {
     folder: &'a RunFolder,
     config: &'a RunConfig,

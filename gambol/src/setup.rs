@@ -33,8 +33,8 @@ pub struct Setup {
     pub weight_names: Vec<String>,
     /// The unit of the fitness.
     pub unit: String,
-    /// What a strategy that searches for several objectives finds compromises between; the fitness alone if the movement
-    /// has no objectives.
+    /// What a strategy that searches for several objectives finds compromises between; the fitness alone if the
+    /// movement has no objectives.
     pub objectives: Vec<Objective>,
 }
 

@@ -1,11 +1,11 @@
 //! Comparing by several objectives at once: domination, fronts, crowding, hypervolume.
 //!
 //! All objectives are maximised. A point is what an evaluation came to in each of them, or `None` if it failed; every
-//! point dominates a failed one, so failures come last without being a special case. A [`Fitness`] cannot be NaN, and so
-//! no comparison is undecided.
+//! point dominates a failed one, so failures come last without being a special case. A [`Fitness`] cannot be NaN, and
+//! so no comparison is undecided.
 //!
-//! Source, unless a function names another: Deb, Pratap, Agarwal & Meyarivan, *A Fast and Elitist Multiobjective Genetic
-//! Algorithm: NSGA-II*, IEEE Transactions on Evolutionary Computation 6(2), 2002, sections III.A and III.B.
+//! Source, unless a function names another: Deb, Pratap, Agarwal & Meyarivan, *A Fast and Elitist Multiobjective
+//! Genetic Algorithm: NSGA-II*, IEEE Transactions on Evolutionary Computation 6(2), 2002, sections III.A and III.B.
 //!
 //! ```
 //! use ne_core::{Fitness, pareto};
@@ -34,8 +34,8 @@ pub fn dominates(one: Point<'_>, other: Point<'_>) -> bool {
 /// Sorts points into fronts: the first holds those that none dominates, the next those that only points of the fronts
 /// before dominate, and so on. Gives the indices of each front, in ascending order; failed points are the last front.
 ///
-/// The fast non-dominated sort, in O(M N²) comparisons of N points with M objectives. Whom a point dominates is compared
-/// again rather than remembered, so that memory stays in O(N).
+/// The fast non-dominated sort, in O(M N²) comparisons of N points with M objectives. Whom a point dominates is
+/// compared again rather than remembered, so that memory stays in O(N).
 pub fn fronts(points: &[Point<'_>]) -> Vec<Vec<usize>> {
     let dominators = |&point: &Point<'_>| points.iter().filter(|&&other| dominates(other, point)).count();
     // Of those in no front yet: how many others in no front yet dominate each.
@@ -56,8 +56,8 @@ pub fn fronts(points: &[Point<'_>]) -> Vec<Vec<usize>> {
 /// How much room each member of a front has to itself: for each objective the distance between its neighbours, as a
 /// share of the front's range, summed; infinite at the ends of an objective. In the order of `front`.
 ///
-/// Of members with equal values only the first counts; the others have distance 0, as failed points have. The paper gives
-/// copies distances that depend on how they are sorted. Source: Fortin & Parizeau, *Revisiting the NSGA-II
+/// Of members with equal values only the first counts; the others have distance 0, as failed points have. The paper
+/// gives copies distances that depend on how they are sorted. Source: Fortin & Parizeau, *Revisiting the NSGA-II
 /// Crowding-Distance Computation*, GECCO 2013.
 ///
 /// # Panics

@@ -39,8 +39,8 @@ pub trait Strategy: Serialize + DeserializeOwned + Send {
     }
 
     /// The best compromises between several objectives after `tell`, for strategies that look for them: none
-    /// [dominates](crate::pareto::dominates) another, and no two are equal in all objectives. From the best in the first
-    /// objective to the worst. `None`, the default: the strategy knows no front.
+    /// [dominates](crate::pareto::dominates) another, and no two are equal in all objectives. From the best in the
+    /// first objective to the worst. `None`, the default: the strategy knows no front.
     fn front(&self) -> Option<Vec<FrontPoint<'_, Self::Genome>>> {
         None
     }

@@ -175,8 +175,8 @@ impl<E: Environment> Task for Episode<E> {
     }
 
     /// Fitness: the movement's value, combined over the trials. Measurements: each term's value under its name (mean
-    /// over the trials), and `duration`, the length of the episode in s. Objectives: the movement's, if it has any (mean
-    /// over the trials).
+    /// over the trials), and `duration`, the length of the episode in s. Objectives: the movement's, if it has any
+    /// (mean over the trials).
     fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
         if let Err(failure) = self.check_shape(phenotype) {
             return Evaluation::failed(failure);

@@ -34,7 +34,8 @@ struct PointData {
     fitness: f64,
     /// What was measured in training, in the units of the objectives.
     values: Vec<f64>,
-    /// The same in the world and the episode champions are judged in, if those are others; `None` also where it fails there.
+    /// The same in the world and the episode champions are judged in, if those are others; `None` also where it fails
+    /// there.
     #[serde(skip_serializing_if = "Option::is_none")]
     judged: Option<Vec<f64>>,
     replay: Replay,

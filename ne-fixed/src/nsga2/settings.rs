@@ -10,8 +10,8 @@ pub struct Nsga2Settings {
     /// proportion to its square.)
     pub population: usize,
     /// Whether parents are evaluated again beside their children, each half of the population, so that all were in the
-    /// same worlds; default yes. Without, as in the paper, a parent keeps what it was told once, and in worlds that vary
-    /// with the generation the front fills with those who were lucky.
+    /// same worlds; default yes. Without, as in the paper, a parent keeps what it was told once, and in worlds that
+    /// vary with the generation the front fills with those who were lucky.
     pub parents_again: bool,
     /// How parents are selected by rank and crowding; default a tournament of two, as in the paper.
     pub selection: Selection,

@@ -17,8 +17,8 @@ const FIRST_GENERATION: Purpose = Purpose::new("nsga2 first generation");
 const PARENTS: Purpose = Purpose::new("nsga2 parents");
 const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 
-/// NSGA-II: searches for compromises between objectives, such as speed and energy, that cannot all be had at once. What it
-/// finds is not one best individual but a [front](Strategy::front) of them.
+/// NSGA-II: searches for compromises between objectives, such as speed and energy, that cannot all be had at once. What
+/// it finds is not one best individual but a [front](Strategy::front) of them.
 ///
 /// From a generation that was evaluated the next is made in these steps:
 /// 1. parents and children together are sorted into fronts of which none dominates another within
@@ -38,8 +38,8 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 /// - `diversity`: the standard deviation of a gene over the parents, mean of all genes, in units of the weights.
 ///
 /// Source: Deb, Pratap, Agarwal & Meyarivan, *A Fast and Elitist Multiobjective Genetic Algorithm: NSGA-II*, IEEE
-/// Transactions on Evolutionary Computation 6(2), 2002, section III. Crossover and mutation are this crate's; tournaments
-/// are drawn with replacement; see also [`Nsga2Settings::parents_again`].
+/// Transactions on Evolutionary Computation 6(2), 2002, section III. Crossover and mutation are this crate's;
+/// tournaments are drawn with replacement; see also [`Nsga2Settings::parents_again`].
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(into = "State", try_from = "State")]
 pub struct Nsga2 {
