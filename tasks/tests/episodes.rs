@@ -342,7 +342,7 @@ fn objectives_are_named_in_files_and_their_errors_name_the_field() -> Result<(),
         let error = built(objectives)?.err().ok_or("it was built")?;
         assert!(error.starts_with(message), "{error}");
     }
-    let five = vec![r#"{"term":"running","weight":1.0}"#; 5].join(",");
+    let five = [r#"{"term":"running","weight":1.0}"#; 5].join(",");
     let error = built(&format!("[{five}]"))?.err().ok_or("it was built")?;
     assert!(error.starts_with("objectives = 5 objectives: must be"), "{error}");
     Ok(())

@@ -18,8 +18,15 @@ const OBJECTIVES: &str = r#"movement.objectives=[{"term":"running"},{"term":"ene
 
 /// A small run for speed against energy.
 fn train(folder: &Path, generations: u32) -> Command {
-    let mut train = small_run(folder, generations);
-    train.args(["--quiet", "--strategy", "nsga2", "--set", OBJECTIVES]);
+    train_many(folder, generations, 8)
+}
+
+/// The same with so many individuals.
+fn train_many(folder: &Path, generations: u32, population: u32) -> Command {
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--strategy", "nsga2", "--set", OBJECTIVES, "--set", "movement.steps=60"]);
+    train.args(["--quiet", "--no-report", "--population", &population.to_string()]);
+    train.args(["--generations", &generations.to_string(), "--out"]).arg(folder);
     train
 }
 
@@ -75,7 +82,7 @@ fn a_front_holds_what_was_measured() -> Outcome {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("run");
         let again = format!("strategy.nsga2.parents_again={parents_again}");
-        succeed(train(&path, 6).args(["--population", "24", "--set", &again]));
+        succeed(train_many(&path, 6, 24).args(["--set", &again]));
         let run = RunFolder::open(&path)?;
         let (config, front) = (run.read_config()?, Front::read(&run.front())?);
         let setup = Setup::new(&config, &MovementCatalogue::default())?;
@@ -111,7 +118,7 @@ fn each_point_can_be_replayed_saved_and_verified() -> Outcome {
     // With and without a jury's world of its own.
     for (name, more) in [("varied", &[][..]), ("plain", &["--preset", "thesis"])] {
         let path = folder.path().join(name);
-        succeed(train(&path, 4).args(["--population", "16"]).args(more));
+        succeed(train_many(&path, 4, 16).args(more));
         let points = json(&path.join("front.json"))["content"]["points"].as_array().map_or(0, Vec::len);
         for point in [1, points] {
             let [csv, saved] = ["csv", "json"].map(|end| folder.path().join(format!("{name}-{point}.{end}")));
@@ -153,7 +160,7 @@ fn a_point_that_is_not_there_is_named() -> Outcome {
 fn the_report_has_the_points_spread_along_the_front_and_plays_them() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    succeed(train(&path, 6).args(["--population", "200"]));
+    succeed(&mut train_many(&path, 6, 200));
     succeed(gambol("report").arg(&path));
     let page = fs::read_to_string(path.join("report.html"))?;
     assert_stands_alone(&page);

@@ -192,7 +192,9 @@ function buildFront(run, model) {
   document.getElementById("front").hidden = false;
   const shown = front.points.length < front.total ? `${front.points.length} of ${fixed(front.total, 0)} points, evenly spread. ` : "";
   const varied = run.summary?.varied;
-  const where = varied ? ` The chart has what was measured in training, in the worlds of generation ${fixed(front.points[0].generation, 0)}.` : "";
+  const generations = new Set(front.points.map(point => point.generation));
+  const worlds = generations.size > 1 ? "the generation each was evaluated in" : `generation ${fixed(front.points[0].generation, 0)}`;
+  const where = varied ? ` The chart has what was measured in training, in the worlds of ${worlds}.` : "";
   document.getElementById("front-intro").textContent = `None of these is better than another in one objective without being worse in another. ${shown}`
     + `Click one to see its first seconds.${where}`;
   const view = new FrontView(front, model, varied);
