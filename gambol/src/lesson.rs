@@ -31,7 +31,7 @@ pub enum LessonError {
     },
     /// The champion does not repeat itself, as a movement that is not deterministic makes it.
     #[error("the champion does not repeat itself: {0:?}")]
-    NotRepeated(Verification),
+    NotRepeated(Box<Verification>),
 }
 
 /// Trains a configuration on all cores, writes the report into the run's folder, and verifies the champion: what `gambol
@@ -52,7 +52,7 @@ pub fn teach(config: &RunConfig, folder: &Path, catalogue: &MovementCatalogue) -
     let champion = outcome.champion.ok_or_else(no_champion)?;
     match champion.verify(catalogue)? {
         verification if verification.is_identical() => Ok(champion),
-        verification => Err(LessonError::NotRepeated(verification)),
+        verification => Err(LessonError::NotRepeated(Box::new(verification))),
     }
 }
 

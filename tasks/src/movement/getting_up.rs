@@ -9,8 +9,8 @@ use serde::Deserialize;
 /// Two fifths of it are the torso's turn from the start pose to upright; the rest, which also needs the turn, is its rise
 /// above where it lay, by 0.8 times the length of its longest leg (without legs the turn is all). A body on its end is
 /// worth at most a quarter, so that it does better to fall over to the right side, even if it lies on its belly then. The
-/// value is a mean that forgets within a second or so: what is not held until the end is lost, and a somersault that comes
-/// to lie again is worth nothing.
+/// value is a mean that forgets within a few seconds: what is not held until the end is lost, a leap at the end is worth
+/// little, and a somersault that comes to lie again nothing.
 #[derive(Clone, Debug)]
 pub struct GettingUp {
     turn: f64,
@@ -38,8 +38,8 @@ const LEAST: f64 = 10.0;
 const TURN: f64 = 0.4;
 /// Of the longest leg's length.
 const RISE: f64 = 0.8;
-/// What is forgotten, s.
-const MEMORY: f64 = 0.5;
+/// How slowly it forgets, s: a leap at the end must not be worth a stand.
+const MEMORY: f64 = 1.5;
 
 impl Default for GettingUpSettings {
     fn default() -> Self {
