@@ -185,6 +185,18 @@ impl Blueprint {
         self.parts[0].y - self.bounding_box[1]
     }
 
+    /// How far the lowest point of the longest leg is below the joint it hangs on, in the start pose, m; for a creature
+    /// that [has no legs](Self::is_legless) its start height. Positive.
+    pub fn leg_length(&self) -> f32 {
+        let length = |leg: &Vec<usize>| {
+            let (first, last) = (leg.first()?, leg.last()?);
+            let hip = self.hinges.iter().position(|hinge| hinge.child == *first)?;
+            Some(self.creature.joints.get(hip)?.anchor[1] - self.parts[*last].lowest_point())
+        };
+        let longest = self.legs.iter().filter_map(length).fold(0.0, f32::max);
+        if self.is_legless() || longest <= 0.0 { self.start_height() } else { longest }
+    }
+
     /// Mass of all parts together, kg.
     pub fn mass(&self) -> f32 {
         self.parts.iter().map(BodyPart::mass).sum()

@@ -59,6 +59,30 @@ pub const RAY_ANGLE: Bounds = Bounds::new(-180.0, 180.0, "°");
 pub const RAY_LENGTH: Bounds = Bounds::new(0.01, 100.0, "m");
 /// Period of a clock.
 pub const CLOCK_PERIOD: Bounds = Bounds::new(0.02, 100.0, "s");
+/// How far the sensor of the next gap looks.
+pub const GAP_SIGHT: Bounds = Bounds::new(0.01, 100.0, "m");
+/// Difficulty of a terrain.
+pub const TERRAIN_DIFFICULTY: Bounds = Bounds::new(0.0, 1.0, "");
+/// How far from the start a terrain has obstacles.
+pub const TERRAIN_LENGTH: Bounds = Bounds::new(1.0, 1000.0, "m");
+/// Level ground before the first obstacle.
+pub const TERRAIN_RUN_UP: Bounds = Bounds::new(0.0, 100.0, "m");
+/// Share by which spacings differ.
+pub const TERRAIN_JITTER: Bounds = Bounds::new(0.0, 0.9, "");
+/// Level ground between obstacles.
+pub const OBSTACLE_SPACING: Bounds = Bounds::new(0.1, 100.0, "m");
+/// Width of gaps.
+pub const GAP_WIDTH: Bounds = Bounds::new(0.0, 20.0, "m");
+/// Height of hurdles.
+pub const HURDLE_HEIGHT: Bounds = Bounds::new(0.0, 5.0, "m");
+/// Height of steps.
+pub const STAIR_RISE: Bounds = Bounds::new(0.0, 2.0, "m");
+/// Depth of steps.
+pub const STAIR_TREAD: Bounds = Bounds::new(0.05, 10.0, "m");
+/// Steepness of slopes.
+pub const SLOPE_DEGREES: Bounds = Bounds::new(0.0, 60.0, "°");
+/// Height of the highest blocks of rough ground.
+pub const ROUGH_HEIGHT: Bounds = Bounds::new(0.0, 2.0, "m");
 /// Size of the range net inputs are scaled to.
 pub const INPUT_RANGE: Bounds = Bounds::new(0.001, 1000.0, "");
 
@@ -66,6 +90,8 @@ pub const INPUT_RANGE: Bounds = Bounds::new(0.001, 1000.0, "");
 pub const MOST_PARTS: usize = 256;
 /// Most rays of a rangefinder.
 pub const MOST_RAYS: usize = 64;
+/// Most kinds of obstacles of a terrain.
+pub const MOST_OBSTACLE_KINDS: usize = 16;
 /// Most decorations of a part.
 pub const MOST_DECORATIONS: usize = 256;
 /// Most points of a decoration.

@@ -68,6 +68,7 @@ mod senses;
 mod sensor;
 mod shape;
 mod shipped;
+mod terrain;
 
 pub use blueprint::{Blueprint, BodyPart, Hinge};
 pub use body_view::BodyView;
@@ -85,3 +86,7 @@ pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase};
 pub use sensor::Sensor;
 pub use shape::Shape;
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};
+pub use terrain::{
+    BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles, TERRAINS, Terrain, TerrainEntry, TerrainError,
+    UnknownTerrain,
+};
