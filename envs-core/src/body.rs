@@ -58,6 +58,8 @@ pub(crate) struct Body<'a, E> {
     pub(crate) engine: &'a E,
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) rest: &'a RestPose,
+    /// From left to right, m.
+    pub(crate) gaps: &'a [[f32; 2]],
 }
 
 /// The angle of `direction` (cosine, sine) seen from `reference`, rad.

@@ -1,8 +1,8 @@
 use crate::{
-    Conditions, Engine, EnvironmentError, Ground, PhysicsSettings, RestPose, Settled, Variation, anatomy::body_of,
-    body::Body, settled::advance,
+    Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, RestPose, Settled, Variation,
+    anatomy::body_of, body::Body, settled::advance,
 };
-use creatures::{Actuation, Blueprint, Motors, Senses, Sensor};
+use creatures::{Actuation, Blueprint, Motors, Senses, Sensor, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
 use std::{borrow::Cow, sync::Arc};
 use tasks::{Environment, Snapshot};
@@ -34,7 +34,9 @@ struct Plan<E> {
     motors: Motors,
     settings: PhysicsSettings,
     variation: Variation,
-    ground: Ground,
+    landscape: Landscape,
+    /// What the landscape was laid out from, if trials may have others; else flat.
+    terrain: Terrain,
     /// One for each motor.
     actuated: Vec<ActuatedHinge>,
     /// The settled creature in the world without variation.
@@ -46,6 +48,7 @@ struct Plan<E> {
 struct State<E> {
     engine: E,
     rest: Arc<RestPose>,
+    gaps: Arc<[[f32; 2]]>,
     snapshot: Snapshot,
     /// Seconds a step of this trial lasts.
     time_step: f32,
@@ -91,9 +94,46 @@ impl<E: Engine> CreatureEnvironment<E> {
         variation: Variation,
         ground: Ground,
     ) -> Result<Self, EnvironmentError> {
+        ground.validate().map_err(|error| error.within("ground"))?;
+        Self::on_landscape(blueprint, sensors, input_range, settings, variation, ground.into(), Terrain::default())
+    }
+
+    /// On a terrain laid out for the creature: see [`Landscape::new`] and [`on_ground`](Self::on_ground). With
+    /// [`Variation::terrain`] each trial has one of its own seed.
+    ///
+    /// # Errors
+    /// As [`new`](Self::new), if the terrain is not valid, and if bumps are to vary on a terrain that is not flat.
+    pub fn on_terrain(
+        blueprint: Blueprint,
+        sensors: &[Sensor],
+        input_range: f32,
+        settings: PhysicsSettings,
+        variation: Variation,
+        terrain: Terrain,
+    ) -> Result<Self, EnvironmentError> {
+        if let Err(TerrainError { field, found, allowed }) = terrain.validate() {
+            return Err(SettingError::new(field, found, allowed).within("terrain").into());
+        }
+        if variation.bumps != 0.0 && !terrain.is_flat() {
+            let allowed = "0 on a terrain that is not flat (\"rough\" has blocks of its own)";
+            return Err(SettingError::new("variation.bumps", variation.bumps, allowed).into());
+        }
+        let landscape = Landscape::new(&terrain, terrain.seed, &blueprint);
+        Self::on_landscape(blueprint, sensors, input_range, settings, variation, landscape, terrain)
+    }
+
+    /// The ground must be valid.
+    fn on_landscape(
+        blueprint: Blueprint,
+        sensors: &[Sensor],
+        input_range: f32,
+        settings: PhysicsSettings,
+        variation: Variation,
+        landscape: Landscape,
+        terrain: Terrain,
+    ) -> Result<Self, EnvironmentError> {
         settings.validate().map_err(|error| error.within("physics"))?;
         variation.validate().map_err(|error| error.within("variation"))?;
-        ground.validate().map_err(|error| error.within("ground"))?;
         let senses = Senses::new(&blueprint, sensors, input_range)?;
         let motors = Motors::new(&blueprint);
         let hinges = blueprint.hinges();
@@ -105,8 +145,8 @@ impl<E: Engine> CreatureEnvironment<E> {
             return Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth });
         }
         let nominal = Conditions::nominal(motors.len());
-        let engine = E::new(&blueprint, &settings, &ground, &nominal)?;
-        let settled = Settled::new(engine, &blueprint, &settings, &nominal)
+        let engine = E::new(&blueprint, &settings, &landscape.ground, &nominal)?;
+        let settled = Settled::new(engine, &blueprint, &settings, &nominal, &landscape)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
         let plan = Plan {
@@ -116,7 +156,8 @@ impl<E: Engine> CreatureEnvironment<E> {
             motors,
             settings,
             variation,
-            ground,
+            landscape,
+            terrain,
             actuated,
             settled,
         };
@@ -145,18 +186,20 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// # Errors
     /// If a condition is out of range, the ground is not valid, the engine cannot build it, or the creature does not
     /// come to rest there.
-    pub fn under(&self, conditions: &Conditions, ground: Ground) -> Result<Self, EnvironmentError> {
+    pub fn under(&self, conditions: &Conditions, landscape: impl Into<Landscape>) -> Result<Self, EnvironmentError> {
+        let landscape = landscape.into();
         conditions.validate(self.plan.motors.len()).map_err(|error| error.within("conditions"))?;
-        ground.validate().map_err(|error| error.within("ground"))?;
+        landscape.ground.validate().map_err(|error| error.within("ground"))?;
         let settings = conditions.settings(&self.plan.settings);
         settings.validate().map_err(|error| error.within("physics"))?;
         let blueprint = &self.plan.blueprint;
-        let engine = E::new(blueprint, &settings, &ground, conditions)?;
-        let settled = Settled::new(engine, blueprint, &settings, conditions)
+        let engine = E::new(blueprint, &settings, &landscape.ground, conditions)?;
+        let settled = Settled::new(engine, blueprint, &settings, conditions, &landscape)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), self.plan.motors.len());
         let variation = Variation::default();
-        let mut plan = Plan { settings, variation, ground, settled, ..(*self.plan).clone() };
+        let terrain = Terrain::default();
+        let mut plan = Plan { settings, variation, landscape, terrain, settled, ..(*self.plan).clone() };
         for part in &mut plan.body.parts {
             part.mass *= conditions.mass;
             part.inertia *= conditions.mass;
@@ -196,7 +239,17 @@ impl<E: Engine> CreatureEnvironment<E> {
 
     /// What the creature moves on.
     pub fn ground(&self) -> &Ground {
-        &self.plan.ground
+        &self.plan.landscape.ground
+    }
+
+    /// The same, and where its obstacles are; without variation between trials.
+    pub fn landscape(&self) -> &Landscape {
+        &self.plan.landscape
+    }
+
+    /// What the landscape was laid out from; flat if it was given as ground.
+    pub fn terrain(&self) -> &Terrain {
+        &self.plan.terrain
     }
 
     /// The torque each motor gave at the end of the last step, N·m, in order of the outputs.
@@ -210,7 +263,7 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// # Errors
     /// If the creature cannot come to rest in the world of this trial.
     pub fn settled(&self, seed: Seed) -> Result<Settled<E>, Failure> {
-        let Plan { blueprint, motors, settings, variation, ground, settled, .. } = &*self.plan;
+        let Plan { blueprint, motors, settings, variation, landscape, terrain, settled, .. } = &*self.plan;
         if variation.is_none() {
             return Ok(settled.clone());
         }
@@ -218,13 +271,17 @@ impl<E: Engine> CreatureEnvironment<E> {
         let settings = conditions.settings(settings);
         let [left, _, right, _] = blueprint.bounding_box();
         let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
-        let ground = match bumps.is_empty() {
-            true => Cow::Borrowed(ground),
-            false => Cow::Owned(Ground { shapes: ground.shapes.iter().copied().chain(bumps).collect() }),
+        let landscape = if !bumps.is_empty() {
+            let shapes = landscape.ground.shapes.iter().copied().chain(bumps).collect();
+            Cow::Owned(Ground { shapes }.into())
+        } else if let Some(seed) = variation.draw_terrain(seed).filter(|_| !terrain.is_flat()) {
+            Cow::Owned(Landscape::new(terrain, seed, blueprint))
+        } else {
+            Cow::Borrowed(landscape)
         };
-        let engine = E::new(blueprint, &settings, &ground, &conditions)
+        let engine = E::new(blueprint, &settings, &landscape.ground, &conditions)
             .map_err(|error| Failure::Other { what: error.to_string() })?;
-        Settled::new(engine, blueprint, &settings, &conditions)
+        Settled::new(engine, blueprint, &settings, &conditions, &landscape)
     }
 }
 
@@ -251,13 +308,13 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
     }
 
     fn sense(&self, inputs: &mut [f32]) {
-        let State { engine, snapshot, rest, .. } = &self.state;
-        self.plan.senses.read(&Body { engine, snapshot, rest }, inputs);
+        let State { engine, snapshot, rest, gaps, .. } = &self.state;
+        self.plan.senses.read(&Body { engine, snapshot, rest, gaps }, inputs);
     }
 
     fn act(&mut self, outputs: &[f32]) {
-        let State { engine, wanted, speeds, snapshot, rest, .. } = &mut self.state;
-        self.plan.motors.speeds(&Body { engine, snapshot, rest }, outputs, wanted);
+        let State { engine, wanted, speeds, snapshot, rest, gaps, .. } = &mut self.state;
+        self.plan.motors.speeds(&Body { engine, snapshot, rest, gaps }, outputs, wanted);
         for ((actuated, &wanted), speed) in self.plan.actuated.iter().zip(&*wanted).zip(speeds) {
             // A speed that is no number stays out of the engine; `step` reports it.
             if wanted != *speed && !wanted.is_nan() {
@@ -282,8 +339,8 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
 impl<E: Engine> State<E> {
     /// The beginning of a trial.
     fn new(settled: Settled<E>, motors: usize) -> Self {
-        let Settled { engine, rest, snapshot, time_step } = settled;
-        Self { engine, rest, snapshot, time_step, steps: 0, speeds: vec![0.0; motors], wanted: vec![0.0; motors] }
+        let Settled { engine, rest, gaps, snapshot, time_step } = settled;
+        Self { engine, rest, gaps, snapshot, time_step, steps: 0, speeds: vec![0.0; motors], wanted: vec![0.0; motors] }
     }
 
     /// One step, with everything that is measured after it.

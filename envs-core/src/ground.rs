@@ -15,6 +15,11 @@ pub struct Ground {
 pub enum GroundShape {
     /// Everything below y = 0: flat ground without end.
     HalfSpace,
+    /// Everything below a height: the floor of pits.
+    Floor {
+        /// The height, m.
+        y: f32,
+    },
     /// A rectangle whose sides are level and upright.
     Box {
         /// Of its centre, m.
@@ -25,6 +30,19 @@ pub enum GroundShape {
         width: f32,
         /// Full height, m; positive.
         height: f32,
+    },
+    /// A turned rectangle: slanted ground.
+    Slab {
+        /// Of its centre, m.
+        x: f32,
+        /// Of its centre, m.
+        y: f32,
+        /// Full width before it is turned, m; positive.
+        width: f32,
+        /// Full height before it is turned, m; positive.
+        height: f32,
+        /// Counter-clockwise, rad.
+        angle: f32,
     },
     /// A disc. Where its top looks out of other ground it is a mound, without an edge that a sunken foot could hit.
     Circle {
@@ -77,9 +95,15 @@ impl GroundShape {
         };
         match *self {
             Self::HalfSpace => Ok(()),
+            Self::Floor { y } => place("y", y),
             Self::Box { x, y, width, height } => {
                 place("x", x).and(place("y", y)).and(size("width", width)).and(size("height", height))
             }
+            Self::Slab { x, y, width, height, angle } => place("x", x)
+                .and(place("y", y))
+                .and(size("width", width))
+                .and(size("height", height))
+                .and(place("angle", angle)),
             Self::Circle { x, y, radius } => place("x", x).and(place("y", y)).and(size("radius", radius)),
         }
     }

@@ -16,7 +16,8 @@
 //!   get different creatures, never parts of one.
 //! - **Settle once, copy often.** The settled world is a prototype; an episode begins with a copy of it. So an episode
 //!   never pays for settling, and nothing of an earlier one can be left. Only varied worlds settle for each trial.
-//! - **The ground is data.** A [`Ground`] is a list of shapes that any engine can build.
+//! - **The ground is data.** A [`Ground`] is a list of shapes that any engine can build. A [`Landscape`] is the ground that a
+//!   [`Terrain`](creatures::Terrain) becomes for a body, with a list of its obstacles.
 //! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
 //!   can be shown and compared; engines draw nothing. [`CreatureEnvironment::under`] builds a world of given conditions.
 //!
@@ -48,6 +49,7 @@ mod error;
 mod ground;
 mod settings;
 mod settled;
+mod terrain;
 mod variation;
 
 pub use anatomy::body_of;
@@ -59,4 +61,5 @@ pub use error::EnvironmentError;
 pub use ground::{Ground, GroundShape};
 pub use settings::PhysicsSettings;
 pub use settled::Settled;
+pub use terrain::{Landscape, Obstacle};
 pub use variation::{Conditions, Variation};

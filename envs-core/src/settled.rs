@@ -1,4 +1,4 @@
-use crate::{Conditions, Engine, PhysicsSettings, RestPose};
+use crate::{Conditions, Engine, Landscape, PhysicsSettings, RestPose};
 use creatures::Blueprint;
 use ne_core::Failure;
 use std::sync::Arc;
@@ -11,6 +11,8 @@ pub struct Settled<E> {
     pub engine: E,
     /// What the sensors compare with.
     pub rest: Arc<RestPose>,
+    /// The gaps of the ground: from and to, m, from left to right.
+    pub gaps: Arc<[[f32; 2]]>,
     /// Where every part is; time and motor work are 0.
     pub snapshot: Snapshot,
     /// Seconds a step of this trial lasts.
@@ -32,6 +34,7 @@ impl<E: Engine> Settled<E> {
         blueprint: &Blueprint,
         settings: &PhysicsSettings,
         conditions: &Conditions,
+        landscape: &Landscape,
     ) -> Result<Self, Failure> {
         let mut parts = vec![PartState::default(); blueprint.parts().len()];
         engine.look(&mut parts);
@@ -49,7 +52,8 @@ impl<E: Engine> Settled<E> {
             return Err(Failure::Unstable { what });
         }
         let rest = Arc::new(RestPose::new(blueprint, &snapshot));
-        Ok(Self { engine, rest, snapshot, time_step: settings.time_step })
+        let gaps = landscape.gaps().collect();
+        Ok(Self { engine, rest, gaps, snapshot, time_step: settings.time_step })
     }
 }
 

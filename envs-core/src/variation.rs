@@ -5,6 +5,7 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 const TRIAL_VARIATION: Purpose = Purpose::new("trial variation");
 const TRIAL_BUMPS: Purpose = Purpose::new("trial bumps");
+const TRIAL_TERRAIN: Purpose = Purpose::new("trial terrain");
 
 /// Body lengths.
 const BUMPS_REACH: f32 = 20.0;
@@ -31,6 +32,10 @@ pub struct Variation {
     /// The highest of the [bumps](crate::bumps()) on the ground, m, for as far as 20 body lengths; the lowest are a tenth
     /// as high. 0, or from 0.01 to 0.1; default 0, none.
     pub bumps: f32,
+    /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; default `false`:
+    /// all have that of the terrain's own seed.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub terrain: bool,
 }
 
 /// The world of one trial, against that of the settings.
@@ -89,7 +94,15 @@ impl Conditions {
 impl Default for Variation {
     /// None.
     fn default() -> Self {
-        Self { friction: 0.0, mass: 0.0, torque: 0.0, time_step: [1.0, 1.0], start_pose: 0.0, bumps: 0.0 }
+        Self {
+            friction: 0.0,
+            mass: 0.0,
+            torque: 0.0,
+            time_step: [1.0, 1.0],
+            start_pose: 0.0,
+            bumps: 0.0,
+            terrain: false,
+        }
     }
 }
 
@@ -113,13 +126,29 @@ impl Variation {
     /// Friction ± 30 %, mass and torque ± 10 %, steps between 0.42 and 1.25 times as long (1/120 to 1/40 s in place of
     /// 1/50), and every actuated joint turned by up to 0.05 rad (3°).
     pub const fn light() -> Self {
-        Self { friction: 0.3, mass: 0.1, torque: 0.1, time_step: [0.42, 1.25], start_pose: 0.05, bumps: 0.0 }
+        Self {
+            friction: 0.3,
+            mass: 0.1,
+            torque: 0.1,
+            time_step: [0.42, 1.25],
+            start_pose: 0.05,
+            bumps: 0.0,
+            terrain: false,
+        }
     }
 
     /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.33 and 1.5 times as long,
     /// every actuated joint turned by up to 0.1 rad (6°), and bumps up to 2 cm high.
     pub const fn strong() -> Self {
-        Self { friction: 0.5, mass: 0.2, torque: 0.2, time_step: [0.33, 1.5], start_pose: 0.1, bumps: 0.02 }
+        Self {
+            friction: 0.5,
+            mass: 0.2,
+            torque: 0.2,
+            time_step: [0.33, 1.5],
+            start_pose: 0.1,
+            bumps: 0.02,
+            terrain: false,
+        }
     }
 
     /// Whether every trial has the same world.
@@ -175,6 +204,11 @@ impl Variation {
         }
         let heights = [0.1 * self.bumps, self.bumps];
         bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], BUMPS_REACH * body_length)
+    }
+
+    /// The seed of the terrain of the trial with this seed, if it has one of its own.
+    pub(crate) fn draw_terrain(&self, seed: Seed) -> Option<u64> {
+        self.terrain.then(|| seed.stream(TRIAL_TERRAIN).random())
     }
 
     /// The factor on the time step, from the least at 0 to the greatest at 1.

@@ -55,8 +55,17 @@ impl RapierWorld {
     fn add_ground(&mut self, shape: &GroundShape, friction: f32) {
         let collider = match *shape {
             GroundShape::HalfSpace => ColliderBuilder::new(SharedShape::halfspace(Vector::Y)),
+            GroundShape::Floor { y } => {
+                ColliderBuilder::new(SharedShape::halfspace(Vector::Y)).translation(Vector::new(0.0, y))
+            }
             GroundShape::Box { x, y, width, height } => {
                 ColliderBuilder::cuboid(width * 0.5, height * 0.5).translation(Vector::new(x, y))
+            }
+            GroundShape::Slab { x, y, width, height, angle } => {
+                let (sin, cos) = libm::sincosf(angle);
+                let rotation = Rotation::from_cos_sin_unchecked(cos, sin);
+                ColliderBuilder::cuboid(width * 0.5, height * 0.5)
+                    .position(Pose { rotation, translation: Vector::new(x, y) })
             }
             GroundShape::Circle { x, y, radius } => ColliderBuilder::ball(radius).translation(Vector::new(x, y)),
         };

@@ -7,7 +7,7 @@ fn variations() -> impl Strategy<Value = Variation> {
     let share = || 0.0..=0.9_f32;
     let time_step = (0.1..=1.0_f32, 1.0..=2.0_f32);
     (share(), share(), share(), time_step, 0.0..=1.0_f32).prop_map(|(friction, mass, torque, time_step, start_pose)| {
-        Variation { friction, mass, torque, time_step: time_step.into(), start_pose, bumps: 0.0 }
+        Variation { friction, mass, torque, time_step: time_step.into(), start_pose, bumps: 0.0, terrain: false }
     })
 }
 
@@ -64,8 +64,15 @@ fn friction_mass_torque_time_step_and_turns_are_drawn_in_this_order() {
         time_step: libm::expf(libm::logf(0.5) + (libm::logf(1.5) - libm::logf(0.5)) * 0.5 * (1.0 + draw(1.0))),
         turns: vec![draw(0.4), draw(0.4)],
     };
-    let variation =
-        Variation { friction: 0.3, mass: 0.1, torque: 0.2, time_step: [0.5, 1.5], start_pose: 0.4, bumps: 0.0 };
+    let variation = Variation {
+        friction: 0.3,
+        mass: 0.1,
+        torque: 0.2,
+        time_step: [0.5, 1.5],
+        start_pose: 0.4,
+        bumps: 0.0,
+        terrain: false,
+    };
     assert_eq!(variation.draw(seed, 2), expected);
 }
 

@@ -1,7 +1,8 @@
-use super::{body::Body, level::LevelContact, pace::Pace, uneven::UnevenContact};
+use super::{body::Body, ledges::Ledges, level::LevelContact, pace::Pace, uneven::UnevenContact};
 use crate::lanes::Mask;
 use creatures::Blueprint;
 use envs_core::{Ground, GroundShape};
+use std::sync::Arc;
 
 /// The contacts of each part with the ground.
 #[derive(Clone, Debug)]
@@ -18,7 +19,8 @@ impl<const W: usize> Contacts<W> {
         if ground.shapes == [GroundShape::HalfSpace] {
             Self::Level(shapes.map(LevelContact::new).collect())
         } else {
-            Self::Uneven(shapes.map(|shape| UnevenContact::new(shape, ground)).collect())
+            let ledges = Arc::new(Ledges::new(ground));
+            Self::Uneven(shapes.map(|shape| UnevenContact::new(shape, ledges.clone())).collect())
         }
     }
 

@@ -1,15 +1,15 @@
 use super::{
     body::Body,
+    ledges::{Ledge, Ledges},
     normal::Slanted,
     pace::Pace,
     rows::{Point, Rows},
 };
 use crate::lanes::{Lanes, Mask};
 use creatures::Shape;
-use envs_core::{Ground, GroundShape};
 use parry2d::{
     math::{Pose, Rotation, Vector},
-    query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher, Ray},
+    query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher},
     shape::SharedShape,
 };
 use std::sync::Arc;
@@ -36,21 +36,9 @@ pub(super) struct UnevenContact<const W: usize> {
 /// A lane's ground.
 #[derive(Clone, Debug)]
 struct Lane {
-    ledges: Arc<[Ledge]>,
+    ledges: Arc<Ledges>,
     /// The shapes that are within reach, in the order of the ground.
     footings: Vec<Footing>,
-}
-
-/// A shape of the ground.
-#[derive(Debug)]
-struct Ledge {
-    /// Centre, m.
-    centre: [f32; 2],
-    /// Half the width and height of a box, m; infinite but upwards for a half-space; 0 for a circle.
-    half: [f32; 2],
-    /// Of a circle, m; else 0.
-    radius: f32,
-    shape: SharedShape,
 }
 
 /// A part on a shape of the ground.
@@ -63,8 +51,6 @@ struct Footing {
     row: Option<usize>,
     /// For each point of the rows, which point of the manifold it is.
     points: [Option<usize>; 2],
-    /// Where the shape is, m.
-    place: Vector,
 }
 
 /// What a point of contact pressed with in the last step.
@@ -82,7 +68,7 @@ struct Placed {
 }
 
 impl<const W: usize> UnevenContact<W> {
-    pub(super) fn new(shape: Shape, ground: &Ground) -> Self {
+    pub(super) fn new(shape: Shape, ledges: Arc<Ledges>) -> Self {
         let (part, radius) = match shape {
             Shape::Box { width, height } => {
                 (SharedShape::cuboid(width * 0.5, height * 0.5), (width * width + height * height).sqrt() * 0.5)
@@ -90,7 +76,7 @@ impl<const W: usize> UnevenContact<W> {
             Shape::Circle { radius } => (SharedShape::ball(radius), radius),
             Shape::Capsule { length, radius } => (SharedShape::capsule_y(length * 0.5, radius), length * 0.5 + radius),
         };
-        let lane = Lane { ledges: ground.shapes.iter().map(Ledge::new).collect(), footings: Vec::new() };
+        let lane = Lane { ledges, footings: Vec::new() };
         let (lanes, friction) = (vec![lane; W], Lanes::ZERO);
         Self { part, radius, lanes, friction, rows: Vec::new(), active: Vec::new() }
     }
@@ -126,15 +112,9 @@ impl<const W: usize> UnevenContact<W> {
         pressing
     }
 
-    /// The distance from a point to a lane's ground along a ray at `angle` (rad, in the world), m; `length` if it is
-    /// further.
-    pub(super) fn distance_along_ray(&self, lane: usize, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
-        let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
-        let distance = |ledge: &Ledge| {
-            let place = Pose { rotation: Rotation::IDENTITY, translation: ledge.translation() };
-            ledge.shape.cast_ray(&place, &ray, length, true)
-        };
-        self.lanes[lane].ledges.iter().filter_map(distance).fold(length, f32::min)
+    /// The ground of a lane.
+    pub(super) fn ledges(&self, lane: usize) -> &Ledges {
+        &self.lanes[lane].ledges
     }
 
     /// Finds the points that are within `reach` m of the ground, or will be after a step of this many seconds.
@@ -153,24 +133,27 @@ impl<const W: usize> UnevenContact<W> {
             };
             let Lane { ledges, footings } = &mut self.lanes[lane];
             let mut next = 0;
-            for (index, ledge) in ledges.iter().enumerate() {
-                let known = footings.get(next).is_some_and(|footing| footing.ledge == index);
-                if ledge.is_out_of_reach(&placed, self.radius + reach) {
-                    if known {
-                        footings.remove(next);
-                    }
+            for (index, ledge) in ledges.near(placed.pose.translation.x, self.radius + reach) {
+                if ledge.is_out_of_reach(placed.pose.translation, self.radius + reach) {
                     continue;
                 }
-                if !known {
-                    footings.insert(next, Footing::new(index, ledge));
+                // What is known and stands before it in the order is out of reach by now.
+                while footings.get(next).is_some_and(|footing| footing.ledge < index) {
+                    footings.remove(next);
+                }
+                if footings.get(next).is_none_or(|footing| footing.ledge != index) {
+                    footings.insert(next, Footing::new(index));
                 }
                 footings[next].update(&*self.part, ledge, &placed, reach, time_step.0[lane]);
                 next += 1;
             }
+            footings.truncate(next);
             self.assign_rows(lane);
-            for footing in &self.lanes[lane].footings {
+            let Lane { ledges, footings } = &self.lanes[lane];
+            for footing in footings {
                 if let Some(row) = footing.row {
-                    footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed);
+                    let ground = ledges.place(footing.ledge);
+                    footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed, &ground);
                 }
             }
         }
@@ -247,15 +230,14 @@ impl<const W: usize> UnevenContact<W> {
 }
 
 impl Footing {
-    fn new(index: usize, ledge: &Ledge) -> Self {
-        let (manifold, place) = (ContactManifold::default(), ledge.translation());
-        Self { ledge: index, manifold, row: None, points: [None; 2], place }
+    fn new(index: usize) -> Self {
+        Self { ledge: index, manifold: ContactManifold::default(), row: None, points: [None; 2] }
     }
 
     /// Finds the points of contact with a shape of the ground.
     fn update(&mut self, part: &dyn parry2d::shape::Shape, ledge: &Ledge, placed: &Placed, reach: f32, time_step: f32) {
         self.points = [None; 2];
-        let ground = Pose { rotation: Rotation::IDENTITY, translation: self.place };
+        let ground = ledge.place;
         // It knows all the pairs of shapes there are here.
         let _ = DefaultQueryDispatcher.contact_manifold_convex_convex(
             &ground.inv_mul(&placed.pose),
@@ -266,11 +248,12 @@ impl Footing {
             reach,
             &mut self.manifold,
         );
+        let normal = ground.rotation * self.manifold.local_n1;
         let mut found = 0;
         for (index, point) in self.manifold.points.iter().take(2).enumerate() {
             let arm = placed.pose * point.local_p2 - placed.pose.translation;
             let velocity = placed.velocity + Vector::new(-arm.y * placed.spin, arm.x * placed.spin);
-            let soon = point.dist + velocity.dot(self.manifold.local_n1) * time_step;
+            let soon = point.dist + velocity.dot(normal) * time_step;
             if point.dist < reach || soon < reach {
                 self.points[found] = Some(index);
                 found += 1;
@@ -288,15 +271,15 @@ impl Footing {
         active: &mut [Mask<W>; 2],
         lane: usize,
         placed: &Placed,
+        ground: &Pose,
     ) {
-        // The ground is never turned.
-        let normal = self.manifold.local_n1;
+        let normal = ground.rotation * self.manifold.local_n1;
         rows.normal.x.0[lane] = normal.x;
         rows.normal.y.0[lane] = normal.y;
         for ((index, point), active) in self.points.iter().zip(&mut rows.points).zip(active) {
             let Some(contact) = index.and_then(|index| self.manifold.points.get(index)) else { continue };
             active.set_lane(lane, true);
-            let (on_ground, on_part) = (contact.local_p1 + self.place, placed.pose * contact.local_p2);
+            let (on_ground, on_part) = (ground * contact.local_p1, placed.pose * contact.local_p2);
             set_point(point, lane, placed, normal, (on_ground, on_part, contact.dist));
             point.normal_impulse.0[lane] = contact.data.normal;
             point.friction_impulse.0[lane] = contact.data.friction;
@@ -330,35 +313,4 @@ fn set_point<const W: usize>(
     point.ground.0.0[lane] = middle.x;
     point.ground.1.0[lane] = middle.y;
     point.offset.0[lane] = gap(middle, centre + lever) - gap(on_ground, carried);
-}
-
-impl Ledge {
-    fn new(shape: &GroundShape) -> Self {
-        let (shape, centre, half, radius) = match *shape {
-            GroundShape::HalfSpace => (SharedShape::halfspace(Vector::Y), [0.0, 0.0], [f32::INFINITY, 0.0], 0.0),
-            GroundShape::Box { x, y, width, height } => {
-                let half = [width * 0.5, height * 0.5];
-                (SharedShape::cuboid(half[0], half[1]), [x, y], half, 0.0)
-            }
-            GroundShape::Circle { x, y, radius } => (SharedShape::ball(radius), [x, y], [0.0, 0.0], radius),
-        };
-        Self { centre, half, radius, shape }
-    }
-
-    fn translation(&self) -> Vector {
-        Vector::new(self.centre[0], self.centre[1])
-    }
-
-    /// Whether nothing within `reach` of a body's centre is within the shape.
-    #[inline(always)]
-    fn is_out_of_reach(&self, placed: &Placed, reach: f32) -> bool {
-        let [half_width, half_height] = self.half;
-        let margin = reach + 0.1;
-        let (x, y) = (placed.pose.translation.x - self.centre[0], placed.pose.translation.y - self.centre[1]);
-        if self.radius > 0.0 {
-            return x * x + y * y > (self.radius + margin) * (self.radius + margin);
-        }
-        let below = half_width.is_finite() && -y > half_height + margin;
-        y > half_height + margin || below || x.abs() > half_width + margin
-    }
 }

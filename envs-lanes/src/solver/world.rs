@@ -154,7 +154,8 @@ impl<const W: usize> LaneWorld<W> {
     pub(crate) fn distance_to_ground(&self, (x, y): (Lanes<W>, Lanes<W>), angle: f32, length: f32) -> Lanes<W> {
         if let Contacts::Uneven(contacts) = &self.contacts {
             let from = |lane: usize| [x.0[lane], y.0[lane]];
-            return Lanes(std::array::from_fn(|lane| contacts[0].distance_along_ray(lane, from(lane), angle, length)));
+            let distance = |lane| contacts[0].ledges(lane).distance_along_ray(from(lane), angle, length);
+            return Lanes(std::array::from_fn(distance));
         }
         let down = libm::sinf(angle);
         y.map(|y| {

@@ -198,6 +198,7 @@ pub(crate) fn any_variation() -> impl Strategy<Value = Variation> {
         time_step: [1.0 - time_step, 1.0 + time_step],
         start_pose,
         bumps: 0.0,
+        terrain: false,
     });
     let known = [Variation::light(), Variation::strong()].map(Just);
     let [light, strong] = known;

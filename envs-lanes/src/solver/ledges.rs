@@ -1,0 +1,151 @@
+use envs_core::{Ground, GroundShape};
+use parry2d::{
+    math::{Pose, Rotation, Vector},
+    query::Ray,
+    shape::SharedShape,
+};
+
+/// The shapes of uneven ground, and where to look for those that are close.
+#[derive(Debug)]
+pub(super) struct Ledges {
+    /// In the order of the ground.
+    ledges: Vec<Ledge>,
+    /// Where the first cell begins, m.
+    left: f32,
+    /// Cells a metre.
+    cells_per_metre: f32,
+    /// For each cell, the shapes that are in it, in order. What is further left or right belongs to the first or the last.
+    cells: Vec<Vec<usize>>,
+}
+
+/// A shape of the ground.
+#[derive(Debug)]
+pub(super) struct Ledge {
+    /// Centre, m, and how it is turned.
+    pub(super) place: Pose,
+    pub(super) shape: SharedShape,
+    /// Half the width and height of the upright box around it, m; infinite but upwards for a half-space; 0 for a circle.
+    half: [f32; 2],
+    /// Of a circle, m; else 0.
+    radius: f32,
+}
+
+/// A contact is prepared for from further away than it can begin at, as rapier does, m.
+const MARGIN: f32 = 0.1;
+/// Cells for each shape.
+const FINENESS: usize = 4;
+
+impl Ledges {
+    pub(super) fn new(ground: &Ground) -> Self {
+        let ledges: Vec<Ledge> = ground.shapes.iter().map(Ledge::new).collect();
+        let finite = || ledges.iter().map(Ledge::span).filter(|span| span.iter().all(|end| end.is_finite()));
+        let left = finite().map(|span| span[0]).fold(f32::INFINITY, f32::min);
+        let right = finite().map(|span| span[1]).fold(f32::NEG_INFINITY, f32::max);
+        let count = FINENESS * ledges.len();
+        let cells_per_metre = count as f32 / (right - left);
+        // A lone half-space, or numbers too large to be told apart.
+        let (left, cells_per_metre, count) = match cells_per_metre.is_finite() && cells_per_metre > 0.0 {
+            true => (left, cells_per_metre, count),
+            false => (0.0, 0.0, 1),
+        };
+        let mut ground = Self { ledges, left, cells_per_metre, cells: vec![Vec::new(); count] };
+        for index in 0..ground.ledges.len() {
+            let [from, to] = ground.ledges[index].span().map(|end| ground.cell(end));
+            for cell in &mut ground.cells[from..=to] {
+                cell.push(index);
+            }
+        }
+        ground
+    }
+
+    /// The cell at x; that is a monotonic function.
+    #[inline(always)]
+    fn cell(&self, x: f32) -> usize {
+        let place = (x - self.left) * self.cells_per_metre;
+        // Less than 0 becomes 0, and so does NaN: infinity times 0, where there is but one cell.
+        (place as usize).min(self.cells.len() - 1)
+    }
+
+    /// The shapes, in order, with their indices, among which all are that come within `reach` of a point at x, m.
+    #[inline(always)]
+    pub(super) fn near(&self, x: f32, reach: f32) -> impl Iterator<Item = (usize, &Ledge)> {
+        let margin = reach + MARGIN;
+        let [from, to] = [x - margin, x + margin].map(|end| self.cell(end));
+        // One that is in several of these cells is taken where it is first met, and the cells are merged by index.
+        Merge { cells: &self.cells[from..=to], next: 0 }.map(|index| (index, &self.ledges[index]))
+    }
+
+    /// Where a shape is.
+    pub(super) fn place(&self, ledge: usize) -> Pose {
+        self.ledges[ledge].place
+    }
+
+    /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
+    pub(super) fn distance_along_ray(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
+        let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
+        let distance = |(_, ledge): (usize, &Ledge)| ledge.shape.cast_ray(&ledge.place, &ray, length, true);
+        self.near(x, length).filter_map(distance).fold(length, f32::min)
+    }
+}
+
+/// The indices in some neighbouring cells, each once, in order.
+struct Merge<'a> {
+    cells: &'a [Vec<usize>],
+    /// All smaller ones have been given.
+    next: usize,
+}
+
+impl Iterator for Merge<'_> {
+    type Item = usize;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<usize> {
+        let least = |cell: &Vec<usize>| cell.iter().copied().find(|&index| index >= self.next);
+        let index = self.cells.iter().filter_map(least).min()?;
+        self.next = index + 1;
+        Some(index)
+    }
+}
+
+impl Ledge {
+    fn new(shape: &GroundShape) -> Self {
+        let upright = |x, y| Pose { rotation: Rotation::IDENTITY, translation: Vector::new(x, y) };
+        let half_space = |y| (SharedShape::halfspace(Vector::Y), upright(0.0, y), [f32::INFINITY, 0.0], 0.0);
+        let (shape, place, half, radius) = match *shape {
+            GroundShape::HalfSpace => half_space(0.0),
+            GroundShape::Floor { y } => half_space(y),
+            GroundShape::Box { x, y, width, height } => {
+                let half = [width * 0.5, height * 0.5];
+                (SharedShape::cuboid(half[0], half[1]), upright(x, y), half, 0.0)
+            }
+            GroundShape::Slab { x, y, width, height, angle } => {
+                let (sin, cos) = libm::sincosf(angle);
+                let place = Pose { rotation: Rotation::from_cos_sin_unchecked(cos, sin), ..upright(x, y) };
+                let [along, across] = [width * 0.5, height * 0.5];
+                let (c, s) = (cos.abs(), sin.abs());
+                (SharedShape::cuboid(along, across), place, [c * along + s * across, s * along + c * across], 0.0)
+            }
+            GroundShape::Circle { x, y, radius } => (SharedShape::ball(radius), upright(x, y), [0.0, 0.0], radius),
+        };
+        Self { place, shape, half, radius }
+    }
+
+    /// Whether nothing within `reach` of a point is within the shape.
+    #[inline(always)]
+    pub(super) fn is_out_of_reach(&self, from: Vector, reach: f32) -> bool {
+        let [half_width, half_height] = self.half;
+        let margin = reach + MARGIN;
+        let (x, y) = (from.x - self.place.translation.x, from.y - self.place.translation.y);
+        if self.radius > 0.0 {
+            return x * x + y * y > (self.radius + margin) * (self.radius + margin);
+        }
+        let below = half_width.is_finite() && -y > half_height + margin;
+        y > half_height + margin || below || x.abs() > half_width + margin
+    }
+
+    /// From where to where it reaches, m.
+    fn span(&self) -> [f32; 2] {
+        let (x, half) = (self.place.translation.x, self.half[0].max(self.radius));
+        [x - half, x + half]
+    }
+}
