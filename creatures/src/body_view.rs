@@ -19,6 +19,11 @@ pub trait BodyView {
     fn torso_height(&self) -> f32;
     /// Whether a part touches the ground.
     fn touches_ground(&self, part: usize) -> bool;
+    /// How fast the lowest point of a part slides forwards, m/s, while the part touches the ground; 0 while it does not.
+    fn slip(&self, part: usize) -> f32;
+    /// Distance from the torso's centre to the near edge of the next gap that ends ahead of it, at least 0, and the gap's
+    /// width, m; `length` and 0 if it begins further ahead than `length`, or there is none.
+    fn next_gap(&self, length: f32) -> [f32; 2];
     /// Distance in m from the torso's centre to the first thing, other than the creature, along a ray at `angle` (rad,
     /// in the world: 0 looks forward, negative down); `length` if nothing is hit within it.
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32;

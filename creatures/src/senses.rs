@@ -1,6 +1,6 @@
 //! From a body to the inputs of a net.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::bounds::INPUT_RANGE;
 use crate::{Blueprint, BodyView, Channel, CreatureError, Sensor, check};
@@ -12,6 +12,8 @@ pub const DEFAULT_INPUT_RANGE: f32 = 3.0;
 const TOP_TORSO_SPEED: f32 = 5.0;
 /// Spins of the torso up to this are told apart, rad/s.
 const TOP_TORSO_SPIN: f32 = 10.0;
+/// Feet that slide faster than this are not told apart, m/s.
+const TOP_SLIP: f32 = 2.0;
 /// Joints are thrown about faster than their motors drive them.
 const SPEED_HEADROOM: f32 = 2.0;
 
@@ -63,6 +65,18 @@ pub enum Source {
     Ray {
         /// In the world, rad.
         angle: f32,
+        /// m.
+        length: f32,
+    },
+    /// [`BodyView::slip`] of this part.
+    Slip(usize),
+    /// The first of [`BodyView::next_gap`].
+    GapDistance {
+        /// m.
+        length: f32,
+    },
+    /// The second of [`BodyView::next_gap`].
+    GapWidth {
         /// m.
         length: f32,
     },
@@ -147,6 +161,22 @@ impl Senses {
                     self.push(format!("distance at {degrees}°"), "m", [0.0, *length], source);
                 }
             }
+            Sensor::HeightAboveGround => {
+                let length = 2.0 * blueprint.start_height();
+                let source = Source::Ray { angle: -FRAC_PI_2, length };
+                self.push(format!("height of {torso} above ground"), "m", [0.0, length], source);
+            }
+            Sensor::FootSlip => {
+                for &foot in blueprint.feet() {
+                    let name = format!("slip of {}", name_of(foot));
+                    self.push(name, "m/s", [-TOP_SLIP, TOP_SLIP], Source::Slip(foot));
+                }
+            }
+            Sensor::NextGap { length } => {
+                let length = *length;
+                self.push("distance to next gap".to_owned(), "m", [0.0, length], Source::GapDistance { length });
+                self.push("width of next gap".to_owned(), "m", [0.0, length], Source::GapWidth { length });
+            }
             Sensor::Clock { period } => {
                 let period = *period;
                 self.push(format!("sine of {period} s clock"), "", [-1.0, 1.0], Source::ClockSine { period });
@@ -215,6 +245,9 @@ impl Source {
             Self::TorsoHeight => body.torso_height(),
             Self::Contact(part) => f32::from(u8::from(body.touches_ground(part))),
             Self::Ray { angle, length } => body.distance_along_ray(angle, length),
+            Self::Slip(part) => body.slip(part),
+            Self::GapDistance { length } => body.next_gap(length)[0],
+            Self::GapWidth { length } => body.next_gap(length)[1],
             Self::ClockSine { period } => libm::sinf(clock_phase(body.time(), period)),
             Self::ClockCosine { period } => libm::cosf(clock_phase(body.time(), period)),
         }

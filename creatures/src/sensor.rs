@@ -5,7 +5,8 @@ use serde::{Deserialize, Serialize};
 /// One kind of sense, as a creature file or a run names it.
 ///
 /// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
-/// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`.
+/// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`,
+/// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`.
 /// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -43,11 +44,24 @@ pub enum Sensor {
     },
     /// Angular speed of the torso: one channel, rad/s, -10 to 10.
     TorsoSpin,
+    /// Height of the torso's centre above whatever is straight below it: one channel, m, 0 to twice its height above the
+    /// creature's lowest point in the start pose.
+    HeightAboveGround,
+    /// How fast the lowest point of each foot slides along the ground while the foot touches it, positive forwards; 0 while it
+    /// does not: a channel a foot, m/s, -2 to 2.
+    FootSlip,
+    /// The next gap ahead: two channels, the distance from the torso's centre to its near edge and its width, m, 0 to
+    /// `length`. Above a gap the distance is 0; where none is within reach it is `length`, and the width 0.
+    NextGap {
+        /// How far ahead gaps are told, and how wide ones, m, 0.01 to 100.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 100.0)))]
+        length: f32,
+    },
 }
 
 impl Sensor {
     /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 9] = [
+    pub const NAMES: [&'static str; 12] = [
         "torso-rotation",
         "joint-angles",
         "joint-speeds",
@@ -57,6 +71,9 @@ impl Sensor {
         "rangefinder",
         "clock",
         "torso-spin",
+        "height-above-ground",
+        "foot-slip",
+        "next-gap",
     ];
 
     /// The sensor's name as files write it.
@@ -71,6 +88,9 @@ impl Sensor {
             Self::Rangefinder { .. } => Self::NAMES[6],
             Self::Clock { .. } => Self::NAMES[7],
             Self::TorsoSpin => Self::NAMES[8],
+            Self::HeightAboveGround => Self::NAMES[9],
+            Self::FootSlip => Self::NAMES[10],
+            Self::NextGap { .. } => Self::NAMES[11],
         }
     }
 
@@ -96,6 +116,9 @@ mod tests {
             Sensor::Rangefinder { angles: vec![0.0], length: 1.0 },
             Sensor::Clock { period: 1.0 },
             Sensor::TorsoSpin,
+            Sensor::HeightAboveGround,
+            Sensor::FootSlip,
+            Sensor::NextGap { length: 4.0 },
         ];
         for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
             assert_eq!(sensor.name(), name);

@@ -17,6 +17,8 @@ struct Body {
     velocity: [f32; 2],
     height: f32,
     contacts: [bool; 3],
+    slips: [f32; 3],
+    gap: [f32; 2],
     distance: f32,
     time: f32,
 }
@@ -43,6 +45,12 @@ impl BodyView for Body {
     fn touches_ground(&self, part: usize) -> bool {
         self.contacts[part]
     }
+    fn slip(&self, part: usize) -> f32 {
+        self.slips[part]
+    }
+    fn next_gap(&self, length: f32) -> [f32; 2] {
+        if self.gap[0] < length { self.gap } else { [length, 0.0] }
+    }
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {
         // Downward rays see the ground.
         if angle < 0.0 { self.distance } else { length }
@@ -63,6 +71,9 @@ fn all_sensors() -> Vec<Sensor> {
         Sensor::Rangefinder { angles: vec![-30.0, 0.0], length: 4.0 },
         Sensor::Clock { period: 2.0 },
         Sensor::TorsoSpin,
+        Sensor::HeightAboveGround,
+        Sensor::FootSlip,
+        Sensor::NextGap { length: 4.0 },
     ]
 }
 

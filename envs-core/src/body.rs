@@ -1,5 +1,5 @@
 use crate::Engine;
-use creatures::{Blueprint, BodyView, Hinge};
+use creatures::{Blueprint, BodyView, Hinge, Shape};
 use tasks::{PartState, Snapshot};
 
 /// What the senses need to know of a creature besides where its parts are now.
@@ -8,6 +8,7 @@ pub struct RestPose {
     torso: [f32; 2],
     height: f32,
     hinges: Vec<RestHinge>,
+    shapes: Vec<Shape>,
 }
 
 /// A hinge in the start pose.
@@ -34,6 +35,7 @@ impl RestPose {
             torso: [libm::cosf(start), libm::sinf(start)],
             height: settled.torso().y,
             hinges: blueprint.hinges().iter().map(hinge).collect(),
+            shapes: parts.iter().map(|part| part.shape).collect(),
         }
     }
 
@@ -45,6 +47,11 @@ impl RestPose {
     /// Height of the torso's centre in the settled start pose, m.
     pub fn height(&self) -> f32 {
         self.height
+    }
+
+    /// The shapes of the parts.
+    pub fn shapes(&self) -> &[Shape] {
+        &self.shapes
     }
 
     /// The hinges, in order of [`Blueprint::hinges`].
@@ -60,6 +67,15 @@ pub(crate) struct Body<'a, E> {
     pub(crate) rest: &'a RestPose,
     /// From left to right, m.
     pub(crate) gaps: &'a [[f32; 2]],
+}
+
+/// What [`BodyView::next_gap`] tells of these gaps (from and to, m, from left to right) at x, m.
+pub fn next_gap(gaps: &[[f32; 2]], x: f32, length: f32) -> [f32; 2] {
+    let next = gaps.partition_point(|&[_, to]| to <= x);
+    match gaps.get(next) {
+        Some(&[from, to]) if from - x < length => [(from - x).max(0.0), to - from],
+        _ => [length, 0.0],
+    }
 }
 
 /// The angle of `direction` (cosine, sine) seen from `reference`, rad.
@@ -107,6 +123,19 @@ impl<E: Engine> BodyView for Body<'_, E> {
 
     fn touches_ground(&self, part: usize) -> bool {
         self.snapshot.parts[part].touching
+    }
+
+    fn slip(&self, part: usize) -> f32 {
+        let (state, shape) = (&self.snapshot.parts[part], self.rest.shapes[part]);
+        match state.touching {
+            // The velocity of the point below the centre.
+            true => state.vx - state.spin * shape.lowest_point(state.cos, state.sin),
+            false => 0.0,
+        }
+    }
+
+    fn next_gap(&self, length: f32) -> [f32; 2] {
+        next_gap(self.gaps, self.snapshot.torso().x, length)
     }
 
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {

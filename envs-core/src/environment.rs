@@ -257,28 +257,34 @@ impl<E: Engine> CreatureEnvironment<E> {
         self.plan.actuated.iter().map(|actuated| self.state.engine.motor_torque(actuated.hinge))
     }
 
+    /// What the creature moves on in the trial with this seed.
+    pub fn landscape_of(&self, seed: Seed) -> Cow<'_, Landscape> {
+        let Plan { blueprint, variation, landscape, terrain, .. } = &*self.plan;
+        let [left, _, right, _] = blueprint.bounding_box();
+        let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
+        if !bumps.is_empty() {
+            let shapes = landscape.ground.shapes.iter().copied().chain(bumps).collect();
+            return Cow::Owned(Ground { shapes }.into());
+        }
+        match variation.draw_terrain(seed).filter(|_| !terrain.is_flat()) {
+            Some(seed) => Cow::Owned(Landscape::new(terrain, seed, blueprint)),
+            None => Cow::Borrowed(landscape),
+        }
+    }
+
     /// What the trial with this seed begins with, and what `reset` puts in place; for those who step many creatures at
     /// once by themselves.
     ///
     /// # Errors
     /// If the creature cannot come to rest in the world of this trial.
     pub fn settled(&self, seed: Seed) -> Result<Settled<E>, Failure> {
-        let Plan { blueprint, motors, settings, variation, landscape, terrain, settled, .. } = &*self.plan;
+        let Plan { blueprint, motors, settings, variation, settled, .. } = &*self.plan;
         if variation.is_none() {
             return Ok(settled.clone());
         }
         let conditions = variation.draw(seed, motors.len());
         let settings = conditions.settings(settings);
-        let [left, _, right, _] = blueprint.bounding_box();
-        let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
-        let landscape = if !bumps.is_empty() {
-            let shapes = landscape.ground.shapes.iter().copied().chain(bumps).collect();
-            Cow::Owned(Ground { shapes }.into())
-        } else if let Some(seed) = variation.draw_terrain(seed).filter(|_| !terrain.is_flat()) {
-            Cow::Owned(Landscape::new(terrain, seed, blueprint))
-        } else {
-            Cow::Borrowed(landscape)
-        };
+        let landscape = self.landscape_of(seed);
         let engine = E::new(blueprint, &settings, &landscape.ground, &conditions)
             .map_err(|error| Failure::Other { what: error.to_string() })?;
         Settled::new(engine, blueprint, &settings, &conditions, &landscape)

@@ -53,7 +53,7 @@ mod terrain;
 mod variation;
 
 pub use anatomy::body_of;
-pub use body::{RestHinge, RestPose};
+pub use body::{RestHinge, RestPose, next_gap};
 pub use bumps::bumps;
 pub use engine::Engine;
 pub use environment::{ActuatedHinge, CreatureEnvironment};

@@ -11,6 +11,7 @@ use creatures::{Actuation, Motors};
 use envs_core::{ActuatedHinge, Settled};
 use ne_core::Failure;
 use ne_net::{Network, Topology};
+use std::sync::Arc;
 use tasks::Snapshot;
 
 /// Creatures of one body, side by side, each in a trial of its own: sensing, thinking, acting and stepping them all takes
@@ -34,6 +35,7 @@ pub(crate) struct Herd<const W: usize> {
     time_step: Lanes<W>,
     time: Lanes<W>,
     rest_height: Lanes<W>,
+    gaps: [Arc<[[f32; 2]]>; W],
     /// Of the last step: the power of all motors, W.
     power: Lanes<W>,
     /// Of the last step: the fastest part's larger velocity component, m/s; NaN where a number is not finite.
@@ -68,6 +70,7 @@ impl<const W: usize> Herd<W> {
             time_step: Lanes::ZERO,
             time: Lanes::ZERO,
             rest_height: Lanes::ZERO,
+            gaps: std::array::from_fn(|_| settled.gaps.clone()),
             power: Lanes::ZERO,
             fastest: Lanes::ZERO,
         }
@@ -80,6 +83,7 @@ impl<const W: usize> Herd<W> {
         self.time_step.0[lane] = settled.time_step;
         self.time.0[lane] = 0.0;
         self.rest_height.0[lane] = settled.rest.height();
+        self.gaps[lane] = settled.gaps.clone();
         if let Some(net) = &mut self.net {
             net.forget(lane);
         }
@@ -177,8 +181,8 @@ impl<const W: usize> Work for Sense<'_, W> {
 
     #[inline(always)]
     fn run(self) {
-        let Herd { world, senses, net, inputs, outputs, time, rest_height, .. } = self.0;
-        senses.read(world, &Clocks { time, rest_height }, inputs);
+        let Herd { world, senses, net, inputs, outputs, time, rest_height, gaps, .. } = self.0;
+        senses.read(world, &Clocks { time, rest_height, gaps }, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);
         }

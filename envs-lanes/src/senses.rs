@@ -2,8 +2,9 @@ use crate::{
     lanes::{Lanes, angle_of},
     solver::LaneWorld,
 };
-use creatures::{Probe, Senses, Source, clock_phase};
-use envs_core::RestPose;
+use creatures::{Probe, Senses, Shape, Source, clock_phase};
+use envs_core::{RestPose, next_gap};
+use std::sync::Arc;
 
 /// The senses of a creature, for all lanes at once; a lane's inputs have the bits of [`Senses::read`].
 #[derive(Clone, Debug)]
@@ -20,6 +21,8 @@ pub(crate) struct Clocks<'a, const W: usize> {
     pub(crate) time: &'a Lanes<W>,
     /// Height of the torso's centre as the trial began, m.
     pub(crate) rest_height: &'a Lanes<W>,
+    /// The gaps of each lane's ground: from and to, m, from left to right.
+    pub(crate) gaps: &'a [Arc<[[f32; 2]]>; W],
 }
 
 impl LaneSenses {
@@ -66,6 +69,13 @@ impl LaneSenses {
             Source::VelocityUp => torso.velocity_y,
             Source::TorsoHeight => torso.y - *clocks.rest_height,
             Source::Contact(part) => world.pressing(part).select(Lanes::ONE, Lanes::ZERO),
+            Source::Slip(part) => {
+                let body = world.body(part);
+                let lowest = -half_height(self.rest.shapes()[part], body.cos.abs(), body.sin.abs());
+                world.pressing(part).select(body.velocity_x - body.spin * lowest, Lanes::ZERO)
+            }
+            Source::GapDistance { length } => nearest_gaps(torso.x, clocks, length, 0),
+            Source::GapWidth { length } => nearest_gaps(torso.x, clocks, length, 1),
             Source::Ray { angle, length } => world.distance_to_ground((torso.x, torso.y), angle, length),
             Source::ClockSine { period } => clocks.time.map(|time| libm::sinf(clock_phase(time, period))),
             Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
@@ -81,4 +91,21 @@ fn turned_back<const W: usize>([c, s]: [f32; 2], cos: Lanes<W>, sin: Lanes<W>) -
     }
     let (c, s) = (Lanes::splat(c), Lanes::splat(s));
     (c * cos + s * sin, c * sin - s * cos)
+}
+
+/// As [`Shape::half_extents`] has it, from the magnitudes of cosine and sine.
+#[inline(always)]
+fn half_height<const W: usize>(shape: Shape, c: Lanes<W>, s: Lanes<W>) -> Lanes<W> {
+    let half = Lanes::splat(0.5);
+    match shape {
+        Shape::Box { width, height } => half * (s * Lanes::splat(width) + c * Lanes::splat(height)),
+        Shape::Circle { radius } => Lanes::splat(radius),
+        Shape::Capsule { length, radius } => half * c * Lanes::splat(length) + Lanes::splat(radius),
+    }
+}
+
+/// Distance (0) or width (1) of each lane's next gap.
+#[inline(always)]
+fn nearest_gaps<const W: usize>(x: Lanes<W>, clocks: &Clocks<'_, W>, length: f32, which: usize) -> Lanes<W> {
+    Lanes(std::array::from_fn(|lane| next_gap(&clocks.gaps[lane], x.0[lane], length)[which]))
 }

@@ -1,12 +1,13 @@
 //! Ground made of several shapes: the lanes against rapier, to the bit.
 
-use creatures::{Blueprint, Sensor};
+use creatures::{Blueprint, Creature, Sensor, Shape, TERRAINS, Terrain};
 use envs_core::{Ground, GroundShape, PhysicsSettings, Variation};
-use envs_lanes::LaneEnvironment;
+use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::RapierEnvironment;
-use ne_core::{Purpose, Seed};
+use ne_core::{Phenotype, Purpose, Seed, Task};
+use ne_net::{DenseNet, DenseShape};
 use rand::RngExt;
-use tasks::Environment;
+use tasks::{Combine, Environment, Episode, Running, Trials};
 
 const SHIPPED: [&str; 7] = ["apod", "biped-1", "biped-2", "tetrapod-1", "tetrapod-2", "decapod-1", "decapod-2"];
 
@@ -36,9 +37,20 @@ fn drive(name: &str, ground: &Ground, seed: u64, steps: u32) -> bool {
     let (settings, variation) = (PhysicsSettings::default(), Variation::light());
     let new = |blueprint: &Blueprint| (blueprint.clone(), ground.clone());
     let ((a, on_a), (b, on_b)) = (new(&blueprint), new(&blueprint));
-    let mut rapier =
-        RapierEnvironment::on_ground(a, &sensors, 3.0, settings, variation, on_a).expect("rapier takes it");
-    let mut lanes = LaneEnvironment::on_ground(b, &sensors, 3.0, settings, variation, on_b).expect("lanes take it");
+    let rapier = RapierEnvironment::on_ground(a, &sensors, 3.0, settings, variation, on_a).expect("rapier takes it");
+    let lanes = LaneEnvironment::on_ground(b, &sensors, 3.0, settings, variation, on_b).expect("lanes take it");
+    follow(rapier, lanes, seed, steps, |x| x.abs() > 1.4)
+}
+
+/// Plays both with the same motor program and compares the bits. Whether a part touched the ground where it is uneven.
+fn follow(
+    mut rapier: RapierEnvironment,
+    mut lanes: LaneEnvironment,
+    seed: u64,
+    steps: u32,
+    uneven: impl Fn(f32) -> bool,
+) -> bool {
+    let name = rapier.blueprint().name().to_owned();
     let seed = Seed::of_run(seed);
     assert_eq!(rapier.reset(seed), lanes.reset(seed));
     let mut stream = seed.stream(Purpose::new("motor program"));
@@ -56,7 +68,7 @@ fn drive(name: &str, ground: &Ground, seed: u64, steps: u32) -> bool {
         rapier.act(&outputs);
         lanes.act(&outputs);
         assert_eq!(rapier.step(), lanes.step(), "{name}, {seed:?}: step {step}");
-        reached |= rapier.snapshot().parts.iter().any(|part| part.touching && part.x.abs() > 1.4);
+        reached |= rapier.snapshot().parts.iter().any(|part| part.touching && uneven(part.x));
     }
     reached
 }
@@ -80,4 +92,90 @@ fn every_shipped_creature_moves_at_a_gap_as_in_rapier() {
 fn every_shipped_creature_moves_on_mounds_as_in_rapier() {
     let reached = SHIPPED.map(|name| (1..=4).filter(|&seed| drive(name, &mounds(), seed, 400)).count());
     assert!(reached.into_iter().filter(|&count| count > 0).count() >= 5, "hardly anyone was on a mound: {reached:?}");
+}
+
+/// A terrain whose obstacles begin right before the creature and are close together.
+fn crowded(name: &str) -> Terrain {
+    let terrain: Terrain = name.parse().expect("a terrain");
+    Terrain { run_up: Some(0.1), length: 12.0, seed: 3, ..terrain.with_difficulty(0.35) }
+}
+
+fn sensors(blueprint: &Blueprint) -> Vec<Sensor> {
+    let mut sensors = vec![
+        Sensor::TorsoHeight,
+        Sensor::HeightAboveGround,
+        Sensor::NextGap { length: 3.0 },
+        Sensor::Rangefinder { angles: vec![-90.0, -60.0, -20.0, 0.0, 30.0, -150.0], length: 3.0 },
+    ];
+    if !blueprint.feet().is_empty() {
+        sensors.extend([Sensor::FootContacts, Sensor::FootSlip]);
+    }
+    sensors
+}
+
+/// Tetrapod-2 with capsules and discs for its boxes.
+fn rounded() -> Creature {
+    let mut creature = creatures::find("tetrapod-2").expect("shipped");
+    for (index, part) in creature.parts.iter_mut().enumerate().skip(1) {
+        let Shape::Box { width, height } = part.shape else { continue };
+        let radius = 0.5 * width.min(height);
+        part.shape = match index % 3 {
+            0 => Shape::Circle { radius: 0.25 * (width + height) },
+            _ => Shape::Capsule { length: (width.max(height) - 2.0 * radius).max(0.01), radius },
+        };
+    }
+    creature
+}
+
+fn both_on(blueprint: &Blueprint, terrain: &Terrain, variation: Variation) -> (RapierEnvironment, LaneEnvironment) {
+    let (sensors, settings) = (sensors(blueprint), PhysicsSettings::default());
+    let [one, other] = [(); 2].map(|()| (blueprint.clone(), terrain.clone()));
+    let rapier = RapierEnvironment::on_terrain(one.0, &sensors, 3.0, settings, variation, one.1);
+    let lanes = LaneEnvironment::on_terrain(other.0, &sensors, 3.0, settings, variation, other.1);
+    (rapier.expect("rapier takes it"), lanes.expect("lanes take it"))
+}
+
+#[test]
+fn creatures_move_on_every_terrain_as_in_rapier() {
+    let named = |name: &str| creatures::find(name).expect("shipped");
+    let everyone = [named("tetrapod-2"), named("apod"), rounded()].map(|one| Blueprint::new(one).expect("valid"));
+    for entry in TERRAINS {
+        let reached = everyone.iter().filter(|blueprint| {
+            let (terrain, front) = (crowded(entry.name), blueprint.bounding_box()[2]);
+            (1..=4)
+                .filter(|&seed| {
+                    // The terrain's own seed, and one for each trial.
+                    let variation = Variation { terrain: seed % 2 == 0, ..Variation::light() };
+                    let (rapier, lanes) = both_on(blueprint, &terrain, variation);
+                    follow(rapier, lanes, seed, 400, |x| x > front + 0.1)
+                })
+                .count()
+                > 0
+        });
+        let reached = reached.count();
+        assert!(reached >= 2, "{}: {reached} of 3 touched the first obstacle", entry.name);
+    }
+}
+
+/// Many at once, each trial on a terrain of its own.
+#[test]
+fn a_population_on_a_terrain_scores_as_in_rapier() {
+    let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
+    let variation = Variation { terrain: true, ..Variation::light() };
+    let (rapier, lanes) = both_on(&blueprint, &crowded("mixture"), variation);
+    let trials = Trials { count: 2, combine: Combine::Mean };
+    let one_by_one = Episode::new(rapier, Box::new(Running::default()), 150, trials).expect("valid");
+    let at_once = LaneEpisode::new(lanes, Box::new(Running::default()), 150, trials).expect("valid");
+    let shape = DenseShape::new(one_by_one.inputs(), vec![6], one_by_one.outputs());
+    let mut stream = Seed::of_run(5).stream(Purpose::new("weights"));
+    let mut net = || {
+        let weights: Vec<f32> = (0..shape.weight_count()).map(|_| stream.random::<f32>() * 4.0 - 2.0).collect();
+        DenseNet::new(shape.clone(), &weights).expect("valid")
+    };
+    let mut nets: Vec<DenseNet> = (0..20).map(|_| net()).collect();
+    let mut again = nets.clone();
+    let mut batch: Vec<&mut dyn Phenotype> = nets.iter_mut().map(|net| net as &mut dyn Phenotype).collect();
+    let found = at_once.evaluate_batch(&mut batch, Seed::of_run(1));
+    let wanted: Vec<_> = again.iter_mut().map(|net| one_by_one.evaluate(net, Seed::of_run(1))).collect();
+    assert_eq!(found, wanted);
 }

@@ -5,7 +5,7 @@ use crate::{
     setup::{EpisodeParts, Setup, SetupError},
     trajectory::{TrajectoryDigest, TrajectoryDigester},
 };
-use creatures::{Actuation, Channel, Creature, Sensor};
+use creatures::{Actuation, Channel, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, RAPIER_VERSION, RapierEnvironment, Variation};
 use ne_core::{
     Evaluation, Fitness, Genome, Seed, Task,
@@ -50,6 +50,9 @@ pub struct Champion {
     pub variation: Variation,
     /// The physics it learned in.
     pub physics: PhysicsSettings,
+    /// What it moves on.
+    #[serde(default, skip_serializing_if = "Terrain::is_default")]
+    pub terrain: Terrain,
     /// The engine that gives its fitness and its trajectory, and its version.
     pub engine: Engine,
     /// The seed it was evaluated with.
@@ -152,6 +155,7 @@ impl Champion {
             trials,
             variation,
             physics: config.physics,
+            terrain: config.terrain.clone(),
             engine: Engine::current(),
             seed,
             generation,
@@ -198,6 +202,7 @@ impl Champion {
             trials: self.trials,
             variation: self.variation,
             physics: self.physics,
+            terrain: &self.terrain,
             actuation: self.actuation,
         }
     }

@@ -2,13 +2,15 @@
 
 use crate::{
     champion::Champion,
+    obstacles::ObstaclesPassed,
     setup::{EpisodeParts, SetupError},
     trajectory::Recording,
 };
-use envs_core::{Conditions, Ground};
+use envs_core::{Conditions, Ground, Landscape};
 use envs_rapier::{RapierEnvironment, Variation};
 use ne_core::Seed;
 use ne_net::Network;
+use serde::Serialize;
 use tasks::{
     Environment, Episode, MovementCatalogue, MovementSpec, Trials,
     gait::{GaitReport, Kind, Trajectory},
@@ -43,21 +45,23 @@ impl Stage {
         let movement = MovementSpec { steps, terms: Vec::new(), objectives: Vec::new(), ..parts.movement.clone() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
-        Ok(Self { episode: parts.build(catalogue)?, movement, kind, flat: true })
+        let episode = parts.build(catalogue)?;
+        let flat = *episode.environment().ground() == Ground::flat();
+        Ok(Self { episode, movement, kind, flat })
     }
 
-    /// The same stage in another world: under these conditions, on this ground.
+    /// The same stage in another world: under these conditions, on this ground or in this landscape.
     ///
     /// # Errors
     /// If the world makes no sense, the creature does not come to rest in it, or the movement is unknown.
     pub fn under(
         &self,
         conditions: &Conditions,
-        ground: Ground,
+        landscape: impl Into<Landscape>,
         catalogue: &MovementCatalogue,
     ) -> Result<Self, SetupError> {
-        let flat = ground == Ground::flat();
-        let environment = self.episode.environment().under(conditions, ground)?;
+        let environment = self.episode.environment().under(conditions, landscape)?;
+        let flat = *environment.ground() == Ground::flat();
         let steps = judged_steps(self.kind, environment.settings().time_step);
         let episode = Episode::new(environment, catalogue.build(&self.movement)?, steps, Trials::default())?;
         Ok(Self { episode, flat, ..self.clone() })
@@ -83,17 +87,34 @@ impl Stage {
 
     /// Measures what a controller does here; `None` for one that falls silent at once: there is nothing to measure.
     pub fn judge(&self, network: &Network) -> Option<GaitReport> {
+        self.measure(network).map(|gait| gait.report)
+    }
+
+    /// The same, and how many obstacles it passes.
+    pub fn measure(&self, network: &Network) -> Option<Gait> {
         let recording = self.record(network);
-        let body = self.episode.environment().body()?;
-        let trajectory = Trajectory::new(body, &recording.snapshots).ok()?;
+        let environment = self.episode.environment();
+        let trajectory = Trajectory::new(environment.body()?, &recording.snapshots).ok()?;
         let trajectory = if self.flat { trajectory } else { trajectory.on_terrain() };
-        Some(GaitReport::of(&trajectory, self.kind))
+        let report = GaitReport::of(&trajectory, self.kind);
+        Some(Gait { report, obstacles: ObstaclesPassed::count(environment.landscape(), &recording.snapshots) })
     }
 
     /// Whether a controller's gait is usable here; never for a movement that is not judged.
     pub fn is_usable(&self, network: &Network) -> bool {
         self.judge(network).and_then(|report| report.verdict).is_some_and(|judgement| judgement.usable)
     }
+}
+
+/// A gait, and how far it got on its terrain.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Gait {
+    /// What was measured of it.
+    #[serde(flatten)]
+    pub report: GaitReport,
+    /// How many obstacles of each kind it passed; empty on flat ground.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<ObstaclesPassed>,
 }
 
 /// The steps of an episode as long as the judgement asks for.
@@ -119,6 +140,14 @@ pub enum GaitOfChampionError {
 /// # Errors
 /// If a field of the champion is out of range, its movement is unknown, or there is nothing to measure.
 pub fn judge(champion: &Champion, catalogue: &MovementCatalogue) -> Result<GaitReport, GaitOfChampionError> {
+    measure(champion, catalogue).map(|gait| gait.report)
+}
+
+/// The same, and how many obstacles it passes.
+///
+/// # Errors
+/// As [`judge`].
+pub fn measure(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Gait, GaitOfChampionError> {
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
-    stage.judge(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
+    stage.measure(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
 }

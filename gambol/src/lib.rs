@@ -59,6 +59,7 @@ pub mod lesson;
 mod limbs;
 mod lines;
 mod nominal;
+pub mod obstacles;
 mod perturbation;
 mod proving;
 mod recorder;

@@ -1,7 +1,7 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::gait::Stage;
-use envs_core::{Conditions, Ground, bumps};
+use envs_core::{Conditions, Ground, Landscape, bumps};
 use ne_core::{Purpose, RandomStream, Seed};
 use rand::RngExt;
 use tasks::Environment;
@@ -25,13 +25,15 @@ const FARTHEST: f32 = 500.0;
 /// A perturbed world.
 pub(crate) struct World {
     pub(crate) conditions: Conditions,
-    pub(crate) ground: Ground,
+    pub(crate) landscape: Landscape,
+    /// How many bumps are on its ground.
+    pub(crate) bumps: usize,
     /// s.
     pub(crate) time_step: f32,
 }
 
 impl World {
-    /// The world of a seed. Bumps reach `reach` m from the start, at most 500.
+    /// The world of a seed. Bumps reach `reach` m from the start, at most 500. A terrain has none, but is laid out anew.
     pub(crate) fn draw(seed: Seed, stage: &Stage, reach: f32) -> Self {
         let environment = stage.environment();
         let mut stream = seed.stream(PERTURBATION);
@@ -46,10 +48,17 @@ impl World {
             time_step: time_step / nominal,
             ..Conditions::nominal(environment.outputs())
         };
-        let [left, _, right, _] = environment.blueprint().bounding_box();
+        let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
+        if !terrain.is_flat() {
+            let landscape = Landscape::new(terrain, stream.random(), blueprint);
+            return Self { conditions, landscape, bumps: 0, time_step };
+        }
+        let [left, _, right, _] = blueprint.bounding_box();
+        let bumps = bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST));
+        let count = bumps.len();
         let mut ground = Ground::flat();
-        ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST)));
-        Self { conditions, ground, time_step }
+        ground.shapes.extend(bumps);
+        Self { conditions, landscape: ground.into(), bumps: count, time_step }
     }
 }
 
@@ -61,7 +70,7 @@ fn uniform(stream: &mut RandomStream, [low, high]: [f32; 2]) -> f32 {
 pub(crate) mod tests {
     use super::*;
     use crate::setup::EpisodeParts;
-    use creatures::{Actuation, DEFAULT_INPUT_RANGE};
+    use creatures::{Actuation, DEFAULT_INPUT_RANGE, Terrain};
     use envs_core::GroundShape;
     use envs_rapier::{PhysicsSettings, Variation};
     use tasks::{MovementCatalogue, MovementSpec, Trials};
@@ -75,6 +84,7 @@ pub(crate) mod tests {
             trials: Trials::default(),
             variation: Variation::default(),
             physics: PhysicsSettings::default(),
+            terrain: &Terrain::default(),
             actuation: Actuation::default(),
         };
         Stage::new(parts, &MovementCatalogue::default()).expect("builds")
@@ -87,7 +97,9 @@ pub(crate) mod tests {
             let [left, _, right, _] = stage.environment().blueprint().bounding_box();
             for index in 0..200 {
                 let seed = Seed::of_run(3).trial(index);
-                let World { conditions, ground, time_step } = World::draw(seed, &stage, 10.0);
+                let World { conditions, landscape, bumps, time_step } = World::draw(seed, &stage, 10.0);
+                let ground = landscape.ground;
+                assert_eq!(bumps, ground.shapes.len() - 1);
                 assert!((conditions.friction - 1.0).abs() <= FRICTION + 1e-6);
                 assert!((conditions.mass - 1.0).abs() <= MASS + 1e-6);
                 assert!((conditions.torque - 1.0).abs() <= TORQUE + 1e-6);
@@ -110,7 +122,7 @@ pub(crate) mod tests {
         let farthest = |reach: f32| {
             let world = World::draw(Seed::of_run(1), &stage("biped-1", "running"), reach);
             let x = |shape: &GroundShape| if let GroundShape::Circle { x, .. } = *shape { x } else { 0.0 };
-            world.ground.shapes.iter().map(x).fold(0.0, f32::max)
+            world.landscape.ground.shapes.iter().map(x).fold(0.0, f32::max)
         };
         assert!((6.0..8.0).contains(&farthest(8.0)), "{}", farthest(8.0));
         assert!((42.0..48.0).contains(&farthest(45.0)), "{}", farthest(45.0));

@@ -54,8 +54,8 @@ impl ProvingGround {
         // Other worlds than those robustness is measured in, whatever the run's seed.
         let lot: u64 = self.seed.stream(PROVING_GROUND).random();
         let world = |index| {
-            let World { conditions, ground, .. } = World::draw(Seed::of_run(lot).trial(index), &self.stage, reach);
-            self.stage.under(&conditions, ground, &self.catalogue).ok()
+            let World { conditions, landscape, .. } = World::draw(Seed::of_run(lot).trial(index), &self.stage, reach);
+            self.stage.under(&conditions, landscape, &self.catalogue).ok()
         };
         (0..WORLDS as u32).into_par_iter().map(world).collect()
     }

@@ -119,7 +119,7 @@ pub fn robustness(
         .map(|index| {
             let world =
                 World::draw(Seed::of_run(seed).trial(index), &stage, progress_unperturbed.abs() as f32 + BEYOND);
-            let report = stage.under(&world.conditions, world.ground.clone(), catalogue).ok();
+            let report = stage.under(&world.conditions, world.landscape.clone(), catalogue).ok();
             PerturbedTrial::new(&world, kind, report.and_then(|stage| stage.judge(&champion.network)))
         })
         .collect();
@@ -184,7 +184,7 @@ impl PerturbedTrial {
             mass,
             torque,
             time_step: world.time_step,
-            bumps: world.ground.shapes.len() - 1,
+            bumps: world.bumps,
             usable: report.as_ref().is_some_and(is_usable),
             progress: report.as_ref().map_or(0.0, |report| progress(kind, report)),
             reasons,

@@ -6,7 +6,7 @@ use crate::{
     limbs::{self, Limbs},
     shaping, suggest,
 };
-use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor};
+use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor, Terrain};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::{Heat, Seed, SettingError};
@@ -107,6 +107,8 @@ pub struct EpisodeParts<'a> {
     pub variation: Variation,
     /// The physics.
     pub physics: PhysicsSettings,
+    /// What the creature moves on.
+    pub terrain: &'a Terrain,
     /// What outputs mean to motors.
     pub actuation: Actuation,
 }
@@ -124,8 +126,11 @@ impl EpisodeParts<'_> {
         let steps = catalogue.steps(self.movement)?;
         let blueprint = Blueprint::new(self.creature.clone())?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let environment = RapierEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)?
-            .with_actuation(self.actuation)?;
+        let terrain = self.terrain.clone();
+        let (physics, variation) = (self.physics, self.variation);
+        let environment =
+            RapierEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)?
+                .with_actuation(self.actuation)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
 
@@ -138,9 +143,12 @@ impl EpisodeParts<'_> {
         let steps = catalogue.steps(self.movement)?;
         let blueprint = Blueprint::new(self.creature.clone())?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let environment = LaneEnvironment::new(blueprint, sensors, self.input_range, self.physics, self.variation)
-            .and_then(|environment| environment.with_actuation(self.actuation))
-            .map_err(SetupError::Engine)?;
+        let terrain = self.terrain.clone();
+        let (physics, variation) = (self.physics, self.variation);
+        let environment =
+            LaneEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)
+                .and_then(|environment| environment.with_actuation(self.actuation))
+                .map_err(SetupError::Engine)?;
         Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)
     }
 
@@ -293,6 +301,7 @@ impl RunConfig {
             trials: self.trials,
             variation: self.variation,
             physics: self.physics,
+            terrain: &self.terrain,
             actuation: self.controller.actuation,
         }
     }

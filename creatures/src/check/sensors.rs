@@ -1,7 +1,7 @@
 //! Settings of sensors.
 
 use super::numbers::{check as check_number, check_count};
-use crate::bounds::{CLOCK_PERIOD, MOST_RAYS, MOST_SENSORS, RAY_ANGLE, RAY_LENGTH};
+use crate::bounds::{CLOCK_PERIOD, GAP_SIGHT, MOST_RAYS, MOST_SENSORS, RAY_ANGLE, RAY_LENGTH};
 use crate::{Problem, Sensor};
 
 /// Checks the sensors of a creature, or those a run gives it instead.
@@ -28,14 +28,19 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             Sensor::Clock { period } => {
                 check_number(|| format!("{path}.clock.period"), *period, CLOCK_PERIOD, problems);
             }
-            Sensor::FootContacts if !has_feet => problems.push(Problem::NoFeet { path }),
+            Sensor::NextGap { length } => {
+                check_number(|| format!("{path}.next-gap.length"), *length, GAP_SIGHT, problems);
+            }
+            Sensor::FootContacts | Sensor::FootSlip if !has_feet => problems.push(Problem::NoFeet { path }),
             Sensor::TorsoRotation
             | Sensor::JointAngles
             | Sensor::JointSpeeds
             | Sensor::TorsoVelocity
             | Sensor::TorsoHeight
             | Sensor::TorsoSpin
-            | Sensor::FootContacts => {}
+            | Sensor::FootContacts
+            | Sensor::HeightAboveGround
+            | Sensor::FootSlip => {}
         }
     }
 }

@@ -50,14 +50,14 @@ pub(crate) struct Gait {
 
 /// A gait that was measured, and whose.
 struct Measured {
-    report: GaitReport,
+    gait: gait::Gait,
     name: String,
 }
 
 impl Gait {
     pub(crate) fn run(self) -> Outcome {
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-        let Measured { report, name } = match &self.creature {
+        let Measured { gait, name } = match &self.creature {
             Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref())?,
             None if is_csv => {
                 let path = self.gait.display();
@@ -69,11 +69,11 @@ impl Gait {
             None => of_champion(&champion_file(&self.gait)?)?,
         };
         if self.json {
-            say!("{}", serde_json::to_string(&report)?)?;
+            say!("{}", serde_json::to_string(&gait)?)?;
         } else {
-            say!("{}", gait_text::describe(&name, &report).trim_end())?;
+            say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles).trim_end())?;
         }
-        let usable = report.verdict.is_none_or(|verdict| verdict.usable);
+        let usable = gait.report.verdict.is_none_or(|verdict| verdict.usable);
         Ok(if usable { ExitCode::SUCCESS } else { ExitCode::from(NOT_USABLE) })
     }
 }
@@ -85,9 +85,9 @@ pub(super) fn champion_file(path: &Path) -> Result<PathBuf, Box<dyn Error>> {
 
 fn of_champion(path: &Path) -> Result<Measured, Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    let report = gait::judge(&champion, &MovementCatalogue::default())
+    let gait = gait::measure(&champion, &MovementCatalogue::default())
         .map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(Measured { report, name: format!("{} {}", champion.creature.name, champion.movement.name) })
+    Ok(Measured { gait, name: format!("{} {}", champion.creature.name, champion.movement.name) })
 }
 
 fn of_trajectory(path: &Path, creature: &str, movement: Option<&str>) -> Result<Measured, Box<dyn Error>> {
@@ -100,7 +100,8 @@ fn of_trajectory(path: &Path, creature: &str, movement: Option<&str>) -> Result<
         Trajectory::from_positions(&body, &read.snapshots).map_err(|error| located(path, &read, &error))?;
     let report = GaitReport::of(&trajectory, movement.and_then(Kind::of));
     let movement = movement.map_or_else(String::new, |movement| format!(" {movement}"));
-    Ok(Measured { report, name: format!("{}{movement}", blueprint.name()) })
+    let gait = gait::Gait { report, obstacles: Vec::new() };
+    Ok(Measured { gait, name: format!("{}{movement}", blueprint.name()) })
 }
 
 /// The error with the file and, if it is about a step, its line.

@@ -1,5 +1,6 @@
 //! A gait report as text for people.
 
+use gambol::obstacles::ObstaclesPassed;
 use std::fmt::Write;
 use tasks::gait::{GaitReport, JointUse, Kind, LegUse};
 
@@ -9,11 +10,14 @@ const DIAGRAM_SECONDS: f64 = 3.0;
 const DIAGRAM_WIDTH: usize = 60;
 
 /// The verdict first, then what was measured, legs, joints and footfalls.
-pub(super) fn describe(name: &str, report: &GaitReport) -> String {
+pub(super) fn describe(name: &str, report: &GaitReport, obstacles: &[ObstaclesPassed]) -> String {
     let mut text = verdict(name, report);
     text.push('\n');
     for (label, value) in measurements(report) {
         line(&mut text, &format!("  {label:<18} {value}"));
+    }
+    for ObstaclesPassed { kind, passed, of } in obstacles {
+        line(&mut text, &format!("  {:<18} {passed} of {of}", kind.passed()));
     }
     table(&mut text, &legs(&report.legs));
     table(&mut text, &joints(&report.joints));
@@ -175,7 +179,7 @@ mod tests {
 
     #[test]
     fn the_verdict_comes_first_and_the_footfalls_last() {
-        let text = describe("hopper running", &report());
+        let text = describe("hopper running", &report(), &[]);
         assert!(text.starts_with("hopper running: not usable:\n  the episode lasted 4.0 s"), "{text}");
         let diagram: Vec<&str> = text.lines().rev().take(3).collect();
         assert_eq!(diagram[2], "  footfalls, the last 3.0 s");

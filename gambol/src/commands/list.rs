@@ -1,6 +1,6 @@
 use super::Outcome;
 use clap::Args;
-use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, TERRAINS, TerrainEntry};
 use gambol::config::{STRATEGIES, StrategyEntry};
 use serde_json::json;
 use std::process::ExitCode;
@@ -97,6 +97,33 @@ impl Strategies {
         for entry in STRATEGIES {
             let alias = entry.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
             say!("{:<20} {}", format!("{}{alias}", entry.name), entry.description)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol terrains
+  gambol train tetrapod-2 running --terrain gaps:0.3
+  gambol train biped-1 running --terrain mixture --set terrain.seed=7")]
+pub(crate) struct Terrains {
+    /// Print as JSON, with the fields of a configuration
+    #[arg(long)]
+    json: bool,
+}
+
+impl Terrains {
+    pub(crate) fn run(self) -> Outcome {
+        if self.json {
+            let row = |entry: &TerrainEntry| json!({ "name": entry.name, "description": entry.description, "terrain": entry.terrain() });
+            say!("{}", TERRAINS.iter().map(row).collect::<serde_json::Value>())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        say!("terrains, as in --terrain NAME or --terrain NAME:DIFFICULTY; the sizes are those at difficulty 1")?;
+        for entry in TERRAINS {
+            say!("  {:<12} {}", entry.name, entry.description)?;
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -108,6 +108,8 @@ pub(crate) enum Command {
     Creatures(list::Creatures),
     /// Lists the movements and the terms that can be added to them
     Movements(list::Movements),
+    /// Lists the terrains that can be asked for by name
+    Terrains(list::Terrains),
     /// Lists the strategies: ways to search
     Strategies(list::Strategies),
 }
@@ -129,6 +131,7 @@ impl Command {
             Self::Bench(bench) => bench.run(),
             Self::Creatures(creatures) => creatures.run(),
             Self::Movements(movements) => movements.run(),
+            Self::Terrains(terrains) => terrains.run(),
             Self::Strategies(strategies) => strategies.run(),
         }
     }

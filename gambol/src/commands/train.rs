@@ -23,6 +23,7 @@ Examples:
   gambol train biped-1 running
   gambol train biped-1 jumping --until usable
   gambol train decapod-1 running --budget 10s --variation strong
+  gambol train tetrapod-2 running --terrain gaps:0.3
   gambol train tetrapod-2 jumping --generations 100 --seed 7 --out runs/leap
   gambol train biped-1 running --preset thesis
   gambol train biped-1 running --strategy neat
@@ -68,6 +69,9 @@ pub(crate) struct Train {
     /// strong with bumps too) [default: light, none with --preset thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
+    /// What it moves on (see: gambol terrains), and how hard that is, from 0 to 1: gaps, hurdles:0.3 [default: flat]
+    #[arg(long, value_name = "NAME[:DIFFICULTY]")]
+    terrain: Option<String>,
     /// A configuration file, whole or in part, laid over the preset
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
@@ -186,7 +190,9 @@ fn minutes_of(text: &str) -> Result<f64, String> {
 impl Train {
     pub(crate) fn run(self) -> Outcome {
         let catalogue = MovementCatalogue::default();
-        let Self { creature, movement, preset, strategy, topology_from, engine, variation, config, set, .. } = &self;
+        let Self {
+            creature, movement, preset, strategy, topology_from, engine, variation, terrain, config, set, ..
+        } = &self;
         let request = Request {
             creature: creature.clone(),
             movement: movement.clone(),
@@ -197,6 +203,7 @@ impl Train {
             set: set.clone(),
             engine: engine.clone(),
             variation: variation.clone(),
+            terrain: terrain.clone(),
             unvaried: false,
         };
         let mut config = request.resolve(&catalogue)?;
@@ -237,7 +244,7 @@ impl Train {
 /// The error, with the file it is in: the configuration file, if that alone gives the same error.
 fn located(error: &str, request: Request, catalogue: &MovementCatalogue) -> String {
     let file = request.config.clone();
-    let alone = Request { set: Vec::new(), engine: None, variation: None, ..request }.resolve(catalogue);
+    let alone = Request { set: Vec::new(), engine: None, variation: None, terrain: None, ..request }.resolve(catalogue);
     let same = alone.is_ok_and(|config| Setup::new(&config, catalogue).is_err_and(|found| found.to_string() == error));
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }

@@ -16,7 +16,7 @@ pub use request::{Request, RequestError};
 pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
 
 use crate::shaping::{Origin, StageSettings};
-use creatures::{Actuation, Creature, Sensor};
+use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{Hearings, SettingError, StopConditions};
 use ne_net::{Activation, Topology};
@@ -66,6 +66,9 @@ pub struct RunConfig {
     pub stop: StopConditions,
     /// The physics.
     pub physics: PhysicsSettings,
+    /// What the creature moves on; flat by default.
+    #[serde(default, skip_serializing_if = "Terrain::is_default")]
+    pub terrain: Terrain,
     /// What is written down, and how often.
     pub record: RecordSettings,
     /// The stages of shaping, in order; none: the run has one task.

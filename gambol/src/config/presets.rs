@@ -1,7 +1,7 @@
 //! Named starting points.
 
 use super::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, coaching};
-use creatures::{Actuation, Creature};
+use creatures::{Actuation, Creature, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::StopConditions;
 use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
@@ -97,6 +97,7 @@ impl Preset {
             topology: None,
             stop: StopConditions { generations: Some(300), ..StopConditions::default() },
             physics: PhysicsSettings::default(),
+            terrain: Terrain::default(),
             record: RecordSettings {
                 checkpoint_every: 10,
                 populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],

@@ -10,7 +10,7 @@ use crate::{
     source::SourceError,
     suggest,
 };
-use creatures::{Blueprint, Creature, CreatureError};
+use creatures::{Blueprint, Creature, CreatureError, Terrain, UnknownTerrain};
 use envs_rapier::Variation;
 use ne_core::archive::ArchiveError;
 use serde_json::{Value, json};
@@ -43,6 +43,8 @@ pub struct Request {
     pub engine: Option<String>,
     /// The variation, by name: one of [`VARIATIONS`].
     pub variation: Option<String>,
+    /// The terrain, `NAME` or `NAME:DIFFICULTY`: one of [`TERRAINS`](creatures::TERRAINS).
+    pub terrain: Option<String>,
     /// Whether to leave out the preset's variation, so that the fitnesses of all generations can be compared.
     pub unvaried: bool,
 }
@@ -57,6 +59,9 @@ pub enum RequestError {
     /// A name is not known; the message has the nearest one.
     #[error("{0}")]
     Unknown(String),
+    /// There is no such terrain.
+    #[error(transparent)]
+    Terrain(#[from] UnknownTerrain),
     /// Something that a run needs was not said.
     #[error("{0}")]
     Missing(&'static str),
@@ -135,7 +140,7 @@ impl Request {
         Ok(config)
     }
 
-    /// The engine and the variation that were asked for by name.
+    /// The engine, the variation and the terrain that were asked for by name.
     fn choices(&self) -> Result<Value, RequestError> {
         let mut choices = json!({});
         if let Some(name) = &self.engine {
@@ -146,6 +151,9 @@ impl Request {
         if let Some(name) = &self.variation {
             let unknown = || RequestError::Unknown(suggest::unknown("variation", name, &VARIATIONS));
             choices["variation"] = json!(variation(name).ok_or_else(unknown)?);
+        }
+        if let Some(name) = &self.terrain {
+            choices["terrain"] = json!(name.parse::<Terrain>()?);
         }
         Ok(choices)
     }

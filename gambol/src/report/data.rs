@@ -3,6 +3,7 @@
 use super::{
     front::FrontData,
     gait::GaitData,
+    ground::GroundData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
     network::NetworkData,
     stages::StageData,
@@ -12,7 +13,7 @@ use crate::{
     config::{self, RunConfig, StrategySettings, VARIATIONS},
     trajectory::Recording,
 };
-use creatures::Creature;
+use creatures::{Creature, Terrain};
 use serde::Serialize;
 use serde_json::Value;
 use tasks::Snapshot;
@@ -30,6 +31,9 @@ pub(super) struct Report {
     pub(super) species: Vec<SpeciesHistory>,
     pub(super) statistics: Vec<StatisticHistory>,
     pub(super) champion: Option<ChampionData>,
+    /// What champions move on; `None` for flat ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) ground: Option<GroundData>,
     /// How the champion moves; `None` if there is nothing to measure.
     pub(super) gait: Option<GaitData>,
     /// The compromises found, if the search was for several objectives.
@@ -147,6 +151,9 @@ pub(super) struct StripEntry {
 pub(super) struct PopulationEntry {
     pub(super) generation: u64,
     pub(super) members: Vec<PopulationMember>,
+    /// What they move on; `None` for flat ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) ground: Option<GroundData>,
 }
 
 #[derive(Serialize)]
@@ -192,6 +199,7 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         Fact::new("Engine", config.engine.name()),
         Fact::new("Trials", config.trials.count),
         Fact::new("Variation", variation(config)),
+        Fact::new("Terrain", terrain(&config.terrain)),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
     ];
@@ -202,6 +210,15 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
     }
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts
+}
+
+/// The kinds of obstacles and how hard they are.
+pub(super) fn terrain(terrain: &Terrain) -> String {
+    let kinds: Vec<&str> = terrain.obstacles.iter().map(|obstacles| obstacles.kind().name()).collect();
+    match kinds.is_empty() {
+        true => "flat".into(),
+        false => format!("{}, difficulty {}, seed {}", kinds.join(" + "), terrain.difficulty, terrain.seed),
+    }
 }
 
 /// The variation by its name, if it has one.

@@ -1,5 +1,6 @@
 //! The champion's gait for the page.
 
+use crate::{gait::Gait, obstacles::ObstaclesPassed};
 use serde::Serialize;
 use tasks::gait::{GaitReport, Kind};
 
@@ -8,6 +9,8 @@ use tasks::gait::{GaitReport, Kind};
 pub(super) struct GaitData {
     #[serde(flatten)]
     report: GaitReport,
+    /// What it did on its terrain, in words: "gaps crossed" and "7 of 20".
+    obstacles: Vec<[String; 2]>,
     /// What speaks against it, in words.
     against: Vec<String>,
     /// What the audit flagged, in words.
@@ -16,11 +19,15 @@ pub(super) struct GaitData {
     window_s: [f64; 2],
 }
 
-impl From<GaitReport> for GaitData {
-    fn from(report: GaitReport) -> Self {
+impl From<Gait> for GaitData {
+    fn from(Gait { report, obstacles }: Gait) -> Self {
+        let told = |ObstaclesPassed { kind, passed, of }: &ObstaclesPassed| {
+            [kind.passed().to_owned(), format!("{passed} of {of}")]
+        };
         let reasons = report.verdict.iter().flat_map(|verdict| &verdict.reasons);
         let from = if report.kind == Some(Kind::Jumping) { 0.0 } else { 0.5 * report.duration };
         Self {
+            obstacles: obstacles.iter().map(told).collect(),
             against: reasons.map(ToString::to_string).collect(),
             flagged: report.cheats.iter().map(ToString::to_string).collect(),
             window_s: [from, report.duration],

@@ -4,6 +4,7 @@
 mod data;
 mod front;
 mod gait;
+mod ground;
 mod history;
 mod network;
 mod page;
@@ -21,6 +22,7 @@ use crate::{
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
 use gait::GaitData;
+use ground::GroundData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
@@ -46,6 +48,8 @@ pub enum ReportError {
     },
 }
 
+/// From where to where ground is drawn, m.
+const DRAWN: [f32; 2] = [-60.0, 250.0];
 /// How many champions the strip shows.
 const STRIP: usize = 8;
 /// How many generations show their whole population.
@@ -119,6 +123,7 @@ fn compose(
         gait: champion.as_ref().map(|champion| gait_data(champion, catalogue)).transpose()?.flatten(),
         champion: champion_data,
         front: front_data(folder, &stills)?,
+        ground: GroundData::new(setup.episode.environment().ground(), DRAWN),
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
         settings: data::settings(&config),
@@ -144,6 +149,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         species: Vec::new(),
         statistics: Vec::new(),
         champion: Some(champion_data(champion, catalogue)?),
+        ground: GroundData::new(champion.episode(catalogue)?.environment().ground(), DRAWN),
         gait: gait_data(champion, catalogue)?,
         front: None,
         strip: Vec::new(),
@@ -155,6 +161,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
             Fact::new("Found in generation", champion.generation),
             Fact::new("Strategy", &champion.strategy),
             Fact::new("Net", champion.network.topology()),
+            Fact::new("Terrain", data::terrain(&champion.terrain)),
             Fact::new("Physics", format!("{} {}", champion.engine.name, champion.engine.version)),
         ],
         config: serde_json::Value::Null,
@@ -200,7 +207,7 @@ fn champion_film(champion: &Champion, catalogue: &MovementCatalogue) -> Result<d
 
 fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
-    Ok(stage.judge(&champion.network).map(GaitData::from))
+    Ok(stage.measure(&champion.network).map(GaitData::from))
 }
 
 fn front_data(folder: &RunFolder, stills: &Stills<'_>) -> Result<Option<FrontData>, ReportError> {

@@ -7,6 +7,7 @@ const STYLE: &str = include_str!("assets/style.css");
 const SCRIPTS: &[&str] = &[
     include_str!("assets/data.js"),
     include_str!("assets/clock.js"),
+    include_str!("assets/terrain.js"),
     include_str!("assets/stage.js"),
     include_str!("assets/drawing.js"),
     include_str!("assets/replay.js"),

@@ -1,6 +1,9 @@
 //! Replays of champions and populations for the page, played anew: a run keeps the nets, not the films.
 
-use super::data::{PopulationEntry, PopulationMember, Replay, StripEntry};
+use super::{
+    data::{PopulationEntry, PopulationMember, Replay, StripEntry},
+    ground::GroundData,
+};
 use crate::{
     run_folder::{GalleryEntry, GalleryMember},
     setup::Setup,
@@ -16,6 +19,8 @@ use tasks::Episode;
 const STILL_SECONDS: f32 = 8.0;
 /// Frames a second of a small replay.
 const STILL_RATE: f32 = 12.5;
+/// From where to where the ground under a population is drawn, m.
+const DRAWN_WITH_POPULATIONS: [f32; 2] = [-20.0, 60.0];
 /// Members of a population that are drawn.
 const MEMBERS: usize = 16;
 
@@ -88,7 +93,13 @@ impl<'a> Stills<'a> {
                 fitness: member.fitness.map(Fitness::get),
                 replay: self.replay(&self.setup.episode, self.seed.generation(entry.generation), &member.network),
             };
-            PopulationEntry { generation: entry.generation, members: members.par_iter().map(member).collect() }
+            let landscape =
+                self.setup.episode.environment().landscape_of(self.seed.generation(entry.generation).trial(0));
+            PopulationEntry {
+                generation: entry.generation,
+                members: members.par_iter().map(member).collect(),
+                ground: GroundData::new(&landscape.ground, DRAWN_WITH_POPULATIONS),
+            }
         };
         entries.iter().map(population).collect()
     }

@@ -8,7 +8,7 @@ function readRun() {
 
 // Turns a replay as stored (whole millimetres and milliradians, each frame as the difference to the one before) into
 // poses. Angles come out continuous, whatever turn the recording wrapped at.
-function decodeReplay(stored) {
+function decodeReplay(stored, ground = null) {
   if (!stored || !stored.frames || !stored.parts || !stored.data) return null;
   const parts = stored.parts;
   const size = parts * 3;
@@ -26,7 +26,7 @@ function decodeReplay(stored) {
     }
   }
   const timeStep = stored.time_step > 0 ? stored.time_step : 0.02;
-  return { poses, parts, size, frames, timeStep, duration: (frames - 1) * timeStep, startX: poses[0] };
+  return { poses, parts, size, frames, timeStep, duration: (frames - 1) * timeStep, startX: poses[0], ground };
 }
 
 // The pose at a time, between frames a linear blend; `out` is filled and returned.
@@ -59,10 +59,13 @@ function speedAt(replay, frame) {
   return to > from ? (torsoX(replay, to) - torsoX(replay, from)) / ((to - from) * replay.timeStep) : 0;
 }
 
-// The highest point a part's centre reaches, over all frames.
+// The highest point above the ground that a part's centre reaches, over all frames.
 function highestCentre(replay) {
   let top = 0;
-  for (let at = 1; at < replay.poses.length; at += 3) if (replay.poses[at] > top) top = replay.poses[at];
+  for (let at = 1; at < replay.poses.length; at += 3) {
+    if (replay.poses[at] <= top) continue;
+    top = Math.max(top, replay.poses[at] - surfaceAt(replay.ground, replay.poses[at - 1]));
+  }
   return top;
 }
 

@@ -166,14 +166,16 @@ function drawShadow(stage, model, pose) {
     right = Math.max(right, pose[at] + part.reach * 0.6);
     lowest = Math.min(lowest, pose[at + 1] + lowestPoint(part.shape, pose[at + 2])[1]);
   }
-  const rise = Math.max(lowest, 0) / model.height;
+  const surface = surfaceAt(stage.ground, (left + right) / 2);
+  if (stage.ground && surface <= stage.ground.floor) return;
+  const rise = Math.max(lowest - surface, 0) / model.height;
   const c = stage.context;
   stage.resetTransform();
   c.globalAlpha = 0.5 / (1 + 4 * rise);
   c.fillStyle = theme.shadow;
   c.beginPath();
   const wide = (right - left) / 2 * stage.scale * (1 + 0.3 * rise);
-  c.ellipse(stage.screenX((left + right) / 2), stage.groundY + 3, wide, Math.min(5, 1.5 + wide * 0.05), 0, 0, 2 * Math.PI);
+  c.ellipse(stage.screenX((left + right) / 2), stage.screenY(surface) + 3, wide, Math.min(5, 1.5 + wide * 0.05), 0, 0, 2 * Math.PI);
   c.fill();
   c.globalAlpha = 1;
 }
@@ -223,11 +225,16 @@ function middleX(model, pose) {
 
 // Lifts the camera when the creature would leave the stage at the top.
 function raiseFor(stage, model, pose) {
-  let top = 0;
+  let top = stage.ground ? -Infinity : 0;
   for (const part of model.parts) {
     const at = part.index * 3;
     if (at + 2 < pose.length) top = Math.max(top, pose[at + 1] + part.drawnReach * 0.8);
   }
   const visible = stage.height * stage.groundShare / stage.scale;
+  if (stage.ground) {
+    // On uneven ground the camera follows the ground, and whoever falls into a pit.
+    const level = Math.min(levelAround(stage.ground, middleX(model, pose), 2 * model.width), pose[1]);
+    return level + Math.max(0, top - level - visible);
+  }
   return Math.max(0, top - visible);
 }

@@ -33,7 +33,7 @@ function buildVerdict(gait) {
   list.append(...against.map(text => element("li", text)));
 }
 
-function gaitFacts({ travel, torso, aloft, rhythm, duration_s, cheats, aloft: { flights }, verdict }) {
+function gaitFacts({ obstacles, travel, torso, aloft, rhythm, duration_s, cheats, aloft: { flights }, verdict }) {
   const known = value => value !== null && value !== undefined;
   const facts = [
     ["Distance", `${withUnit(travel.distance_m, "m")} in ${withUnit(duration_s, "s")}`],
@@ -49,6 +49,7 @@ function gaitFacts({ travel, torso, aloft, rhythm, duration_s, cheats, aloft: { 
     ["Cheats flagged", cheats.length ? fixed(cheats.length, 0) : "none"],
   ];
   const best = flights[verdict?.best_flight];
+  for (const [what, share] of obstacles) facts.push([what[0].toUpperCase() + what.slice(1), share]);
   if (best) facts.unshift(["Best jump", `${withUnit(best.rise_m, "m")} high, ${withUnit(best.to_s - best.from_s, "s")} in the air`]);
   return facts;
 }

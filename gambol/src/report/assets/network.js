@@ -231,6 +231,7 @@ class NetworkStage {
   draw() {
     const { stage, replay, model } = this;
     poseAt(replay, this.clock.now, this.pose);
+    stage.ground = replay.ground;
     stage.scale = fittingScale(stage, model, this.top, 0.66);
     stage.centreX = middleX(model, this.pose);
     stage.raise = raiseFor(stage, model, this.pose);

@@ -46,7 +46,7 @@ function buildHeading(run) {
 }
 
 function buildChampion(run, model) {
-  const replay = decodeReplay(run.champion?.replay);
+  const replay = decodeReplay(run.champion?.replay, run.ground);
   if (!replay) return;
   const contacts = readContacts(run.champion.contacts, replay.frames);
   const clock = loop.addClock(new Clock(replay.duration));
@@ -164,6 +164,7 @@ function startPage() {
   readTheme();
   run.creatureName = run.creature.name || "creature";
   run.unit = run.movement?.unit ?? "";
+  run.ground = decodeGround(run.ground);
   const model = makeModel(run.creature);
   buildHeading(run);
   buildChampion(run, model);

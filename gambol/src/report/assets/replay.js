@@ -18,6 +18,7 @@ class ReplayView {
   constructor(run, model, replay, contacts, clock) {
     Object.assign(this, { model, replay, contacts, clock });
     this.stage = new Stage(document.getElementById("replay-canvas"), 0.8);
+    this.stage.ground = replay.ground;
     this.pose = new Float32Array(replay.size);
     this.top = highestCentre(replay);
     this.follow = true;
@@ -162,7 +163,7 @@ class ReplayView {
     this.scrub.setAttribute("aria-valuetext", `${fixed(time, 2)} of ${fixed(replay.duration, 2)} seconds`);
     this.readouts.time.textContent = fixed(time, 2);
     this.readouts.distance.textContent = fixed(this.pose[0] - replay.startX, 2);
-    this.readouts.height.textContent = fixed(this.pose[1], 2);
+    this.readouts.height.textContent = fixed(this.pose[1] - surfaceAt(replay.ground, this.pose[0]), 2);
     this.readouts.speed.textContent = fixed(speedAt(replay, frame), 2);
   }
 

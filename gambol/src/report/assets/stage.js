@@ -39,6 +39,7 @@ class Stage {
     this.stale = true;
     this.centreX = 0;
     this.raise = 0;
+    this.ground = null;
     this.scale = 100;
     const fit = () => {
       const box = canvas.getBoundingClientRect();
@@ -58,6 +59,7 @@ class Stage {
     fit();
   }
 
+  // Where ground at height 0 is.
   get groundY() { return this.height * this.groundShare + this.raise * this.scale; }
   screenX(x) { return this.width / 2 + (x - this.centreX) * this.scale; }
   screenY(y) { return this.groundY - y * this.scale; }
@@ -80,7 +82,7 @@ class Stage {
     const { width, height } = this;
     const groundY = this.groundY;
     this.resetTransform();
-    const sky = c.createLinearGradient(0, 0, 0, Math.max(groundY, 1));
+    const sky = c.createLinearGradient(0, 0, 0, Math.max(this.ground ? height : groundY, 1));
     sky.addColorStop(0, theme.sky);
     sky.addColorStop(1, theme["sky-low"]);
     c.fillStyle = sky;
@@ -89,21 +91,28 @@ class Stage {
       this.drawHills(origin, 0.12, 0.30, 9, theme.hill);
       this.drawHills(origin, 0.30, 0.15, 5, theme["hill-near"]);
     }
-    const ground = c.createLinearGradient(0, groundY, 0, Math.max(height, groundY + 1));
+    const horizon = this.height * this.groundShare;
+    const top = this.ground ? horizon : groundY;
+    const ground = c.createLinearGradient(0, top, 0, Math.max(height, top + 1));
     ground.addColorStop(0, theme.ground);
     ground.addColorStop(1, theme["ground-deep"]);
-    c.fillStyle = ground;
-    c.fillRect(0, groundY, width, Math.max(height - groundY, 0));
-    this.drawMarks(origin, options.small);
-    c.fillStyle = theme["ground-line"];
-    c.fillRect(0, groundY - 0.5, width, 1.5);
+    if (this.ground) {
+      drawGround(this, this.ground, ground);
+      this.drawMarks(origin, options.small);
+    } else {
+      c.fillStyle = ground;
+      c.fillRect(0, groundY, width, Math.max(height - groundY, 0));
+      this.drawMarks(origin, options.small);
+      c.fillStyle = theme["ground-line"];
+      c.fillRect(0, groundY - 0.5, width, 1.5);
+    }
     this.drawStart(origin, options.small);
   }
 
   // A soft line of hills that moves slower than the ground.
   drawHills(origin, pace, rise, seed, colour) {
     const c = this.context;
-    const groundY = this.groundY;
+    const groundY = this.ground ? this.height * this.groundShare : this.groundY;
     const shift = (this.centreX - origin) * this.scale * pace;
     const unit = Math.max(this.height, 160);
     c.beginPath();
@@ -123,7 +132,6 @@ class Stage {
   // metre numbered when fewer than six are in view.
   drawMarks(origin, small) {
     const c = this.context;
-    const groundY = this.groundY;
     const each = [1, 5, 10, 50, 100].find(step => step * this.scale >= 11) || 500;
     const closeUp = this.width / this.scale < 6;
     const numbered = closeUp ? 1 : [5, 10, 50, 100, 500].find(step => step >= each && step * this.scale >= 46) || 500;
@@ -136,6 +144,9 @@ class Stage {
       const metre = i * each;
       const x = this.screenX(origin + metre);
       const main = metre % numbered === 0;
+      const height = surfaceAt(this.ground, origin + metre);
+      if (this.ground && height <= this.ground.floor) continue;
+      const groundY = this.screenY(height);
       c.fillStyle = theme.mark;
       c.globalAlpha = main ? 0.9 : 0.45;
       c.fillRect(x - (main ? 0.75 : 0.5), groundY + 1, main ? 1.5 : 1, main ? (small ? 7 : 11) : (small ? 4 : 6));

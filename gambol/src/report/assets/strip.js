@@ -32,6 +32,7 @@ class StripTile {
   draw() {
     const { stage, replay, model } = this;
     poseAt(replay, this.clock.now, this.pose);
+    stage.ground = replay.ground;
     stage.scale = fittingScale(stage, model, this.top, 0.55);
     stage.centreX = middleX(model, this.pose);
     stage.raise = raiseFor(stage, model, this.pose);
@@ -42,7 +43,7 @@ class StripTile {
 }
 
 function buildStrip(run, model) {
-  const entries = (run.strip || []).map(entry => ({ entry, replay: decodeReplay(entry.replay) })).filter(item => item.replay);
+  const entries = (run.strip || []).map(entry => ({ entry, replay: decodeReplay(entry.replay, run.ground) })).filter(item => item.replay);
   if (!entries.length) return;
   document.getElementById("strip").hidden = false;
   const clock = loop.addClock(new Clock(Math.max(...entries.map(item => item.replay.duration))));
@@ -97,9 +98,10 @@ class PopulationView {
   // Decodes a population when it is first looked at; the best comes last, so that it is drawn on top.
   members(index) {
     if (!this.decoded.has(index)) {
+      const ground = decodeGround(this.populations[index].ground);
       const rank = member => member.fitness ?? -Infinity;
       const members = this.populations[index].members
-        .map(member => ({ fitness: member.fitness, replay: decodeReplay(member.replay) }))
+        .map(member => ({ fitness: member.fitness, replay: decodeReplay(member.replay, ground) }))
         .filter(member => member.replay)
         .sort((a, b) => rank(a) - rank(b));
       for (const member of members) member.pose = new Float32Array(member.replay.size);
@@ -135,6 +137,7 @@ class PopulationView {
       right = Math.max(right, member.x);
     }
     const best = now[now.length - 1];
+    stage.ground = best.replay.ground;
     const fitting = fittingScale(stage, model, this.top, 0.5);
     const span = right - left + model.width * 2;
     stage.scale = Math.max(Math.min(fitting, stage.width / span), fitting / 3.2);

@@ -1,0 +1,92 @@
+//! Ground that is not flat, for the page.
+
+use envs_core::{Ground, GroundShape};
+use serde::Serialize;
+
+/// Shapes in whole millimetres.
+#[derive(Serialize)]
+pub(super) struct GroundData {
+    /// Everything below this height is ground.
+    floor: Option<i32>,
+    /// Convex outlines: x and y of each corner in turn.
+    shapes: Vec<Vec<i32>>,
+}
+
+/// Corners a circle is drawn with.
+const ROUND: u16 = 96;
+
+impl GroundData {
+    /// The shapes that come within a range of x, m; `None` for flat ground.
+    pub(super) fn new(ground: &Ground, [from, to]: [f32; 2]) -> Option<Self> {
+        if *ground == Ground::flat() {
+            return None;
+        }
+        let mut data = Self { floor: None, shapes: Vec::new() };
+        for shape in &ground.shapes {
+            match corners(shape) {
+                Ok(corners) => {
+                    let ahead = corners.iter().all(|corner| corner[0] > to);
+                    if !ahead && corners.iter().any(|corner| corner[0] > from) {
+                        data.shapes.push(corners.iter().flatten().map(|&place| millimetres(place)).collect());
+                    }
+                }
+                Err(height) => {
+                    data.floor = Some(data.floor.map_or(millimetres(height), |y| y.max(millimetres(height))))
+                }
+            }
+        }
+        Some(data)
+    }
+}
+
+/// The corners of a shape, m; the height of one that has none.
+fn corners(shape: &GroundShape) -> Result<Vec<[f32; 2]>, f32> {
+    let turned = |[x, y]: [f32; 2], [width, height]: [f32; 2], angle: f32| {
+        let (sin, cos) = libm::sincosf(angle);
+        let corner = |[right, up]: [f32; 2]| {
+            let (along, across) = (0.5 * width * right, 0.5 * height * up);
+            [x + cos * along - sin * across, y + sin * along + cos * across]
+        };
+        [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(corner).to_vec()
+    };
+    match *shape {
+        GroundShape::HalfSpace => Err(0.0),
+        GroundShape::Floor { y } => Err(y),
+        GroundShape::Box { x, y, width, height } => Ok(turned([x, y], [width, height], 0.0)),
+        GroundShape::Slab { x, y, width, height, angle } => Ok(turned([x, y], [width, height], angle)),
+        GroundShape::Circle { x, y, radius } => {
+            let corner = |index: u16| {
+                let angle = std::f32::consts::TAU * f32::from(index) / f32::from(ROUND);
+                [x + radius * libm::cosf(angle), y + radius * libm::sinf(angle)]
+            };
+            Ok((0..ROUND).map(corner).collect())
+        }
+    }
+}
+
+fn millimetres(place: f32) -> i32 {
+    (place * 1000.0).round() as i32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn flat_ground_needs_no_drawing_and_shapes_out_of_sight_neither() {
+        assert!(GroundData::new(&Ground::flat(), [-10.0, 10.0]).is_none());
+        let block = |x| GroundShape::Box { x, y: -0.5, width: 2.0, height: 1.0 };
+        let shapes = vec![GroundShape::Floor { y: -3.0 }, block(-20.0), block(1.0), block(20.0)];
+        let data = GroundData::new(&Ground { shapes }, [-10.0, 10.0]).expect("not flat");
+        assert_eq!(data.floor, Some(-3000));
+        assert_eq!(data.shapes, [[0, -1000, 2000, -1000, 2000, 0, 0, 0]]);
+    }
+
+    #[test]
+    fn slabs_are_drawn_turned() {
+        let angle = std::f32::consts::FRAC_PI_2;
+        let slab = GroundShape::Slab { x: 1.0, y: 2.0, width: 4.0, height: 2.0, angle };
+        let data = GroundData::new(&Ground { shapes: vec![slab] }, [0.0, 1.0]).expect("not flat");
+        assert_eq!(data.shapes, [[2000, 0, 2000, 4000, 0, 4000, 0, 0]]);
+    }
+}
