@@ -5,7 +5,7 @@ use tasks::{Body, BodyHinge, BodyMotor};
 /// m/s².
 const STANDARD_GRAVITY: f32 = 9.81;
 
-/// What the judges of movements need to know of a creature, on Earth.
+/// What the judges of movements need to know of a creature, on flat ground on Earth.
 pub fn body_of(blueprint: &Blueprint) -> Body {
     let parts = blueprint.parts();
     Body {
@@ -16,6 +16,7 @@ pub fn body_of(blueprint: &Blueprint) -> Body {
         hinges: blueprint.hinges().iter().map(|hinge_| hinge(hinge_, parts)).collect(),
         legs: blueprint.legs().to_vec(),
         legless: blueprint.is_legless(),
+        uneven_ground: false,
     }
 }
 

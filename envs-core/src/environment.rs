@@ -149,8 +149,9 @@ impl<E: Engine> CreatureEnvironment<E> {
         let settled = Settled::new(engine, &blueprint, &settings, &nominal, &landscape)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
+        let uneven_ground = landscape.ground != Ground::flat();
         let plan = Plan {
-            body: tasks::Body { gravity: settings.gravity, ..body_of(&blueprint) },
+            body: tasks::Body { gravity: settings.gravity, uneven_ground, ..body_of(&blueprint) },
             blueprint,
             senses,
             motors,
@@ -199,7 +200,9 @@ impl<E: Engine> CreatureEnvironment<E> {
         let state = State::new(settled.clone(), self.plan.motors.len());
         let variation = Variation::default();
         let terrain = Terrain::default();
+        let uneven_ground = landscape.ground != Ground::flat();
         let mut plan = Plan { settings, variation, landscape, terrain, settled, ..(*self.plan).clone() };
+        plan.body.uneven_ground = uneven_ground;
         for part in &mut plan.body.parts {
             part.mass *= conditions.mass;
             part.inertia *= conditions.mass;

@@ -13,6 +13,9 @@ const FLIGHT: i32 = 5;
 const HILLTOP: f32 = 1.0 / 6.0;
 /// Blocks of a stretch of rough ground.
 const BLOCKS: usize = 8;
+/// The blocks are as many heights apart from the level ground at most, so that no two differ by a hair: feet sink into the
+/// ground, and would be stopped by the buried side of a block that is hardly higher.
+const HEIGHTS: u32 = 4;
 /// How much narrower and wider than their mean the blocks of rough ground are, as a share.
 const BLOCK_WIDTHS: f32 = 0.5;
 /// What is smaller than this, m or degrees, is no obstacle.
@@ -22,6 +25,10 @@ const BEHIND: f32 = 50.0;
 const BEYOND: f32 = 500.0;
 /// Level ground goes on under what rises from it, m, so that there is no edge where they meet.
 const UNDER: f32 = 0.5;
+/// Where a slope meets level ground that is no lower, a disc of this radius, m, covers their edges...
+const BROW: f32 = 0.25;
+/// ...by this much, m: more than feet sink into the ground.
+const COVER: f32 = 0.02;
 /// How thick slanted ground is, and how deep hurdles stand in the ground, m.
 const THICKNESS: f32 = 1.0;
 const ROOTS: f32 = 0.3;
@@ -147,7 +154,7 @@ impl Relief {
             }
             ObstacleKind::Rough => {
                 for _ in 0..BLOCKS {
-                    self.height = base + main * stream.random::<f32>();
+                    self.height = base + main / HEIGHTS as f32 * stream.random_range(0..=HEIGHTS) as f32;
                     self.level(tread * (1.0 + BLOCK_WIDTHS * (2.0 * stream.random::<f32>() - 1.0)));
                 }
                 self.height = base;
@@ -185,7 +192,7 @@ impl Relief {
                     let right = to + outline.get(index + 1).map_or(0.0, |after| room_under(after, height, true));
                     shapes.push(block([left, right], floor, height));
                 }
-                Piece::Slope { from, to } => shapes.push(slab(from, to)),
+                Piece::Slope { from, to } => shapes.extend([slab(from, to), brow(from, to)]),
                 Piece::Gap => {}
                 Piece::Hurdle { from, to, foot, top } => shapes.push(block([from, to], foot - ROOTS, top)),
             }
@@ -247,6 +254,15 @@ fn room_under(neighbour: &Piece, height: f32, is_right: bool) -> f32 {
 
 fn block([left, right]: [f32; 2], bottom: f32, top: f32) -> GroundShape {
     GroundShape::Box { x: 0.5 * (left + right), y: 0.5 * (bottom + top), width: right - left, height: top - bottom }
+}
+
+/// What covers the upper end of a slope.
+fn brow(from: [f32; 2], to: [f32; 2]) -> GroundShape {
+    let corner = if to[1] > from[1] { to } else { from };
+    // Between the directions that slope and level ground face.
+    let (sin, cos) = libm::sincosf(0.5 * libm::atan2f(to[1] - from[1], to[0] - from[0]));
+    let depth = BROW - COVER;
+    GroundShape::Circle { x: corner[0] + depth * sin, y: corner[1] - depth * cos, radius: BROW }
 }
 
 /// Slanted ground whose surface goes from one point to another, and a little further down into the ground.

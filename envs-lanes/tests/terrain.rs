@@ -179,3 +179,16 @@ fn a_population_on_a_terrain_scores_as_in_rapier() {
     let wanted: Vec<_> = again.iter_mut().map(|net| one_by_one.evaluate(net, Seed::of_run(1))).collect();
     assert_eq!(found, wanted);
 }
+
+#[test]
+fn each_trial_has_a_terrain_of_its_own_if_it_may_vary() {
+    let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
+    for (terrain, others) in [(false, false), (true, true)] {
+        let variation = Variation { terrain, ..Variation::light() };
+        let (rapier, lanes) = both_on(&blueprint, &crowded("gaps"), variation);
+        let [first, second] = [0, 1].map(|trial| Seed::of_run(1).trial(trial));
+        assert_eq!(rapier.landscape_of(first), lanes.landscape_of(first));
+        assert_eq!(rapier.landscape_of(first) != rapier.landscape_of(second), others);
+        assert_eq!(*rapier.landscape_of(first) != *rapier.landscape(), others);
+    }
+}

@@ -183,7 +183,7 @@ impl Sights {
 /// What a limb sees of what is sensed.
 fn sees(limb: &Limb, senses: &Senses) -> Sights {
     let mut sights = Sights::default();
-    let (mut angles, mut speeds, mut feet) = (None, None, None);
+    let (mut angles, mut speeds, mut feet, mut slips) = (None, None, None, None);
     for (input, (probe, channel)) in senses.probes().iter().zip(senses.channels()).enumerate() {
         let joints = |what: &str| (0..limb.hinges.len()).map(|joint| format!("{what} of joint {joint}")).collect();
         let place_of = |hinge: usize| limb.hinges.iter().position(|&mine| mine == hinge);
@@ -198,6 +198,10 @@ fn sees(limb: &Limb, senses: &Senses) -> Sights {
             }
             Source::Contact(part) => {
                 let slot = *feet.get_or_insert_with(|| sights.add(["contact of foot".to_owned()]));
+                limb.parts.contains(&part).then_some((Sight::Foot, slot))
+            }
+            Source::Slip(part) => {
+                let slot = *slips.get_or_insert_with(|| sights.add(["slip of foot".to_owned()]));
                 limb.parts.contains(&part).then_some((Sight::Foot, slot))
             }
             Source::ClockSine { .. } => Some((Sight::ClockSine, sights.add([channel.name.clone()]))),

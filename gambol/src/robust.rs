@@ -28,6 +28,9 @@ const BEYOND: f32 = 5.0;
 pub struct Robustness {
     /// As what its gaits are judged.
     pub kind: Kind,
+    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world.
+    #[serde(skip)]
+    pub bumpy: bool,
     /// Whether it is usable without perturbation.
     pub usable_unperturbed: bool,
     /// How far it runs, or how high it jumps, without perturbation, m.
@@ -126,6 +129,7 @@ pub fn robustness(
     let share = |count: usize| count as f64 / f64::from(perturbations);
     Ok(Robustness {
         kind,
+        bumpy: champion.terrain.is_flat(),
         usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
         progress_unperturbed,
         usable_share: share(trials.iter().filter(|trial| trial.usable).count()),

@@ -20,6 +20,8 @@ pub struct Body {
     /// Whether it lies on the ground and crawls: its gait is told by its hinges, and not by its footfalls. The legs are
     /// then the chains that hang on its torso.
     pub legless: bool,
+    /// Whether the ground it moves on may be higher or lower than 0; no part below 0 is then known to be in the ground.
+    pub uneven_ground: bool,
 }
 
 /// A rigid part.

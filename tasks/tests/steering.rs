@@ -40,6 +40,7 @@ fn puppet() -> Body {
         hinges: HIPS.into_iter().enumerate().map(hinge).collect(),
         legs: vec![vec![1], vec![2]],
         legless: false,
+        uneven_ground: false,
     }
 }
 
@@ -208,6 +209,12 @@ fn footfalls_ends_an_episode_when_a_leg_rests_or_hangs() {
     let drags = |time: f32| if time < 2.0 { good(time) } else { steps(0.02, 0.0)(time) };
     assert_ends(footfalls(&drags, &good), 3.0, 1.0);
     assert_ends(footfalls(&good, &|time| if time < 3.2 { good(time) } else { 0.0 }), 4.0, 1.0);
+    // Below height 0 no foot is ever 3 cm above it; on ground that may be there it is lifted all the same.
+    let below = script(6.0, |time| Pose { lifted: [good(time), other(time)], rise: -1.0, ..Pose::default() });
+    assert_ends(watch(Footfalls::default(), &body, &below), 1.5, 2.0);
+    let uneven = Body { uneven_ground: true, ..puppet() };
+    assert_eq!(watch(Footfalls::default(), &uneven, &below), Seen { value: 0.0, end: None });
+    assert_ends(watch(Footfalls::default(), &uneven, &walk(&good, &rests)), 1.5, 1.0);
     // Who has no legs cannot rest them.
     let legless = Body { legless: true, ..puppet() };
     assert_eq!(value(Footfalls::default(), &legless, &walk(&rests, &rests)), 0.0);
@@ -339,6 +346,9 @@ fn honest_fails_what_lives_on_errors_of_the_physics() {
     let sunk = |by: f32| move |pose: &mut Pose, _: &mut Vec<PartState>| pose.rise = -by;
     assert_eq!(honest(&sunk(0.055)), None);
     assert_eq!(honest(&sunk(0.065)), Some(Verdict::Fail("a part sinks into the ground")));
+    let uneven = Body { uneven_ground: true, ..puppet() };
+    let below = script(2.0, |_| Pose { rise: -0.065, ..Pose::default() });
+    assert_eq!(watch(Honest::default(), &uneven, &below).end, None, "the ground may be there");
 }
 
 #[test]

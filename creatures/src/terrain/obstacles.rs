@@ -48,7 +48,7 @@ pub enum Obstacles {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         spacing: Option<f32>,
     },
-    /// Slanted ground, 3 B long, seen from above.
+    /// Slanted ground, 3 B long, seen from above; its upper end is rounded by a low mound.
     Slopes {
         /// Steepness, 0 to 60°; by default d · 30°.
         #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -60,7 +60,7 @@ pub enum Obstacles {
         #[serde(default, skip_serializing_if = "Option::is_none")]
         spacing: Option<f32>,
     },
-    /// Eight blocks side by side, each as high as chance has it and 0.25 to 0.75 B wide.
+    /// Eight blocks side by side, each 0, ¼, ½, ¾ or 1 times as high as may be and 0.25 to 0.75 B wide.
     Rough {
         /// Of the highest blocks there may be, m, 0 to 2; by default d · 0.3 L.
         #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -3,4 +3,5 @@
 mod environment;
 mod ground;
 mod puppet;
+mod terrain;
 mod variation;

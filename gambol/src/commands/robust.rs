@@ -14,7 +14,7 @@ Examples:
   gambol robust champion.json --perturbations 1000 --seed 7 --json
 
 Every perturbed world has another friction (± 30 %), mass and motor torque (± 10 % each), time step (from 1/120 to
-1/40 s) and bumps on the ground, up to 2 cm high. In each the champion is replayed in rapier and judged as gambol gait
+1/40 s) and bumps on the ground, up to 2 cm high; a terrain is laid out anew in place of bumps. In each the champion is replayed in rapier and judged as gambol gait
 does. Same seed, same worlds, on any number of threads.")]
 pub(crate) struct Robust {
     /// A champion file, or the folder of a run
@@ -76,7 +76,10 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     let [friction, mass, torque] = &shares;
     let bumps = 100.0 * BUMP_HEIGHTS[1];
     say!("  worlds           friction ± {friction}, mass ± {mass}, torque ± {torque}, steps of 1/120 to 1/40 s,")?;
-    say!("                   bumps up to {bumps:.0} cm high")?;
+    match robustness.bumpy {
+        true => say!("                   bumps up to {bumps:.0} cm high")?,
+        false => say!("                   the terrain laid out anew")?,
+    }
     if !robustness.reasons.is_empty() {
         say!("\n  what fails, and in how many of the worlds")?;
     }

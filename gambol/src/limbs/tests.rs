@@ -39,6 +39,7 @@ impl Made {
         ];
         if !blueprint.feet().is_empty() {
             sensors.insert(1, Sensor::FootContacts);
+            sensors.push(Sensor::FootSlip);
         }
         let senses = Senses::new(blueprint, &sensors, 1.0).expect("it has what is sensed");
         let motors = Motors::new(blueprint);
@@ -101,6 +102,7 @@ impl Made {
                 place.map_or(0.0, |place| limb.sign * felt[0] / (1.0 + place as f32))
             }
             Source::Contact(part) => f32::from(u8::from(limb.parts.contains(&part))) * felt[1],
+            Source::Slip(part) => f32::from(u8::from(limb.parts.contains(&part))) * 0.7 * felt[1],
             other => unreachable!("{other:?}"),
         };
         let inputs: Vec<f32> = self.senses.probes().iter().map(|probe| sense(probe.source)).collect();

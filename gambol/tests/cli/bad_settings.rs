@@ -20,6 +20,10 @@ const FLAGS: &[(&[&str], &[&str])] = &[
     (&["--target", "-inf"],      &["stop.target = -inf: must be a finite number"]),
     (&["--engine", "lnaes"],     &["there is no engine \"lnaes\"; did you mean \"lanes\"? (there are: lanes, rapier)"]),
     (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, light, strong)"]),
+    (&["--terrain", "gasp"],     &["there is no terrain \"gasp\"; did you mean `gaps`? (there are: flat, gaps, "]),
+    (&["--terrain", "gaps:2"],   &["terrain.difficulty = 2: must be from 0 to 1"]),
+    (&["--terrain", "gaps:x"],   &["terrain \"gaps:x\": \"x\" is no difficulty; write it as in gaps:0.5"]),
+    (&["--terrain", "gaps", "--variation", "strong"], &["variation.bumps = 0.02: must be 0 on a terrain that is not flat"]),
     (&["--preset", "thesys"],    &["there is no preset \"thesys\"", "did you mean \"thesis\"?"]),
 ];
 
@@ -85,6 +89,11 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("movement.objectives=[{\"term\":\"running\"},{\"term\":\"enrgy\"}]", &["movement.objectives[1].term", "did you mean \"energy\"?"]),
     ("movement.objectives=[{\"term\":\"running\"},{\"term\":\"energy\",\"weight\":0}]", &["movement.objectives[1].weight = 0: must be a finite number other than 0"]),
     ("movement.objectives=[{\"trem\":\"energy\"}]", &["movement.objectives[0].trem", "did you mean `term`?"]),
+    ("terrain.difficulty=1.5",                      &["terrain.difficulty = 1.5: must be from 0 to 1"]),
+    ("terrain.lenght=5",                            &["terrain.lenght: unknown field", "did you mean `length`?"]),
+    ("terrain.obstacles=[{\"gasp\":{}}]",           &["terrain.obstacles[0]", "did you mean `gaps`?"]),
+    ("terrain.obstacles=[{\"gaps\":{\"width\":21}}]", &["terrain.obstacles[0].gaps.width = 21: must be from 0 to 20 m"]),
+    ("sensors=[{\"next-gap\":{\"length\":0}}]",     &["sensors[0].next-gap.length"]),
     ("physics.time_step=0",                         &["physics.time_step = 0: must be from 0.001 to 0.05"]),
     ("physics.time_step=1e39",                      &["physics.time_step = inf: must be from 0.001 to 0.05"]),
     ("physics.solver_iterations=0",                 &["physics.solver_iterations = 0: must be from 1 to 32"]),

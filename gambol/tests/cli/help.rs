@@ -15,6 +15,7 @@ const COMMANDS: [&str; 15] = [
     "bench",
     "creatures",
     "movements",
+    "terrains",
     "strategies",
 ];
 

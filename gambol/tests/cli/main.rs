@@ -30,6 +30,7 @@ mod reproduce;
 mod robust;
 mod shaping;
 mod strategies;
+mod terrain;
 mod training;
 mod training_bench;
 mod verifying;

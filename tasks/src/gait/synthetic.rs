@@ -84,6 +84,7 @@ pub(super) fn body() -> Body {
         hinges: vec![hip(1), hip(2)],
         legs: vec![vec![1], vec![2]],
         legless: false,
+        uneven_ground: false,
     }
 }
 

@@ -1,14 +1,16 @@
 use super::{Movement, Verdict};
-use crate::{Body, Snapshot};
+use crate::{Body, PartState, Snapshot};
 
 /// Ends the episode when a leg is not used: when its foot has not come down, or has not left the ground, for 1.5 s. Its
 /// value is the number of legs that had stopped.
 ///
-/// A foot counts as off the ground once it is 3 cm above ground that is flat at height 0: feet that shiver or drag do not
-/// count as stepping, and feet that are lifted do not stumble over every bump. Creatures without legs are left alone.
+/// A foot counts as off the ground once it is 3 cm above ground that is flat at height 0, or on uneven ground 3 cm above
+/// where it last stood: feet that shiver or drag do not count as stepping, and feet that are lifted do not stumble over
+/// every bump. Creatures without legs are left alone.
 #[derive(Clone, Debug, Default)]
 pub struct Footfalls {
     legs: Vec<Leg>,
+    uneven_ground: bool,
     time: f32,
 }
 
@@ -18,6 +20,8 @@ struct Leg {
     corners: Vec<[f32; 2]>,
     radius: f32,
     down: bool,
+    /// How high the ground is on which it last stood, m.
+    ground: f32,
     last_down: f32,
     last_up: f32,
 }
@@ -43,6 +47,7 @@ impl Movement for Footfalls {
             radius: body.parts[foot].radius,
             ..Leg::default()
         };
+        self.uneven_ground = body.uneven_ground;
         self.legs = if body.legless { Vec::new() } else { body.feet().map(leg).collect() };
     }
 
@@ -50,6 +55,7 @@ impl Movement for Footfalls {
         self.time = start.time;
         for leg in &mut self.legs {
             leg.down = start.parts[leg.foot].touching;
+            leg.ground = 0.0;
             (leg.last_down, leg.last_up) = (start.time, start.time);
         }
     }
@@ -59,13 +65,14 @@ impl Movement for Footfalls {
         let mut verdict = Verdict::GoOn;
         for leg in &mut self.legs {
             let part = &now.parts[leg.foot];
+            if part.touching && self.uneven_ground {
+                leg.ground = leg.lowest_point(part);
+            }
             if part.touching && !leg.down {
                 leg.down = true;
                 leg.last_down = now.time;
             } else if !part.touching && leg.down {
-                let height = |[x, y]: &[f32; 2]| part.y + part.sin * x + part.cos * y;
-                let lowest = leg.corners.iter().map(height).fold(f32::INFINITY, f32::min) - leg.radius;
-                if lowest > CLEARANCE {
+                if leg.lowest_point(part) > leg.ground + CLEARANCE {
                     leg.down = false;
                     leg.last_up = now.time;
                 }
@@ -79,5 +86,13 @@ impl Movement for Footfalls {
 
     fn value(&self) -> f64 {
         self.legs.iter().filter(|leg| self.time - leg.last_down.min(leg.last_up) > PATIENCE).count() as f64
+    }
+}
+
+impl Leg {
+    /// Of its foot, m.
+    fn lowest_point(&self, foot: &PartState) -> f32 {
+        let height = |[x, y]: &[f32; 2]| foot.y + foot.sin * x + foot.cos * y;
+        self.corners.iter().map(height).fold(f32::INFINITY, f32::min) - self.radius
     }
 }

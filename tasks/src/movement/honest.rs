@@ -13,6 +13,7 @@ pub struct Honest {
     hinges: Vec<Hinge>,
     parts: Vec<BodyPart>,
     gravity: f32,
+    uneven_ground: bool,
     steps: u32,
     time: f32,
     surplus: Surplus,
@@ -74,6 +75,7 @@ impl Movement for Honest {
         self.hinges = body.hinges.iter().map(hinge).collect();
         self.parts = body.parts.clone();
         self.gravity = body.gravity;
+        self.uneven_ground = body.uneven_ground;
         let mass: f32 = body.parts.iter().map(|part| part.mass).sum();
         self.surplus.most = GAIN + GAIN_SHARE * mass * body.gravity * body.start_height;
     }
@@ -108,7 +110,7 @@ impl Movement for Honest {
             if state.spin.abs() * time_step > FASTEST {
                 return Verdict::Fail("a part turns faster than the engine can follow");
             }
-            if part.lowest_point(state) < -DEEPEST {
+            if !self.uneven_ground && part.lowest_point(state) < -DEEPEST {
                 return Verdict::Fail("a part sinks into the ground");
             }
         }
