@@ -99,6 +99,8 @@ impl Landscape {
 /// The outline of the ground, from left to right, as it is laid out.
 struct Relief {
     pieces: Vec<Piece>,
+    /// What stands on the outline.
+    hurdles: Vec<GroundShape>,
     obstacles: Vec<Obstacle>,
     /// How far it has come, m.
     x: f32,
@@ -112,13 +114,12 @@ enum Piece {
     Level { from: f32, to: f32, height: f32 },
     Slope { from: [f32; 2], to: [f32; 2] },
     Gap,
-    Hurdle { from: f32, to: f32, foot: f32, top: f32 },
 }
 
 impl Relief {
     fn new(from: f32, to: f32) -> Self {
         let start = Piece::Level { from, to, height: 0.0 };
-        Self { pieces: vec![start], obstacles: Vec::new(), x: to, height: 0.0 }
+        Self { pieces: vec![start], hurdles: Vec::new(), obstacles: Vec::new(), x: to, height: 0.0 }
     }
 
     /// An obstacle, beginning where the outline ends.
@@ -132,7 +133,7 @@ impl Relief {
             }
             ObstacleKind::Hurdles => {
                 self.level(tread);
-                self.pieces.push(Piece::Hurdle { from, to: self.x, foot: base, top: base + main });
+                self.hurdles.push(block([from, self.x], base - ROOTS, base + main));
             }
             ObstacleKind::Stairs => {
                 for height in climb(direction, FLIGHT) {
@@ -175,28 +176,26 @@ impl Relief {
 
     /// The shapes. `pit`: how far the floor is below the lowest level, m.
     fn ground(&self, pit: f32) -> Ground {
-        // Hurdles stand on the level they split in two.
-        let outline: Vec<Piece> = merged(&self.pieces);
         let height = |piece: &Piece| match *piece {
             Piece::Level { height, .. } => height,
             Piece::Slope { from, to } => from[1].min(to[1]),
-            Piece::Gap | Piece::Hurdle { .. } => 0.0,
+            Piece::Gap => 0.0,
         };
-        let floor = outline.iter().map(height).fold(0.0, f32::min) - pit;
+        let floor = self.pieces.iter().map(height).fold(0.0, f32::min) - pit;
         let mut shapes = vec![GroundShape::Floor { y: floor }];
-        for (index, piece) in outline.iter().enumerate() {
+        for (index, piece) in self.pieces.iter().enumerate() {
             match *piece {
                 Piece::Level { from, to, height } => {
-                    let before = index.checked_sub(1).map(|before| &outline[before]);
+                    let before = index.checked_sub(1).map(|before| &self.pieces[before]);
                     let left = from - before.map_or(0.0, |before| room_under(before, height, false));
-                    let right = to + outline.get(index + 1).map_or(0.0, |after| room_under(after, height, true));
+                    let right = to + self.pieces.get(index + 1).map_or(0.0, |after| room_under(after, height, true));
                     shapes.push(block([left, right], floor, height));
                 }
                 Piece::Slope { from, to } => shapes.extend([slab(from, to), brow(from, to)]),
                 Piece::Gap => {}
-                Piece::Hurdle { from, to, foot, top } => shapes.push(block([from, to], foot - ROOTS, top)),
             }
         }
+        shapes.extend(&self.hurdles);
         Ground { shapes }
     }
 }
@@ -211,35 +210,6 @@ fn climb(direction: Direction, steps: i32) -> impl Iterator<Item = i32> {
     up.chain(down.rev())
 }
 
-/// The same with level ground of one height that hurdles stand on in one piece, and the hurdles behind it.
-fn merged(pieces: &[Piece]) -> Vec<Piece> {
-    let mut merged: Vec<Piece> = Vec::new();
-    let mut last_level: Option<usize> = None;
-    for &piece in pieces {
-        match (piece, last_level.map(|index| merged[index])) {
-            (Piece::Level { from, to, height }, Some(Piece::Level { from: begin, to: end, height: before }))
-                if height == before && from == end =>
-            {
-                if let Some(index) = last_level {
-                    merged[index] = Piece::Level { from: begin, to, height };
-                }
-            }
-            (Piece::Level { .. }, _) => {
-                last_level = Some(merged.len());
-                merged.push(piece);
-            }
-            (Piece::Hurdle { .. }, _) => merged.push(piece),
-            (Piece::Slope { .. } | Piece::Gap, _) => {
-                last_level = None;
-                merged.push(piece);
-            }
-        }
-    }
-    // Hurdles go behind all that meets, so that neighbours are neighbours.
-    merged.sort_by_key(|piece| matches!(piece, Piece::Hurdle { .. }));
-    merged
-}
-
 /// How far level ground of this height goes on under its neighbour, m.
 fn room_under(neighbour: &Piece, height: f32, is_right: bool) -> f32 {
     match *neighbour {
@@ -248,7 +218,7 @@ fn room_under(neighbour: &Piece, height: f32, is_right: bool) -> f32 {
             let (near, far) = if is_right { (from, to) } else { (to, from) };
             if far[1] > near[1] { UNDER.min(to[0] - from[0]) } else { 0.0 }
         }
-        Piece::Level { .. } | Piece::Gap | Piece::Hurdle { .. } => 0.0,
+        Piece::Level { .. } | Piece::Gap => 0.0,
     }
 }
 

@@ -47,7 +47,7 @@ function drawGround(stage, ground, colour) {
   for (const { corners, left, right } of ground.shapes) {
     if (stage.screenX(right) < -5 || stage.screenX(left) > stage.width + 5) continue;
     corners.forEach(([x, y], i) => {
-      const [px, py] = [Math.min(Math.max(stage.screenX(x), -50), stage.width + 50), stage.screenY(y)];
+      const [px, py] = [stage.screenX(x), stage.screenY(y)];
       if (i === 0) path.moveTo(px, py); else path.lineTo(px, py);
     });
     path.closePath();
