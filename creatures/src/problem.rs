@@ -202,7 +202,7 @@ pub enum Problem {
         /// Index of the first.
         first: usize,
     },
-    /// Foot contacts asked of a creature without feet.
-    #[error("{path}: `foot-contacts` needs feet: a part with an actuated tag on which no other part hangs")]
-    NoFeet { path: String },
+    /// A sensor of feet asked of a creature without feet.
+    #[error("{path}: `{sensor}` needs feet: a part with an actuated tag on which no other part hangs")]
+    NoFeet { path: String, sensor: &'static str },
 }

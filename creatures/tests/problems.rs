@@ -311,6 +311,20 @@ fn sensors() {
         Problem::NoFeet { .. },
         "sensors[0]: `foot-contacts` needs feet: a part with an actuated tag on which no other part hangs"
     );
+    problem!(
+        |f| {
+            f["parts"][2]["tag"] = json!("shoe");
+            f["joints"][1]["parent"] = json!("left leg");
+            f["sensors"] = json!(["foot-slip"]);
+        },
+        Problem::NoFeet { .. },
+        "sensors[0]: `foot-slip` needs feet: a part with an actuated tag on which no other part hangs"
+    );
+    problem!(
+        |f| f["sensors"] = json!([{ "next-gap": { "length": 0 } }]),
+        Problem::OutOfRange { .. },
+        "sensors[0].next-gap.length: expected 0.01 to 100 m, found 0"
+    );
 }
 
 #[test]

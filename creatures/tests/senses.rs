@@ -48,8 +48,8 @@ impl BodyView for Body {
     fn slip(&self, part: usize) -> f32 {
         self.slips[part]
     }
-    fn next_gap(&self, length: f32) -> [f32; 2] {
-        if self.gap[0] < length { self.gap } else { [length, 0.0] }
+    fn next_gap(&self, _: f32) -> [f32; 2] {
+        self.gap
     }
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32 {
         // Downward rays see the ground.
@@ -95,7 +95,7 @@ fn read(senses: &Senses, body: &Body) -> Vec<f32> {
 fn channels_have_names_units_and_ranges() {
     let senses = senses(&all_sensors(), 3.0);
     let sixty = 60f32.to_radians();
-    let expected: [(&str, &str, [f32; 2]); 15] = [
+    let expected: [(&str, &str, [f32; 2]); 20] = [
         ("rotation of torso", "rad", [-PI, PI]),
         ("angle of left leg", "rad", [-sixty, sixty]),
         ("angle of right leg", "rad", [-sixty, sixty]),
@@ -111,6 +111,11 @@ fn channels_have_names_units_and_ranges() {
         ("sine of 2 s clock", "", [-1.0, 1.0]),
         ("cosine of 2 s clock", "", [-1.0, 1.0]),
         ("spin of torso", "rad/s", [-10.0, 10.0]),
+        ("height of torso above ground", "m", [0.0, 1.6]),
+        ("slip of left leg", "m/s", [-2.0, 2.0]),
+        ("slip of right leg", "m/s", [-2.0, 2.0]),
+        ("distance to next gap", "m", [0.0, 4.0]),
+        ("width of next gap", "m", [0.0, 4.0]),
     ];
     assert_eq!(senses.len(), expected.len());
     for (channel, (name, unit, range)) in senses.channels().iter().zip(expected) {
@@ -133,6 +138,8 @@ fn ends_of_the_ranges_become_the_input_range() {
                 velocity: [raw(5), raw(6)],
                 height: raw(7),
                 contacts: [contact; 3],
+                slips: [0.0, raw(16), raw(17)],
+                gap: [raw(18), raw(19)],
                 distance: raw(10),
                 time: quarter,
             };
@@ -154,7 +161,7 @@ fn ends_of_the_ranges_become_the_input_range() {
 fn the_middle_becomes_zero_and_values_beyond_are_clamped() {
     let senses = senses(&all_sensors(), 3.0);
     let middle = read(&senses, &Body { distance: 2.0, ..Body::default() });
-    for channel in (0..8).chain([10, 12, 14]) {
+    for channel in (0..8).chain([10, 12, 14, 16, 17]) {
         assert_eq!(middle[channel], 0.0, "channel {channel}");
     }
     let beyond = Body { rotation: 99.0, angles: [-99.0, f32::INFINITY], height: -99.0, ..Body::default() };
@@ -181,6 +188,8 @@ fn not_a_number_stays_so() {
         velocity: [nan; 2],
         height: nan,
         contacts: [false; 3],
+        slips: [nan; 3],
+        gap: [nan; 2],
         distance: nan,
         time: nan,
     };

@@ -31,7 +31,9 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             Sensor::NextGap { length } => {
                 check_number(|| format!("{path}.next-gap.length"), *length, GAP_SIGHT, problems);
             }
-            Sensor::FootContacts | Sensor::FootSlip if !has_feet => problems.push(Problem::NoFeet { path }),
+            Sensor::FootContacts | Sensor::FootSlip if !has_feet => {
+                problems.push(Problem::NoFeet { path, sensor: sensor.name() });
+            }
             Sensor::TorsoRotation
             | Sensor::JointAngles
             | Sensor::JointSpeeds

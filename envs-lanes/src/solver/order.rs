@@ -1,8 +1,8 @@
 //! What rapier's solver does only for larger creatures, and what lanes leave to it.
 
 use crate::engine::ENGINE;
-use creatures::Blueprint;
-use envs_core::{EnvironmentError, PhysicsSettings};
+use creatures::{Blueprint, Shape};
+use envs_core::{EnvironmentError, Ground, GroundShape, PhysicsSettings};
 
 fn refuse(what: impl Into<String>) -> EnvironmentError {
     EnvironmentError::Unsupported { engine: ENGINE, what: what.into() }
@@ -11,7 +11,15 @@ fn refuse(what: impl Into<String>) -> EnvironmentError {
 pub(super) fn refuse_what_lanes_cannot_do(
     blueprint: &Blueprint,
     settings: &PhysicsSettings,
+    ground: &Ground,
 ) -> Result<(), EnvironmentError> {
+    // How parry finds where a capsule meets a box depends on how long it has known the two, and rapier has them meet when
+    // its broad phase says so.
+    let has_edges = |shape: &GroundShape| matches!(shape, GroundShape::Box { .. } | GroundShape::Slab { .. });
+    let capsule = blueprint.parts().iter().find(|part| matches!(part.shape, Shape::Capsule { .. }));
+    if let Some(part) = capsule.filter(|_| ground.shapes.iter().any(has_edges)) {
+        return Err(refuse(format!("\"{}\" is a capsule, and the ground is made of boxes", part.name)));
+    }
     if blueprint.self_collision() {
         return Err(refuse("its parts collide with each other (self_collision)"));
     }

@@ -48,7 +48,7 @@ impl<const W: usize> LaneWorld<W> {
         settings: &PhysicsSettings,
         ground: &Ground,
     ) -> Result<Self, EnvironmentError> {
-        refuse_what_lanes_cannot_do(blueprint, settings)?;
+        refuse_what_lanes_cannot_do(blueprint, settings, ground)?;
         Ok(Self::empty(Arc::new(Plan {
             blueprint: blueprint.clone(),
             settings: *settings,
