@@ -48,7 +48,7 @@ fn tiny_run(from: From, creature: &str, movement: &str, engine: EngineChoice) ->
             config.variation = Default::default();
             if name == "nsga2" {
                 // It shows what it can only with something to choose between.
-                let term = |term: &str, weight| TermSpec { term: term.into(), weight };
+                let term = |term: &str, weight| TermSpec::new(term, weight);
                 config.movement.objectives = vec![term(movement, 1.0), term("energy", -1.0)];
             }
             config

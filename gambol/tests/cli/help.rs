@@ -1,6 +1,6 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "train",
     "resume",
     "report",

@@ -61,6 +61,7 @@ pub(super) fn bodies() -> [(&'static str, Body); 3] {
         hinges: hinges.iter().copied().map(hinge).collect(),
         legs: legs.iter().map(|leg| leg.to_vec()).collect(),
         legless: false,
+        uneven_ground: false,
     };
     let crawling = Body { legless: true, ..body(3, &[(0, 1), (1, 2)], &[&[1, 2]]) };
     [
