@@ -3,7 +3,6 @@
 use crate::puppet::Puppet;
 use creatures::{Blueprint, BodySizes, Direction, ObstacleKind, Obstacles, TERRAINS, Terrain};
 use envs_core::{CreatureEnvironment, Ground, GroundShape, Landscape, PhysicsSettings, Variation, next_gap};
-use ne_core::Seed;
 
 fn blueprint(name: &str) -> Blueprint {
     Blueprint::new(creatures::find(name).expect("shipped")).expect("valid")
