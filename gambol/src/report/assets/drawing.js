@@ -167,7 +167,8 @@ function drawShadow(stage, model, pose) {
     lowest = Math.min(lowest, pose[at + 1] + lowestPoint(part.shape, pose[at + 2])[1]);
   }
   const surface = surfaceAt(stage.ground, (left + right) / 2);
-  if (stage.ground && surface <= stage.ground.floor) return;
+  // A shadow is level: where the ground is not, there is none.
+  if ([left, right].some(x => Math.abs(surfaceAt(stage.ground, x) - surface) > 0.01)) return;
   const rise = Math.max(lowest - surface, 0) / model.height;
   const c = stage.context;
   stage.resetTransform();

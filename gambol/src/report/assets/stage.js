@@ -115,14 +115,16 @@ class Stage {
     const groundY = this.ground ? this.height * this.groundShare : this.groundY;
     const shift = (this.centreX - origin) * this.scale * pace;
     const unit = Math.max(this.height, 160);
+    // Behind uneven ground they reach down as far as can be seen.
+    const foot = this.ground ? this.height : groundY;
     c.beginPath();
-    c.moveTo(0, groundY);
+    c.moveTo(0, foot);
     for (let x = 0; x <= this.width + 12; x += 12) {
       const u = (x + shift) / unit;
       const wave = Math.sin(u * 1.7 + seed) + 0.55 * Math.sin(u * 3.1 + seed * 2) + 0.25 * Math.sin(u * 6.7 + seed * 3);
       c.lineTo(x, groundY - this.height * rise * (0.55 + 0.25 * wave));
     }
-    c.lineTo(this.width, groundY);
+    c.lineTo(this.width, foot);
     c.closePath();
     c.fillStyle = colour;
     c.fill();
