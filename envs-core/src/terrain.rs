@@ -203,11 +203,11 @@ impl Relief {
 /// How high stairs or slopes are after each step, in steps against where they begin.
 fn climb(direction: Direction, steps: i32) -> impl Iterator<Item = i32> {
     let (up, down) = match direction {
-        Direction::Up => (1..=steps, 0..0),
-        Direction::Down => (1..=0, -steps..0),
-        Direction::UpAndDown => (1..=steps, 0..steps),
+        Direction::Up => (0..steps, 0..0),
+        Direction::Down => (0..0, -steps..0),
+        Direction::UpAndDown => (0..steps, 0..steps),
     };
-    up.chain(down.rev())
+    up.map(|step| step + 1).chain(down.rev())
 }
 
 /// How far level ground of this height goes on under its neighbour, m.

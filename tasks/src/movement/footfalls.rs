@@ -71,11 +71,9 @@ impl Movement for Footfalls {
             if part.touching && !leg.down {
                 leg.down = true;
                 leg.last_down = now.time;
-            } else if !part.touching && leg.down {
-                if leg.lowest_point(part) > leg.ground + CLEARANCE {
-                    leg.down = false;
-                    leg.last_up = now.time;
-                }
+            } else if !part.touching && leg.down && leg.lowest_point(part) > leg.ground + CLEARANCE {
+                leg.down = false;
+                leg.last_up = now.time;
             }
             if now.time - leg.last_down.min(leg.last_up) > PATIENCE {
                 verdict = Verdict::End;
