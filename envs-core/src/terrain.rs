@@ -5,8 +5,6 @@ use rand::RngExt;
 
 const LAYOUT: Purpose = Purpose::new("terrain layout");
 
-/// Obstacles of one kind that follow each other before another kind has its turn.
-const TURN: usize = 3;
 /// Steps of a flight of stairs.
 const FLIGHT: i32 = 5;
 /// Width of the top of a hill, as a share of the width of its slopes: half a body length.
@@ -75,7 +73,7 @@ impl Landscape {
         let mut stream = Seed::of_run(seed).stream(LAYOUT);
         let first = body.front + terrain.run_up_of(&body);
         let mut relief = Relief::new(body.back.min(0.0) - BEHIND, first);
-        let mut turns = kinds.iter().flat_map(|kind| [kind; TURN]).cycle();
+        let mut turns = kinds.iter().cycle();
         while relief.x <= terrain.length
             && let Some(kind) = turns.next()
         {

@@ -25,7 +25,7 @@ use serde::{Deserialize, Serialize};
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Terrain {
-    /// The kinds of obstacles, at most 16. Several take turns, three obstacles each; none: flat ground without end.
+    /// The kinds of obstacles, at most 16. Several take turns; none: flat ground without end.
     pub obstacles: Vec<Obstacles>,
     /// How hard the sizes are that are not given, from 0 (flat) to 1 (as hard as could be); default 0.5.
     pub difficulty: f32,

@@ -126,8 +126,8 @@ fn slopes_are_as_steep_as_asked_and_meet_the_level_ground() {
 fn a_mixture_takes_turns() {
     let landscape = lay_out(&TERRAINS[TERRAINS.len() - 1].terrain(), "biped-1");
     let kinds: Vec<ObstacleKind> = landscape.obstacles.iter().map(|obstacle| obstacle.kind).collect();
-    use ObstacleKind::{Gaps, Hurdles, Stairs};
-    assert_eq!(kinds[..7], [Gaps, Gaps, Gaps, Hurdles, Hurdles, Hurdles, Stairs]);
+    use ObstacleKind::{Gaps, Hurdles, Rough, Slopes, Stairs};
+    assert_eq!(kinds[..7], [Gaps, Hurdles, Stairs, Slopes, Rough, Gaps, Hurdles]);
 }
 
 #[test]
