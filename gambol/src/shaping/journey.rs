@@ -68,6 +68,25 @@ pub fn train_from(
     config.strategy.visit(Depart { departure, folder, stop: config.stop, promotion: None, options })
 }
 
+/// The configuration with the sensors and the controller of a run or a champion: what a net must hear and drive to go on.
+///
+/// # Errors
+/// If the run or the champion cannot be read.
+pub fn adopt(config: &RunConfig, source: &Path) -> Result<RunConfig, ShapingError> {
+    let mut config = config.clone();
+    if source.is_dir() {
+        let learned = RunFolder::open(source)?.read_config()?;
+        config.sensors = Some(learned.sensors.unwrap_or(learned.creature.sensors));
+        config.controller = learned.controller;
+    } else {
+        let champion = crate::champion::Champion::read(source).map_err(FolderError::from)?;
+        config.sensors = Some(champion.sensors);
+        config.controller.input_range = champion.input_range;
+        config.controller.actuation = champion.actuation;
+    }
+    Ok(config)
+}
+
 /// Trains a configuration with stages in a new folder, one stage after the other.
 ///
 /// # Errors
