@@ -1,0 +1,82 @@
+//! A curriculum of one's own: gaps that grow wider as long as the creature keeps up, and narrower when it does not.
+//!
+//! The stages are not listed anywhere; each is made from how the ones before it went.
+
+use gambol::{
+    config::{RunConfig, preset},
+    shaping::{Curriculum, Journey, Leg, PlannedStage, legs, train_curriculum},
+    training::TrainOptions,
+};
+use ne_core::{Decision, Moment, Promotion};
+use std::sync::Arc;
+use tasks::MovementCatalogue;
+
+/// Gaps of a width that follows from how often stages were passed.
+struct WiderAndWider {
+    base: RunConfig,
+    stages: usize,
+}
+
+/// How much harder, of 1, each stage is than the one before.
+const STEP: f64 = 0.1;
+
+impl Curriculum for WiderAndWider {
+    fn next(&self, legs: &[Leg]) -> Option<PlannedStage> {
+        let passed = |leg: &Leg| if leg.decision == Decision::Promote { 1.0 } else { -1.0 };
+        let level = legs.iter().map(passed).sum::<f64>().max(0.0);
+        let mut config = self.base.clone();
+        config.terrain = "gaps".parse().ok()?;
+        config.terrain.difficulty = (level * STEP).min(1.0) as f32;
+        let stage = level as usize;
+        (legs.len() < self.stages).then(|| PlannedStage {
+            stage,
+            name: format!("gaps-{stage}0"),
+            config,
+            promotion: Some(Arc::new(KeepsUp)),
+            carry: None,
+            forget: false,
+        })
+    }
+}
+
+/// Passed when the average individual lasts most of an episode; too hard when even the best have stopped getting better.
+struct KeepsUp;
+
+impl Promotion for KeepsUp {
+    fn decide(&self, moment: &Moment<'_>) -> Decision {
+        let seconds = moment.evaluations.iter().filter_map(|evaluation| evaluation.measurements.get("duration"));
+        let mean = seconds.sum::<f64>() / moment.evaluations.len() as f64;
+        match moment.progress.generations {
+            _ if mean > 1.0 => Decision::Promote,
+            0..4 => Decision::Stay,
+            _ => Decision::Demote,
+        }
+    }
+}
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let mut base = preset("default").ok_or("no preset")?.config(creatures::find("tetrapod-2")?, "running");
+    base.strategy.set_population(16);
+    base.rehearsal = Some(100);
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let options = TrainOptions {
+        threads: 0,
+        catalogue: MovementCatalogue::default(),
+        signal: Default::default(),
+        on_generation: &mut |_| {},
+    };
+    let curriculum = WiderAndWider { base: base.clone(), stages: 6 };
+    let told = &mut |stage: &PlannedStage, _: Option<&_>| println!("{}", stage.name);
+    let outcome = train_curriculum(&curriculum, &base, &path, Journey { on_leg: told }, options)?;
+    for leg in legs(&outcome.folder)? {
+        println!("{:02}-{}: {:?} after {} generations", leg.number, leg.name, leg.decision, leg.progress.generations);
+    }
+    let champion = outcome.champion.ok_or("nobody ran")?;
+    println!("the champion of the last stage runs {:.1} m", champion.fitness);
+    if champion.verify(&MovementCatalogue::default())?.is_identical() {
+        Ok(())
+    } else {
+        Err("it cannot be repeated".into())
+    }
+}

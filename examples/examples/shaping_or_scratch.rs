@@ -1,0 +1,116 @@
+//! The experiment behind shaping: does it help to run on the flat before leaping gaps, and to run before being thrifty?
+//!
+//! Without arguments it is a matter of seconds and proves nothing; ten paired seeds, as docs/shaping.md has them:
+//!
+//! ```text
+//! cargo run --release -p gambol-examples --example shaping_or_scratch -- 10 3500000 runs/shaping
+//! ```
+//!
+//! Arguments: seeds, physics steps of each run, a folder for the runs.
+
+use gambol::{
+    champion::Champion,
+    config::{Request, RunConfig},
+    obstacles::ObstaclesPassed,
+    setup::EpisodeParts,
+    shaping::{Journey, Stages, train_stages},
+    training::{Outcome, TrainOptions, train},
+    trajectory::Recording,
+};
+use ne_core::{Seed, StopConditions};
+use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
+use std::{error::Error, path::Path};
+use tasks::{MovementCatalogue, MovementSpec};
+
+/// Crossing so many gaps within 40 s is a success.
+const GAPS: usize = 10;
+const SECONDS: f32 = 40.0;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let number = |index: usize, otherwise: u64| arguments.get(index).map_or(Ok(otherwise), |text| text.parse());
+    let (seeds, steps) = (number(0, 1)?, number(1, 60_000)?);
+    let temporary = tempfile::tempdir()?;
+    let folder = arguments.get(2).map_or(temporary.path(), |path| Path::new(path));
+
+    let story = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaping/run-then-gaps-then-thrift.json");
+    let request = Request { config: Some(story.into()), ..Request::default() };
+    let catalogue = MovementCatalogue::default();
+    let mut shaped = request.resolve(&catalogue)?;
+    shaped.stop = StopConditions { steps: Some(steps), ..StopConditions::default() };
+    // Up to the last of the stages with gaps, which then has all that is left.
+    shaped.stages.retain(|stage| stage.name != "thrift");
+    shaped.stages.last_mut().ok_or("no stages")?.promotion = None;
+    let gaps = Stages::new(&shaped, &catalogue)?.configs().last().map(|(_, config)| config.clone());
+    let scratch = gaps.ok_or("no stages")?;
+
+    println!("| seed | gaps in 40 s, shaped | from scratch | m in 40 s, shaped | from scratch |");
+    println!("|---|---|---|---|---|");
+    let mut distances = [Vec::new(), Vec::new()];
+    let mut successes = [0, 0];
+    for seed in 1..=seeds {
+        let mut crossed = [0, 0];
+        for (arm, config) in [&shaped, &scratch].into_iter().enumerate() {
+            let path = folder.join(format!("{}-{seed}", ["shaped", "scratch"][arm]));
+            run(&RunConfig { seed, ..config.clone() }, &path)?;
+            let (gaps, distance) = cross(&path, &scratch, &catalogue)?;
+            crossed[arm] = gaps;
+            successes[arm] += usize::from(gaps >= GAPS);
+            distances[arm].push(distance);
+        }
+        let of = |arm: usize| distances[arm].last().copied().unwrap_or(0.0);
+        println!("| {seed} | {} | {} | {:.1} | {:.1} |", crossed[0], crossed[1], of(0), of(1));
+    }
+    let [with, without] = distances;
+    let comparison = Comparison::paired(Scores::new(&[with])?, Scores::new(&[without])?)?;
+    let difference = |both: &Comparison| mean(both.x()) - mean(both.y());
+    let interval = Bootstrap::default().comparison(&comparison, difference, Seed::of_run(1));
+    println!("\nat least {GAPS} gaps: {} of {seeds} shaped, {} of {seeds} from scratch", successes[0], successes[1]);
+    println!(
+        "shaping is worth {:.1} m in 40 s, 95 % interval {:.1} to {:.1}; medians {:.1} and {:.1} m",
+        interval.estimate,
+        interval.low,
+        interval.high,
+        median(comparison.x()),
+        median(comparison.y())
+    );
+    Ok(())
+}
+
+fn median(scores: &Scores) -> f64 {
+    scores.rows().next().and_then(|row| quantile(row, 0.5)).unwrap_or(f64::NAN)
+}
+
+/// One run, unless it is there already.
+fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
+    if folder.join("champion.json").is_file() {
+        return Ok(());
+    }
+    let options = TrainOptions {
+        threads: 0,
+        catalogue: MovementCatalogue::default(),
+        signal: Default::default(),
+        on_generation: &mut |_| {},
+    };
+    let _: Outcome = match config.stages.is_empty() {
+        true => train(config, folder, options)?,
+        false => train_stages(config, folder, Journey { on_leg: &mut |_, _| {} }, options)?,
+    };
+    Ok(())
+}
+
+/// How many gaps the champion crosses in 40 s without variation, in rapier, and how far it gets. One of a stage before the
+/// last is put on the ground of the last.
+fn cross(folder: &Path, last: &RunConfig, catalogue: &MovementCatalogue) -> Result<(usize, f64), Box<dyn Error>> {
+    let Ok(champion) = Champion::read(&folder.join("champion.json")) else { return Ok((0, 0.0)) };
+    let steps = (SECONDS / last.physics.time_step).round() as u32;
+    let movement = MovementSpec { steps: Some(steps), ..MovementSpec::new("running") };
+    let parts = EpisodeParts { movement: &movement, terrain: &last.terrain, ..champion.episode_parts() };
+    let episode = parts.nominal().build(catalogue)?;
+    let mut recording = Recording::default();
+    episode.play(&mut champion.network.clone(), Seed::of_run(1), &mut recording);
+    let passed = ObstaclesPassed::count(episode.environment().landscape(), &recording.snapshots);
+    let ends = recording.snapshots.first().zip(recording.snapshots.last());
+    let distance = ends.map_or(0.0, |(first, last)| f64::from(last.torso().x - first.torso().x));
+    Ok((passed.iter().map(|passed| passed.passed).sum(), distance))
+}
