@@ -167,7 +167,7 @@ fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
     channels.iter().map(|channel| channel.name.clone()).collect()
 }
 
-/// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
+/// Reads the champion out of a checkpoint, or the best that waits for the first hearing: its topology and weights, and the generation it was found in.
 struct ReadChampion<'a> {
     folder: &'a RunFolder,
     expressed: bool,
@@ -178,9 +178,14 @@ impl SearchVisitor for ReadChampion<'_> {
 
     fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
         let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
-        Ok(checkpoint.champion.map(|champion| {
-            let (topology, weights) = S::net(&champion.genome, self.expressed);
-            (topology, weights, champion.generation)
+        let Checkpoint { champion, finalists, .. } = checkpoint;
+        let heard = champion.map(|champion| (champion.genome, champion.generation));
+        // Before the first hearing the best of those who wait for it stands in; of equals the first.
+        let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
+        let best = heard.or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
+        Ok(best.map(|(genome, generation)| {
+            let (topology, weights) = S::net(&genome, self.expressed);
+            (topology, weights, generation)
         }))
     }
 
