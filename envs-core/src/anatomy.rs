@@ -22,18 +22,27 @@ pub fn body_of(blueprint: &Blueprint) -> Body {
 
 fn part(part: &BodyPart) -> tasks::BodyPart {
     let mass = part.mass();
-    let (corners, radius, per_mass) = match part.shape {
+    let (corners, radius) = match part.shape {
         Shape::Box { width, height } => {
             let (x, y) = (0.5 * width, 0.5 * height);
-            (vec![[-x, -y], [x, -y], [x, y], [-x, y]], 0.0, (width * width + height * height) / 12.0)
+            (vec![[-x, -y], [x, -y], [x, y], [-x, y]], 0.0)
         }
-        Shape::Circle { radius } => (vec![[0.0, 0.0]], radius, 0.5 * radius * radius),
+        Shape::Circle { radius } => (vec![[0.0, 0.0]], radius),
         Shape::Capsule { length, radius } => {
             let y = 0.5 * length;
-            (vec![[0.0, -y], [0.0, y]], radius, capsule_inertia(length, radius) / part.shape.area())
+            (vec![[0.0, -y], [0.0, y]], radius)
         }
     };
-    tasks::BodyPart { name: part.name.clone(), mass, inertia: mass * per_mass, corners, radius }
+    tasks::BodyPart { name: part.name.clone(), mass, inertia: mass * inertia_per_mass(&part.shape), corners, radius }
+}
+
+/// Moment of inertia about the centre over mass, m².
+pub(crate) fn inertia_per_mass(shape: &Shape) -> f32 {
+    match *shape {
+        Shape::Box { width, height } => (width * width + height * height) / 12.0,
+        Shape::Circle { radius } => 0.5 * radius * radius,
+        Shape::Capsule { length, radius } => capsule_inertia(length, radius) / shape.area(),
+    }
 }
 
 /// The second moment of area about the centre, m⁴: a rectangle and two half discs, each moved out from its own centroid.

@@ -79,13 +79,14 @@ impl<E: Engine> CreatureEnvironment<E> {
     }
 
     /// Builds the creature, and lets it settle for at most [`PhysicsSettings::settle_time`] with its motors holding
-    /// still. `input_range`: sensors are scaled to ± this.
+    /// still. `input_range`: sensors are scaled to ± this. In [water](PhysicsSettings::water) there is no ground, and it does
+    /// not settle.
     ///
     /// The creature starts where its file says: its lowest point must be near y = 0 or above, and clear of the shapes
     /// of the ground. Only the former is checked.
     ///
     /// # Errors
-    /// As [`new`](Self::new), and if the ground is not valid.
+    /// As [`new`](Self::new), and if the ground is not valid, or not flat though there is water.
     pub fn on_ground(
         blueprint: Blueprint,
         sensors: &[Sensor],
@@ -102,7 +103,8 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// [`Variation::terrain`] each trial has one of its own seed.
     ///
     /// # Errors
-    /// As [`new`](Self::new), if the terrain is not valid, and if bumps are to vary on a terrain that is not flat.
+    /// As [`new`](Self::new), if the terrain is not valid, if it is not flat though there is water, and if bumps are to vary on
+    /// a terrain that is not flat.
     pub fn on_terrain(
         blueprint: Blueprint,
         sensors: &[Sensor],
@@ -134,6 +136,7 @@ impl<E: Engine> CreatureEnvironment<E> {
     ) -> Result<Self, EnvironmentError> {
         settings.validate().map_err(|error| error.within("physics"))?;
         variation.validate().map_err(|error| error.within("variation"))?;
+        let landscape = around(&settings, landscape)?;
         let senses = Senses::new(&blueprint, sensors, input_range)?;
         let motors = Motors::new(&blueprint);
         let hinges = blueprint.hinges();
@@ -151,7 +154,7 @@ impl<E: Engine> CreatureEnvironment<E> {
         let state = State::new(settled.clone(), motors.len());
         let uneven_ground = landscape.ground != Ground::flat();
         let plan = Plan {
-            body: tasks::Body { gravity: settings.gravity, uneven_ground, ..body_of(&blueprint) },
+            body: tasks::Body { gravity: pull(&settings, &blueprint, 1.0), uneven_ground, ..body_of(&blueprint) },
             blueprint,
             senses,
             motors,
@@ -193,6 +196,7 @@ impl<E: Engine> CreatureEnvironment<E> {
         landscape.ground.validate().map_err(|error| error.within("ground"))?;
         let settings = conditions.settings(&self.plan.settings);
         settings.validate().map_err(|error| error.within("physics"))?;
+        let landscape = around(&settings, landscape)?;
         let blueprint = &self.plan.blueprint;
         let engine = E::new(blueprint, &settings, &landscape.ground, conditions)?;
         let settled = Settled::new(engine, blueprint, &settings, conditions, &landscape)
@@ -203,6 +207,7 @@ impl<E: Engine> CreatureEnvironment<E> {
         let uneven_ground = landscape.ground != Ground::flat();
         let mut plan = Plan { settings, variation, landscape, terrain, settled, ..(*self.plan).clone() };
         plan.body.uneven_ground = uneven_ground;
+        plan.body.gravity = pull(&settings, &plan.blueprint, conditions.mass);
         for part in &mut plan.body.parts {
             part.mass *= conditions.mass;
             part.inertia *= conditions.mass;
@@ -262,7 +267,10 @@ impl<E: Engine> CreatureEnvironment<E> {
 
     /// What the creature moves on in the trial with this seed.
     pub fn landscape_of(&self, seed: Seed) -> Cow<'_, Landscape> {
-        let Plan { blueprint, variation, landscape, terrain, .. } = &*self.plan;
+        let Plan { blueprint, settings, variation, landscape, terrain, .. } = &*self.plan;
+        if settings.water.is_some() {
+            return Cow::Borrowed(landscape);
+        }
         let [left, _, right, _] = blueprint.bounding_box();
         let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
         if !bumps.is_empty() {
@@ -342,6 +350,27 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
 
     fn snapshot(&self) -> &Snapshot {
         &self.state.snapshot
+    }
+}
+
+/// What is around a creature: the landscape, or in water nothing.
+fn around(settings: &PhysicsSettings, landscape: Landscape) -> Result<Landscape, SettingError> {
+    match settings.water {
+        None => Ok(landscape),
+        Some(_) if landscape.ground == Ground::flat() || landscape.ground == Ground::none() => {
+            Ok(Ground::none().into())
+        }
+        Some(_) => {
+            Err(SettingError::new("physics.water", "water", "null on ground that is not flat: water has no ground"))
+        }
+    }
+}
+
+/// What pulls a creature down, m/s²: gravity less buoyancy.
+fn pull(settings: &PhysicsSettings, blueprint: &Blueprint, mass_factor: f32) -> f32 {
+    match settings.water {
+        None => settings.gravity,
+        Some(water) => settings.gravity * water.weight_left(blueprint, mass_factor),
     }
 }
 

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ground {
-    /// At least one.
+    /// At least one, except in water, where there is no ground.
     pub shapes: Vec<GroundShape>,
 }
 
@@ -66,6 +66,11 @@ impl Ground {
     /// Flat ground at y = 0, without end.
     pub fn flat() -> Self {
         Self { shapes: vec![GroundShape::HalfSpace] }
+    }
+
+    /// None at all: water is deep.
+    pub fn none() -> Self {
+        Self { shapes: Vec::new() }
     }
 
     /// Checks that there is ground, and that every number of it is finite and every size positive.

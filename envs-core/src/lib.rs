@@ -10,7 +10,7 @@
 //!  Variation ── seed ── Conditions ─────┴── Engine ── Settled ── CreatureEnvironment: tasks::Environment
 //! ```
 //!
-//! Four decisions:
+//! Five decisions:
 //!
 //! - **One creature, one world.** Creatures never meet, so a shared world could only couple them by accident. Threads
 //!   get different creatures, never parts of one.
@@ -18,6 +18,8 @@
 //!   never pays for settling, and nothing of an earlier one can be left. Only varied worlds settle for each trial.
 //! - **The ground is data.** A [`Ground`] is a list of shapes that any engine can build. A [`Landscape`] is the ground that a
 //!   [`Terrain`](creatures::Terrain) becomes for a body, with a list of its obstacles.
+//! - **Water is a setting.** With a [`Water`] in the settings there is no ground, and a [`Hull`] tells what drag leaves of a
+//!   part's velocity: plain arithmetic that any engine can call before its step.
 //! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
 //!   can be shown and compared; engines draw nothing. [`CreatureEnvironment::under`] builds a world of given conditions.
 //!
@@ -51,6 +53,7 @@ mod settings;
 mod settled;
 mod terrain;
 mod variation;
+mod water;
 
 pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose, next_gap};
@@ -63,3 +66,4 @@ pub use settings::PhysicsSettings;
 pub use settled::Settled;
 pub use terrain::{Landscape, Obstacle};
 pub use variation::{Conditions, Variation};
+pub use water::{Hull, PartVelocity, Water};

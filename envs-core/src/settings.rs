@@ -1,3 +1,4 @@
+use crate::Water;
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -40,6 +41,9 @@ pub struct PhysicsSettings {
     /// The speed of any part above which the simulation counts as exploded, m/s, from 1 to 400 (where rapier caps
     /// speeds); default 100.
     pub unstable_speed: f32,
+    /// Water all around in place of the ground; `null`, the default: none. A creature in water does not settle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub water: Option<Water>,
 }
 
 impl Default for PhysicsSettings {
@@ -58,6 +62,7 @@ impl Default for PhysicsSettings {
             motor_gain: 20.0,
             settle_time: 1.0,
             unstable_speed: 100.0,
+            water: None,
         }
     }
 }
@@ -89,6 +94,6 @@ impl PhysicsSettings {
                 return Err(SettingError::new(field, value, format!("from {low} to {high}")));
             }
         }
-        Ok(())
+        self.water.map_or(Ok(()), |water| water.validate().map_err(|error| error.within("water")))
     }
 }

@@ -40,15 +40,17 @@ impl<E: Engine> Settled<E> {
         engine.look(&mut parts);
         turn(&mut engine, &mut parts, blueprint, settings, &conditions.turns)?;
         let (mut steps, mut still) = (0.0, 0);
-        while steps * settings.time_step < settings.settle_time && still < REST_STEPS {
+        // In water there is nothing to come to rest on.
+        let settle_time = if settings.water.is_some() { 0.0 } else { settings.settle_time };
+        while steps * settings.time_step < settle_time && still < REST_STEPS {
             advance(&mut engine, &mut parts, settings.unstable_speed, 0.0)?;
             let rests = |part: &PartState| part.vx.abs().max(part.vy.abs()).max(part.spin.abs()) < REST_SPEED;
             still = if parts.iter().all(rests) { still + 1 } else { 0 };
             steps += 1.0;
         }
         let snapshot = Snapshot { parts, ..Snapshot::default() };
-        if settings.settle_time > 0.0 && snapshot.aloft() {
-            let what = format!("it is still in the air after settling for {} s", settings.settle_time);
+        if settle_time > 0.0 && snapshot.aloft() {
+            let what = format!("it is still in the air after settling for {settle_time} s");
             return Err(Failure::Unstable { what });
         }
         let rest = Arc::new(RestPose::new(blueprint, &snapshot));

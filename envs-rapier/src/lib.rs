@@ -26,7 +26,7 @@
 
 mod world;
 
-pub use envs_core::{EnvironmentError, PhysicsSettings, Variation};
+pub use envs_core::{EnvironmentError, PhysicsSettings, Variation, Water};
 pub use world::RapierWorld;
 
 /// A creature in rapier2d.

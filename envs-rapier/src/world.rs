@@ -1,5 +1,5 @@
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
-use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, PhysicsSettings};
+use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings};
 use rapier2d::prelude::*;
 use tasks::PartState;
 
@@ -20,6 +20,8 @@ pub struct RapierWorld {
     part_of: Vec<Option<usize>>,
     /// Of the motors, N·m per rad/s.
     motor_gain: f32,
+    /// How water feels each part; none out of the water.
+    hulls: Vec<Hull>,
 }
 
 impl Clone for RapierWorld {
@@ -44,6 +46,7 @@ impl Clone for RapierWorld {
             ground: self.ground.clone(),
             part_of: self.part_of.clone(),
             motor_gain: self.motor_gain,
+            hulls: self.hulls.clone(),
         }
     }
 }
@@ -79,10 +82,11 @@ impl RapierWorld {
         self.ground.push(collider);
     }
 
-    fn add_part(&mut self, part: &BodyPart, self_collision: bool, mass_factor: f32) {
+    fn add_part(&mut self, part: &BodyPart, self_collision: bool, mass_factor: f32, hull: Option<Hull>) {
         let body = RigidBodyBuilder::dynamic()
             .translation(Vector::new(part.x, part.y))
             .rotation(part.angle)
+            .gravity_scale(hull.map_or(1.0, |hull| hull.weight_left()))
             // A sleeping body ignores its motors.
             .can_sleep(false);
         let meets = if self_collision { GROUND | CREATURE } else { GROUND };
@@ -94,6 +98,7 @@ impl RapierWorld {
         let part_index = self.bodies.len();
         let (body, collider) = self.physics.insert(body, collider);
         self.bodies.push(body);
+        self.hulls.extend(hull);
         self.part_of.resize(index_of(collider) + 1, None);
         self.part_of[index_of(collider)] = Some(part_index);
     }
@@ -119,6 +124,19 @@ impl RapierWorld {
         }
         let (parent, child) = (self.bodies[hinge.parent], self.bodies[hinge.child]);
         self.joints.push(self.physics.insert_impulse_joint(parent, child, joint));
+    }
+
+    /// What water takes of the parts' velocities in a step. Before the step, so that the joints have the last word.
+    fn drag(&mut self) {
+        let seconds = self.physics.integration_parameters.dt;
+        for (hull, &body) in self.hulls.iter().zip(&self.bodies) {
+            let body = &mut self.physics.bodies[body];
+            let (velocity, rotation) = (body.linvel(), body.rotation());
+            let now = ([velocity.x, velocity.y], body.angvel());
+            let ([x, y], spin) = hull.slowed(now, [rotation.re, rotation.im], seconds);
+            body.set_linvel(Vector::new(x, y), false);
+            body.set_angvel(spin, false);
+        }
     }
 
     /// The parts that press on a shape of the ground.
@@ -149,12 +167,15 @@ impl Engine for RapierWorld {
             ground: Vec::new(),
             part_of: Vec::new(),
             motor_gain: settings.motor_gain,
+            hulls: Vec::new(),
         };
         for shape in &ground.shapes {
             world.add_ground(shape, settings.ground_friction * conditions.friction);
         }
+        let water = settings.water.map(|water| (water, water.density_around(blueprint, conditions.mass)));
         for part in blueprint.parts() {
-            world.add_part(part, blueprint.self_collision(), conditions.mass);
+            let hull = water.map(|(water, density)| Hull::new(part, &water, density, conditions.mass));
+            world.add_part(part, blueprint.self_collision(), conditions.mass, hull);
         }
         for hinge in blueprint.hinges() {
             world.add_hinge(blueprint, hinge, settings, conditions.torque);
@@ -171,6 +192,7 @@ impl Engine for RapierWorld {
 
     /// `false` if rapier met a body that is not finite and disabled it.
     fn step(&mut self) -> bool {
+        self.drag();
         self.physics.step();
         self.physics.quarantine().is_empty()
     }

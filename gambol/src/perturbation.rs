@@ -33,7 +33,8 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// The world of a seed. Bumps reach `reach` m from the start, at most 500. A terrain has none, but is laid out anew.
+    /// The world of a seed. Bumps reach `reach` m from the start, at most 500. A terrain has none, but is laid out anew; in
+    /// water there are none either.
     pub(crate) fn draw(seed: Seed, stage: &Stage, reach: f32) -> Self {
         let environment = stage.environment();
         let mut stream = seed.stream(PERTURBATION);
@@ -52,6 +53,9 @@ impl World {
         if !terrain.is_flat() {
             let landscape = Landscape::new(terrain, stream.random(), blueprint);
             return Self { conditions, landscape, bumps: 0, time_step };
+        }
+        if environment.settings().water.is_some() {
+            return Self { conditions, landscape: Landscape::default(), bumps: 0, time_step };
         }
         let [left, _, right, _] = blueprint.bounding_box();
         let bumps = bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST));

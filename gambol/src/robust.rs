@@ -129,7 +129,7 @@ pub fn robustness(
     let share = |count: usize| count as f64 / f64::from(perturbations);
     Ok(Robustness {
         kind,
-        bumpy: champion.terrain.is_flat(),
+        bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
         usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
         progress_unperturbed,
         usable_share: share(trials.iter().filter(|trial| trial.usable).count()),
@@ -150,7 +150,7 @@ fn is_usable(report: &GaitReport) -> bool {
 /// What the movement is about, m.
 fn progress(kind: Kind, report: &GaitReport) -> f64 {
     match kind {
-        Kind::Running | Kind::Backwards => report.travel.distance,
+        Kind::Running | Kind::Backwards | Kind::Swimming => report.travel.distance,
         Kind::Jumping => report.aloft.highest.unwrap_or(0.0),
     }
 }

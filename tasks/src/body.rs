@@ -9,7 +9,7 @@ pub struct Body {
     pub body_length: f32,
     /// Height of the torso's centre above the lowest point in the start pose, m.
     pub start_height: f32,
-    /// What pulls it down, m/s².
+    /// What pulls it down, m/s²: in water gravity less buoyancy, which may be below 0.
     pub gravity: f32,
     /// What each part is like.
     pub parts: Vec<BodyPart>,

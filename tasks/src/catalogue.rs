@@ -1,6 +1,7 @@
 use crate::{
     Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping, Idleness, Jumping,
-    Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, TimeAloft, Upright, Vibration, Walking,
+    Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, Swimming, TimeAloft, Upright, Vibration,
+    Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -167,6 +168,7 @@ impl Default for MovementCatalogue {
         );
         catalogue.add::<Carrying>(Some(2000), "distance covered with a torso that neither tilts nor shakes");
         catalogue.add::<Backwards>(Some(2000), "distance the torso covers, backwards");
+        catalogue.add::<Swimming>(Some(1000), "distance the centre of mass covers in water, forwards");
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");
         catalogue.add::<Rollovers>(None, "how often the torso turned over; weigh it negatively");
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");

@@ -3,7 +3,7 @@
 
 use tasks::{
     Backwards, Body, BodyPart, Carrying, Climbing, GettingUp, GettingUpSettings, Headway, HeadwaySettings, Hopping,
-    LongJump, Movement, PartState, Snapshot, Standing, StandingSettings, Verdict, Walking, WalkingSettings,
+    LongJump, Movement, PartState, Snapshot, Standing, StandingSettings, Swimming, Verdict, Walking, WalkingSettings,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -295,4 +295,23 @@ fn backwards_is_the_way_back_and_so_is_its_headway() {
     movement.begin(&Pose::default().snapshot(0.0));
     let ahead = |time: f32| Pose { x: time, ..Pose::default() }.snapshot(time);
     assert_eq!([0.5, 1.0].map(|time| movement.observe(&ahead(time))), [Verdict::GoOn, Verdict::End]);
+}
+
+#[test]
+fn swimming_is_the_way_of_all_mass_and_not_of_a_part() {
+    let ahead = |time: f32| Pose { x: 0.5 * time, rise: time, ..Pose::default() };
+    assert_near(value(Swimming::default(), 10.0, ahead), 5.0);
+    let rising = |time: f32| Pose { rise: time, ..Pose::default() };
+    assert_near(value(Swimming::default(), 10.0, rising), 0.0);
+    // The torso reaches out by 0.6 m, and is a quarter of the mass.
+    let mut heavy = puppet();
+    heavy.parts[1].mass = 2.0;
+    let mut movement = Swimming::default();
+    movement.meet(&heavy);
+    let start = Pose::default().snapshot(0.0);
+    movement.begin(&start);
+    let mut reaching = start.clone();
+    reaching.parts[0].x += 0.6;
+    movement.observe(&reaching);
+    assert_near(movement.value(), 0.15);
 }

@@ -5,3 +5,4 @@ mod ground;
 mod puppet;
 mod terrain;
 mod variation;
+mod water;

@@ -23,6 +23,9 @@ pub(super) fn refuse_what_lanes_cannot_do(
     if blueprint.self_collision() {
         return Err(refuse("its parts collide with each other (self_collision)"));
     }
+    if settings.water.is_some() {
+        return Err(refuse("it is in water (physics.water)"));
+    }
     if settings.continuous_collision_substeps > 0 {
         return Err(refuse("it is to have continuous collision detection (physics.continuous_collision_substeps)"));
     }

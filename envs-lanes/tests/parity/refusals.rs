@@ -2,7 +2,7 @@
 
 use crate::stage::{shipped, try_both};
 use creatures::{Blueprint, Creature, Joint, Motor, Part, Shape};
-use envs_core::{PhysicsSettings, Variation};
+use envs_core::{PhysicsSettings, Variation, Water};
 
 /// What lanes say to a creature that rapier takes.
 fn refusal(creature: Creature, settings: PhysicsSettings) -> String {
@@ -27,6 +27,14 @@ fn continuous_collision_detection_is_refused() {
     let said = refusal(shipped("biped-1").creature().clone(), settings);
     let wanted = "lanes cannot simulate this creature: it is to have continuous collision detection \
                   (physics.continuous_collision_substeps)";
+    assert!(said.starts_with(wanted), "{said}");
+}
+
+#[test]
+fn water_is_refused() {
+    let settings = PhysicsSettings { water: Some(Water::default()), ..PhysicsSettings::default() };
+    let said = refusal(shipped("apod").creature().clone(), settings);
+    let wanted = "lanes cannot simulate this creature: it is in water (physics.water)";
     assert!(said.starts_with(wanted), "{said}");
 }
 

@@ -4,4 +4,5 @@
 mod gauge;
 mod promises;
 mod traps;
+mod water;
 mod worlds;

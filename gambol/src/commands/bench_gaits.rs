@@ -235,7 +235,7 @@ impl Gaits {
         }
         let start_height = f64::from(Blueprint::new(champion.creature.clone())?.start_height());
         run.quality = match report.kind {
-            Some(Kind::Running | Kind::Backwards) => Some(report.travel.second_half_relative_speed),
+            Some(Kind::Running | Kind::Backwards | Kind::Swimming) => Some(report.travel.second_half_relative_speed),
             Some(Kind::Jumping) => Some(report.best_flight().map_or(0.0, |flight| flight.rise / start_height)),
             None => None,
         };

@@ -62,7 +62,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     let worlds = robustness.trials.len();
     say!("{name}: usable in {} of {worlds} perturbed worlds", percent(robustness.usable_share))?;
     let what = match robustness.kind {
-        Kind::Running | Kind::Backwards => "distance",
+        Kind::Running | Kind::Backwards | Kind::Swimming => "distance",
         Kind::Jumping => "rise of the torso",
     };
     let progress = robustness.progress_unperturbed;

@@ -15,7 +15,8 @@ pub(super) fn equip(config: &mut RunConfig) {
     // Who lies on its back has legs all the same.
     let on_legs = |blueprint: &Blueprint| movement == Movement::GettingUp || !blueprint.is_legless();
     let legs = blueprint.filter(on_legs).map_or(0, |blueprint| blueprint.legs().len());
-    let legless = legs == 0;
+    // In water legs are limbs like others: there is nothing to stand on.
+    let legless = legs == 0 || movement == Movement::Swimming;
     let controller = &mut config.controller;
     controller.hidden = vec![4];
     controller.hidden_activation = Activation::Tanh;
@@ -45,6 +46,7 @@ enum Movement {
     Hopping,
     Standing,
     GettingUp,
+    Swimming,
     /// Somebody else's.
     Other,
 }
@@ -60,6 +62,7 @@ impl Movement {
             "hopping" => Self::Hopping,
             "standing" => Self::Standing,
             "getting-up" => Self::GettingUp,
+            "swimming" => Self::Swimming,
             _ => Self::Other,
         }
     }
@@ -85,9 +88,13 @@ impl Movement {
         if self.leaps() && legs > 2 { LimbPhases::Together } else { LimbPhases::Alternating }
     }
 
-    /// A stride or a hop, and a leap with its run-up, s.
+    /// A stride or a hop, a leap with its run-up, and a stroke, s.
     fn period(self) -> f32 {
-        if matches!(self, Self::Jumping | Self::LongJump) { 1.0 } else { 0.5 }
+        match self {
+            Self::Jumping | Self::LongJump => 1.0,
+            Self::Swimming => 0.35,
+            _ => 0.5,
+        }
     }
 
     /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s and 2 s for a jump,
@@ -95,6 +102,7 @@ impl Movement {
     fn steps(self) -> Option<(u32, u32)> {
         match self {
             Self::Running | Self::Backwards | Self::Walking => Some((1000, 500)),
+            Self::Swimming => Some((1000, 250)),
             Self::Jumping | Self::LongJump => Some((250, 100)),
             Self::Hopping => Some((500, 200)),
             Self::Standing | Self::GettingUp => Some((500, 300)),
@@ -119,6 +127,7 @@ impl Movement {
             Self::LongJump => &[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)],
             Self::Hopping => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)],
             Self::Standing => &[("honest", 0.0), ("vibration", -0.1)],
+            Self::Swimming => &[("honest", 0.0), ("vibration", -0.2)],
             Self::GettingUp => &[("honest", 0.0), ("vibration", -0.01)],
             Self::Other => &[],
         };

@@ -2,7 +2,7 @@
 
 use super::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, coaching};
 use creatures::{Actuation, Creature, Terrain};
-use envs_rapier::{PhysicsSettings, Variation};
+use envs_rapier::{PhysicsSettings, Variation, Water};
 use ne_core::StopConditions;
 use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
 use ne_neat::NeatSettings;
@@ -73,7 +73,8 @@ pub fn preset(name: &str) -> Option<&'static Preset> {
 }
 
 impl Preset {
-    /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations.
+    /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations. Who is to swim is
+    /// put into water.
     pub fn config(&self, creature: Creature, movement: &str) -> RunConfig {
         let mut config = RunConfig {
             preset: self.name.into(),
@@ -108,6 +109,11 @@ impl Preset {
             sensors: None,
             creature,
         };
+        if movement == "swimming" {
+            // Only rapier has water.
+            config.physics.water = Some(Water::default());
+            config.engine = EngineChoice::Rapier;
+        }
         (self.equip)(&mut config);
         config
     }

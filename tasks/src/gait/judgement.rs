@@ -10,6 +10,7 @@ const CLOCK_ERROR: f64 = 1e-5;
 /// |---|---|---|
 /// | `running`, `climbing`, `carrying` | running | they get ahead, upright and step by step |
 /// | `backwards` | backwards | the same, the other way |
+/// | `swimming` | swimming | it gets ahead, and there is neither ground nor up |
 /// | `jumping`, `long-jump` | jumping | what gets far without getting high off all legs is a stride |
 ///
 /// Others are measured and audited, and not judged: how fast a walk has to be is a setting, and hopping, standing and
@@ -23,11 +24,13 @@ pub enum Kind {
     Backwards,
     /// Getting off the ground.
     Jumping,
+    /// Getting ahead in water.
+    Swimming,
 }
 
 impl Kind {
     /// The movements whose gaits are judged.
-    pub const JUDGED: [&str; 6] = ["running", "jumping", "long-jump", "climbing", "carrying", "backwards"];
+    pub const JUDGED: [&str; 7] = ["running", "jumping", "long-jump", "climbing", "carrying", "backwards", "swimming"];
 
     /// How a movement of this name is judged, if it is.
     pub fn of(movement: &str) -> Option<Self> {
@@ -35,6 +38,7 @@ impl Kind {
             "running" | "climbing" | "carrying" => Some(Self::Running),
             "backwards" => Some(Self::Backwards),
             "jumping" | "long-jump" => Some(Self::Jumping),
+            "swimming" => Some(Self::Swimming),
             _ => None,
         }
     }
@@ -42,7 +46,7 @@ impl Kind {
     /// How long the episode to judge must last, s. All of a longer one is judged.
     pub fn judged_seconds(self) -> f64 {
         match self {
-            Self::Running | Self::Backwards => RUNNING_SECONDS,
+            Self::Running | Self::Backwards | Self::Swimming => RUNNING_SECONDS,
             Self::Jumping => JUMPING_SECONDS,
         }
     }
@@ -55,6 +59,10 @@ impl Kind {
 /// start; every leg touches down and lifts off at least once every 3 s, from the start to the end (legless, or without
 /// an actuated leg: every actuated joint moves by at least 20° in the second half); no actuated joint's dominant frequency
 /// is above 5 Hz; and no cheat is flagged. **Backwards** is the same, where ahead is backwards.
+///
+/// **Swimming** is, if over the second half the mean forward speed of the centre of mass is at least 0.5 body lengths/s; it
+/// gets ahead in each quarter of the episode and of its second half; no actuated joint's dominant frequency is above 5 Hz;
+/// and no cheat is flagged. How it is turned does not matter, nor which of its joints it uses.
 ///
 /// **Jumping** is, if in one and the same flight every part is off the ground for at least 0.15 s; the torso rises at
 /// least 0.3 × its start height above its start; and all legs lose contact within 0.3 s before it (not asked of a legless
@@ -80,6 +88,7 @@ impl Judgement {
         let mut best_flight = None;
         match kind {
             Kind::Running | Kind::Backwards => running(report, trajectory, &mut reasons),
+            Kind::Swimming => swimming(report, &mut reasons),
             Kind::Jumping => match judge_flights(report, trajectory) {
                 Ok(best) => best_flight = Some(best),
                 Err(against) => reasons.extend(against),
@@ -91,9 +100,27 @@ impl Judgement {
 }
 
 fn running(report: &GaitReport, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
-    const SLOWEST: f64 = 0.5;
     const LARGEST_TILT: f64 = 90.0;
-    const HIGHEST_FREQUENCY: f64 = 5.0;
+    gets_ahead(report, reasons);
+    let tilt = report.torso.largest_tilt;
+    if tilt > LARGEST_TILT {
+        reasons.push(Reason::Tilted { tilt, allowed: LARGEST_TILT, time: report.torso.largest_tilt_at });
+    }
+    if trajectory.body().legless || report.legs.is_empty() {
+        joints_used(report, reasons);
+    } else {
+        legs_used(report, reasons);
+    }
+    smooth(report, reasons);
+}
+
+fn swimming(report: &GaitReport, reasons: &mut Vec<Reason>) {
+    gets_ahead(report, reasons);
+    smooth(report, reasons);
+}
+
+fn gets_ahead(report: &GaitReport, reasons: &mut Vec<Reason>) {
+    const SLOWEST: f64 = 0.5;
     let speed = report.travel.second_half_relative_speed;
     if speed < SLOWEST {
         reasons.push(Reason::Slow { speed, required: SLOWEST });
@@ -104,15 +131,10 @@ fn running(report: &GaitReport, trajectory: &Trajectory<'_>, reasons: &mut Vec<R
             reasons.push(Reason::NoProgress { quarter: index + 1, second_half, progress });
         }
     }
-    let tilt = report.torso.largest_tilt;
-    if tilt > LARGEST_TILT {
-        reasons.push(Reason::Tilted { tilt, allowed: LARGEST_TILT, time: report.torso.largest_tilt_at });
-    }
-    if trajectory.body().legless || report.legs.is_empty() {
-        joints_used(report, reasons);
-    } else {
-        legs_used(report, reasons);
-    }
+}
+
+fn smooth(report: &GaitReport, reasons: &mut Vec<Reason>) {
+    const HIGHEST_FREQUENCY: f64 = 5.0;
     for joint in report.joints.iter().filter(|joint| joint.actuated && joint.dominant_frequency > HIGHEST_FREQUENCY) {
         let (joint, frequency) = (joint.name.clone(), joint.dominant_frequency);
         reasons.push(Reason::TooFast { joint, frequency, allowed: HIGHEST_FREQUENCY });

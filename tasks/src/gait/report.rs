@@ -14,7 +14,8 @@ pub struct GaitReport {
     /// How long a step lasted, s.
     #[serde(rename = "time_step_s")]
     pub time_step: f64,
-    /// Distance, speed and cost; backwards, if it was judged as [`Kind::Backwards`].
+    /// Distance, speed and cost; backwards, if it was judged as [`Kind::Backwards`]; of the centre of mass, if it was judged as
+    /// [`Kind::Swimming`].
     pub travel: Travel,
     /// The torso's turning.
     pub torso: Uprightness,
@@ -44,12 +45,14 @@ impl GaitReport {
         Ok(Self::of(&Trajectory::new(body, trajectory)?, kind))
     }
 
-    /// Measures a trajectory; one to be judged as [`Kind::Backwards`] with backwards as the way ahead.
+    /// Measures a trajectory; one to be judged as [`Kind::Backwards`] with backwards as the way ahead, one to be judged as
+    /// [`Kind::Swimming`] by its centre of mass.
     pub fn of(trajectory: &Trajectory<'_>, kind: Option<Kind>) -> Self {
-        if kind == Some(Kind::Backwards) {
-            return Self::facing(&trajectory.clone().backwards(), kind);
+        match kind {
+            Some(Kind::Backwards) => Self::facing(&trajectory.clone().backwards(), kind),
+            Some(Kind::Swimming) => Self::facing(&trajectory.clone().swimming(), kind),
+            Some(Kind::Running | Kind::Jumping) | None => Self::facing(trajectory, kind),
         }
-        Self::facing(trajectory, kind)
     }
 
     /// Measures a trajectory that knows which way is ahead.
@@ -57,7 +60,7 @@ impl GaitReport {
         let body = trajectory.body();
         let window = match kind {
             Some(Kind::Jumping) => 0..=trajectory.steps(),
-            Some(Kind::Running | Kind::Backwards) | None => trajectory.at(0.5)..=trajectory.steps(),
+            Some(Kind::Running | Kind::Backwards | Kind::Swimming) | None => trajectory.at(0.5)..=trajectory.steps(),
         };
         let spectrum = Spectrum::new(window.end() - window.start() + 1, trajectory.time_step());
         let hinges = body.hinges.iter().enumerate();

@@ -210,6 +210,32 @@ fn a_report_survives_a_file() {
     assert_eq!(serde_json::from_str::<GaitReport>(&text).expect("it can be read"), report);
 }
 
+/// Off the ground, which is not there, all the time.
+fn swimming(step: usize) -> Pose {
+    let walking = Pose::walking(step);
+    // Slowly down, below height 0, and round.
+    Pose { y: 0.8 - 0.001 * step as f64, tilt: 0.004 * step as f64, touching: [false; 3], ..walking }
+}
+
+#[test]
+fn a_swimmer_needs_neither_ground_nor_footfalls_but_has_to_get_ahead() {
+    let swum = report(20.0, Kind::Swimming, swimming);
+    assert_eq!(reasons(&swum), Vec::<String>::new());
+    assert!((swum.travel.second_half_relative_speed - 1.0).abs() < 0.1, "{}", swum.travel.second_half_relative_speed);
+    assert!(reasons(&report(20.0, Kind::Running, swimming)).len() > 3, "it is no run");
+    let slow = |step: usize| Pose { x: 0.3 * Pose::walking(step).x, ..swimming(step) };
+    let said = reasons(&report(20.0, Kind::Swimming, slow));
+    assert!(said.len() == 1 && said[0].contains("body lengths/s, at least 0.5 required"), "{said:?}");
+    let short = reasons(&report(10.0, Kind::Swimming, swimming));
+    assert!(short.len() == 1 && short[0].contains("shorter than the 20 s"), "{short:?}");
+    let buzzing = |step: usize| {
+        let angle = 0.3 * libm::sin(std::f64::consts::TAU * 6.0 * step as f64 * 0.02);
+        Pose { hips: [angle, angle], ..swimming(step) }
+    };
+    let said = reasons(&report(20.0, Kind::Swimming, buzzing));
+    assert!(said.iter().any(|reason| reason.contains("Hz")), "{said:?}");
+}
+
 #[test]
 fn a_walker_backwards_is_judged_as_one_forwards() {
     let backwards = |step: usize| Pose { x: -Pose::walking(step).x, ..Pose::walking(step) };
@@ -236,8 +262,8 @@ fn names_of_movements_tell_the_kind() {
     assert_eq!(Kind::of("time-aloft"), None);
     assert_eq!(Kind::of("walking"), None);
     let judged: Vec<_> = Kind::JUDGED.iter().filter_map(|movement| Kind::of(movement)).collect();
-    use Kind::{Backwards, Jumping, Running};
-    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Backwards]);
+    use Kind::{Backwards, Jumping, Running, Swimming};
+    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Backwards, Swimming]);
 }
 
 #[test]

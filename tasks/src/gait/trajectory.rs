@@ -22,6 +22,7 @@ pub struct Trajectory<'a> {
     work_known: bool,
     flat: bool,
     backwards: bool,
+    swimming: bool,
 }
 
 impl<'a> Trajectory<'a> {
@@ -67,13 +68,29 @@ impl<'a> Trajectory<'a> {
         Self { backwards: true, ..self }
     }
 
+    /// The same, of a swimmer: what gets ahead is its centre of mass, and there is no ground.
+    #[must_use]
+    pub(super) fn swimming(self) -> Self {
+        Self { swimming: true, flat: false, ..self }
+    }
+
     fn checked(body: &'a Body, snapshots: Cow<'a, [Snapshot]>, work_known: bool) -> Result<Self, GaitError> {
         let time_step = check(body, &snapshots)?;
         let mut tilts = unwrapped(snapshots.iter().map(|snapshot| angle_of(snapshot.torso())));
         let start = tilts[0];
         tilts.iter_mut().for_each(|tilt| *tilt -= start);
         let hinge_angles = body.hinges.iter().map(|hinge| angles(hinge, &snapshots)).collect();
-        Ok(Self { body, snapshots, time_step, tilts, hinge_angles, work_known, flat: true, backwards: false })
+        Ok(Self {
+            body,
+            snapshots,
+            time_step,
+            tilts,
+            hinge_angles,
+            work_known,
+            flat: true,
+            backwards: false,
+            swimming: false,
+        })
     }
 
     /// Whose it is.
@@ -111,10 +128,20 @@ impl<'a> Trajectory<'a> {
         (libm::floor(share * self.steps() as f64) as usize).min(self.steps())
     }
 
-    /// How far ahead the torso has come from one snapshot to another, m.
+    /// How far ahead the torso, or the centre of a swimmer's mass, has come from one snapshot to another, m.
     pub(super) fn progress(&self, from: usize, to: usize) -> f64 {
-        let way = f64::from(self.snapshots[to].torso().x) - f64::from(self.snapshots[from].torso().x);
+        let way = self.place(to) - self.place(from);
         if self.backwards { -way } else { way }
+    }
+
+    /// The x of what is to get ahead, m.
+    fn place(&self, step: usize) -> f64 {
+        let snapshot = &self.snapshots[step];
+        if !self.swimming {
+            return f64::from(snapshot.torso().x);
+        }
+        let parts = self.body.parts.iter().zip(&snapshot.parts);
+        parts.map(|(part, state)| f64::from(part.mass) * f64::from(state.x)).sum::<f64>() / self.mass()
     }
 
     /// How far the torso is above where it started, m.
@@ -262,8 +289,8 @@ fn check_body(body: &Body) -> Result<(), GaitError> {
     if !positive(body.body_length) || !positive(body.start_height) {
         return wrong("length and start height must be positive");
     }
-    if !(body.gravity.is_finite() && body.gravity >= 0.0) {
-        return wrong("gravity must be finite and at least 0");
+    if !body.gravity.is_finite() {
+        return wrong("gravity must be finite");
     }
     for part in &body.parts {
         let finite =

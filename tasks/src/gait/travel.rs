@@ -1,7 +1,8 @@
 use super::Trajectory;
 use serde::{Deserialize, Serialize};
 
-/// How far, how fast and at what cost the torso travels. Ahead is positive: forwards, or backwards for a gait that is
+/// How far, how fast and at what cost the torso travels, or the centre of mass of a gait that is judged as
+/// [`Swimming`](super::Kind::Swimming). Ahead is positive: forwards, or backwards for a gait that is
 /// judged as [`Backwards`](super::Kind::Backwards).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Travel {
@@ -27,7 +28,7 @@ pub struct Travel {
     #[serde(rename = "second_half_quarters_m")]
     pub second_half_quarters: [f64; 4],
     /// The motors' work over weight times distance. `None` if the work is not known or there is no way forward to divide
-    /// by.
+    /// by, or no weight.
     pub cost_of_transport: Option<f64>,
 }
 
@@ -42,7 +43,7 @@ impl Travel {
             let border = |quarter: usize| trajectory.at(from + (to - from) * quarter as f64 / 4.0);
             std::array::from_fn(|quarter| trajectory.progress(border(quarter), border(quarter + 1)))
         };
-        let weight = trajectory.mass() * trajectory.gravity();
+        let weight = trajectory.mass() * trajectory.gravity().abs();
         let work = trajectory.work(end).zip(trajectory.work(0)).map(|(end, start)| end - start);
         Self {
             distance,

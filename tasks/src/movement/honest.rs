@@ -77,7 +77,7 @@ impl Movement for Honest {
         self.gravity = body.gravity;
         self.uneven_ground = body.uneven_ground;
         let mass: f32 = body.parts.iter().map(|part| part.mass).sum();
-        self.surplus.most = GAIN + GAIN_SHARE * mass * body.gravity * body.start_height;
+        self.surplus.most = GAIN + GAIN_SHARE * mass * body.gravity.abs() * body.start_height;
     }
 
     fn begin(&mut self, start: &Snapshot) {

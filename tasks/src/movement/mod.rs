@@ -20,6 +20,7 @@ mod rollovers;
 mod running;
 mod standing;
 mod sum;
+mod swimming;
 mod time_aloft;
 mod upright;
 mod vibration;
@@ -45,6 +46,7 @@ pub use {
     running::Running,
     standing::{Standing, StandingSettings},
     sum::Sum,
+    swimming::Swimming,
     time_aloft::TimeAloft,
     upright::Upright,
     vibration::Vibration,

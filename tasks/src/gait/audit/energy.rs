@@ -15,7 +15,7 @@ pub(super) fn find(trajectory: &Trajectory<'_>) -> Option<Cheat> {
     let surplus: Vec<f64> = (0..=trajectory.steps())
         .map(|step| trajectory.work(step).map(|work| energy(trajectory, step, gravity) - work))
         .collect::<Option<_>>()?;
-    let threshold = TOLERANCE + TOLERANCE_SHARE * trajectory.mass() * gravity * trajectory.start_height();
+    let threshold = TOLERANCE + TOLERANCE_SHARE * trajectory.mass() * gravity.abs() * trajectory.start_height();
     let steps = libm::round(WINDOW / trajectory.time_step()) as usize;
     let gains = (0..surplus.len()).map(|step| {
         let before = &surplus[step.saturating_sub(steps)..=step];

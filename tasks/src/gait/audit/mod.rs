@@ -155,7 +155,8 @@ impl fmt::Display for Cheat {
 
 /// Every cheat found. `joints` are the trajectory's.
 ///
-/// Getting ahead by sliding or falling is no cheat in a jump, which is not about getting ahead.
+/// Getting ahead by sliding or falling is no cheat in a jump, which is not about getting ahead, nor in water, where nothing
+/// else can be done.
 pub(super) fn audit(trajectory: &Trajectory<'_>, joints: &[JointUse], kind: Option<Kind>) -> Vec<Cheat> {
     let mut cheats = separation::find(trajectory);
     cheats.extend(limits::find(trajectory));
@@ -164,7 +165,7 @@ pub(super) fn audit(trajectory: &Trajectory<'_>, joints: &[JointUse], kind: Opti
     cheats.extend(tunnelling::find(trajectory));
     cheats.extend(vibration::find(trajectory, joints, kind));
     cheats.extend(ballistic_limb::find(trajectory));
-    if kind != Some(Kind::Jumping) {
+    if !matches!(kind, Some(Kind::Jumping | Kind::Swimming)) {
         cheats.extend(ratchet::find(trajectory));
         cheats.extend(fall::find(trajectory));
     }
