@@ -124,7 +124,7 @@ impl Hull {
     /// sine are given.
     ///
     /// The drag coefficients are those at the beginning, the velocities they act on those at the end (the implicit Euler
-    /// step of a drag that is linear in between). So drag never turns back what it slows down, and never adds energy,
+    /// step of a drag that is linear in between, and the exact solution for a part that only glides). So drag never turns back what it slows down, and never adds energy,
     /// however long the step, and however fast and light the part.
     pub fn slowed(&self, ([vx, vy], spin): PartVelocity, [cos, sin]: [f32; 2], seconds: f32) -> PartVelocity {
         let [vx, vy, spin, cos, sin, seconds] = [vx, vy, spin, cos, sin, seconds].map(f64::from);

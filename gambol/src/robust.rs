@@ -28,7 +28,7 @@ const BEYOND: f32 = 5.0;
 pub struct Robustness {
     /// As what its gaits are judged.
     pub kind: Kind,
-    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world.
+    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world, nor has water.
     #[serde(skip)]
     pub bumpy: bool,
     /// Whether it is usable without perturbation.

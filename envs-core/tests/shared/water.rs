@@ -1,16 +1,20 @@
 use crate::puppet::Puppet;
-use creatures::{Blueprint, BodyPart, Creature, Shape, Terrain};
+use creatures::{Blueprint, BodyPart, Joint, Shape, Terrain};
 use envs_core::{CreatureEnvironment, EnvironmentError, Hull, PhysicsSettings, Variation, Water, body_of};
 use proptest::prelude::*;
 use std::f32::consts::{FRAC_PI_2, TAU};
 
-/// A part alone.
-fn alone(shape: Shape) -> Blueprint {
+/// Two parts of this shape, one on the other: a creature needs a motor.
+fn twins(shape: Shape) -> Blueprint {
     let mut creature = creatures::find("apod").expect("shipped");
-    creature.parts.truncate(1);
-    creature.joints.clear();
-    creature.parts[0].shape = shape;
-    Blueprint::new(Creature { parts: creature.parts.clone(), ..creature }).expect("valid")
+    creature.parts.truncate(2);
+    creature.joints.truncate(1);
+    for part in &mut creature.parts {
+        (part.shape, part.position) = (shape, [0.0, 5.0]);
+    }
+    let [parent, child] = [0, 1].map(|part| creature.parts[part].name.clone());
+    creature.joints[0] = Joint { parent, child, anchor: [0.0, 5.0], ..creature.joints[0].clone() };
+    Blueprint::new(creature).expect("valid")
 }
 
 fn hull(part: &BodyPart, water: &Water) -> Hull {
@@ -38,7 +42,7 @@ proptest! {
         drag in 0.0_f32..10.0,
         slip in 0.0_f32..1.0,
     ) {
-        let blueprint = alone(shape);
+        let blueprint = twins(shape);
         let body = body_of(&blueprint);
         let water = Water { density: None, drag, slip: slip * drag };
         let hull = hull(&blueprint.parts()[0], &water);
@@ -61,7 +65,7 @@ proptest! {
 fn drag_is_square_in_the_speed_and_larger_across_than_along() {
     let (water, seconds) = (Water { density: None, drag: 1.2, slip: 0.1 }, 1e-4);
     let lost = |shape, velocity: [f32; 2]| {
-        let ([x, y], _) = hull(&alone(shape).parts()[0], &water).slowed((velocity, 0.0), [1.0, 0.0], seconds);
+        let ([x, y], _) = hull(&twins(shape).parts()[0], &water).slowed((velocity, 0.0), [1.0, 0.0], seconds);
         [(velocity[0] - x) / seconds, (velocity[1] - y) / seconds]
     };
     let near = |found: f32, wanted: f32| assert!((found - wanted).abs() < 0.01 * wanted, "{found}, not {wanted}");
@@ -80,7 +84,7 @@ fn drag_is_square_in_the_speed_and_larger_across_than_along() {
 
 #[test]
 fn drag_opposes_spin_and_a_turned_part_feels_what_it_would_feel_unturned() {
-    let blueprint = alone(Shape::Capsule { length: 0.4, radius: 0.05 });
+    let blueprint = twins(Shape::Capsule { length: 0.4, radius: 0.05 });
     let hull = hull(&blueprint.parts()[0], &Water::default());
     let (_, spin) = hull.slowed(([0.0; 2], 10.0), [1.0, 0.0], 0.02);
     assert!(spin > 0.0 && spin < 9.0, "{spin}");

@@ -78,6 +78,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     say!("  worlds           friction ± {friction}, mass ± {mass}, torque ± {torque}, steps of 1/120 to 1/40 s,")?;
     match robustness.bumpy {
         true => say!("                   bumps up to {bumps:.0} cm high")?,
+        false if robustness.kind == Kind::Swimming => say!("                   in water")?,
         false => say!("                   the terrain laid out anew")?,
     }
     if !robustness.reasons.is_empty() {

@@ -14,6 +14,7 @@ use crate::{
     trajectory::Recording,
 };
 use creatures::{Creature, Terrain};
+use envs_rapier::PhysicsSettings;
 use serde::Serialize;
 use serde_json::Value;
 use tasks::Snapshot;
@@ -199,7 +200,7 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         Fact::new("Engine", config.engine.name()),
         Fact::new("Trials", config.trials.count),
         Fact::new("Variation", variation(config)),
-        Fact::new("Terrain", terrain(&config.terrain)),
+        Fact::new("Terrain", terrain(&config.terrain, &config.physics)),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
     ];
@@ -212,8 +213,11 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
     facts
 }
 
-/// The kinds of obstacles and how hard they are.
-pub(super) fn terrain(terrain: &Terrain) -> String {
+/// The kinds of obstacles and how hard they are, or that there is no ground.
+pub(super) fn terrain(terrain: &Terrain, physics: &PhysicsSettings) -> String {
+    if physics.water.is_some() {
+        return "water".into();
+    }
     let kinds: Vec<&str> = terrain.obstacles.iter().map(|obstacles| obstacles.kind().name()).collect();
     match kinds.is_empty() {
         true => "flat".into(),

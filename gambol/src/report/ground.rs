@@ -10,6 +10,9 @@ pub(super) struct GroundData {
     floor: Option<i32>,
     /// Convex outlines: x and y of each corner in turn.
     shapes: Vec<Vec<i32>>,
+    /// Whether it is water, and there is no ground.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    water: bool,
 }
 
 /// Corners a circle is drawn with.
@@ -21,7 +24,7 @@ impl GroundData {
         if *ground == Ground::flat() {
             return None;
         }
-        let mut data = Self { floor: None, shapes: Vec::new() };
+        let mut data = Self { floor: None, shapes: Vec::new(), water: *ground == Ground::none() };
         for shape in &ground.shapes {
             match corners(shape) {
                 Ok(corners) => {
@@ -71,6 +74,15 @@ fn millimetres(place: f32) -> i32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn water_is_told_from_ground() {
+        let written =
+            |ground: &Ground| serde_json::to_string(&GroundData::new(ground, [-1.0, 1.0])).expect("plain data");
+        assert_eq!(written(&Ground::none()), r#"{"floor":null,"shapes":[],"water":true}"#);
+        let pit = Ground { shapes: vec![GroundShape::Floor { y: -3.0 }] };
+        assert_eq!(written(&pit), r#"{"floor":-3000,"shapes":[]}"#);
+    }
 
     #[test]
     fn flat_ground_needs_no_drawing_and_shapes_out_of_sight_neither() {

@@ -161,7 +161,7 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
             Fact::new("Found in generation", champion.generation),
             Fact::new("Strategy", &champion.strategy),
             Fact::new("Net", champion.network.topology()),
-            Fact::new("Terrain", data::terrain(&champion.terrain)),
+            Fact::new("Terrain", data::terrain(&champion.terrain, &champion.physics)),
             Fact::new("Physics", format!("{} {}", champion.engine.name, champion.engine.version)),
         ],
         config: serde_json::Value::Null,

@@ -30,6 +30,8 @@ mod reproduce;
 mod robust;
 mod shaping;
 mod strategies;
+mod swimming;
+mod swimming;
 mod terrain;
 mod training;
 mod training_bench;

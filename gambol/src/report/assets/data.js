@@ -61,6 +61,8 @@ function speedAt(replay, frame) {
 
 // The highest point above the ground that a part's centre reaches, over all frames.
 function highestCentre(replay) {
+  // In water the camera follows.
+  if (replay.ground?.water) return 0;
   let top = 0;
   for (let at = 1; at < replay.poses.length; at += 3) {
     if (replay.poses[at] <= top) continue;

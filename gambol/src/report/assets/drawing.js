@@ -158,6 +158,7 @@ function drawRim(stage, model, pose) {
 
 // A soft shadow that widens and fades as the creature leaves the ground.
 function drawShadow(stage, model, pose) {
+  if (stage.ground?.water) return;
   let left = Infinity, right = -Infinity, lowest = Infinity;
   for (const part of model.parts) {
     const at = part.index * 3;
@@ -232,6 +233,8 @@ function raiseFor(stage, model, pose) {
     if (at + 2 < pose.length) top = Math.max(top, pose[at + 1] + part.drawnReach * 0.8);
   }
   const visible = stage.height * stage.groundShare / stage.scale;
+  // In water the camera follows up and down, and has the swimmer halfway up the stage.
+  if (stage.ground?.water) return pose[1] - stage.height * (stage.groundShare - 0.5) / stage.scale;
   if (stage.ground) {
     // On uneven ground the camera follows the ground, and whoever falls into a pit.
     const level = Math.min(levelAround(stage.ground, middleX(model, pose), 2 * model.width), pose[1]);

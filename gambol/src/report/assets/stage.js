@@ -87,6 +87,10 @@ class Stage {
     sky.addColorStop(1, theme["sky-low"]);
     c.fillStyle = sky;
     c.fillRect(0, 0, width, height);
+    if (this.ground?.water) {
+      this.drawWater(origin, options.small);
+      return;
+    }
     if (!options.plain) {
       this.drawHills(origin, 0.12, 0.30, 9, theme.hill);
       this.drawHills(origin, 0.30, 0.15, 5, theme["hill-near"]);
@@ -107,6 +111,16 @@ class Stage {
       c.fillRect(0, groundY - 0.5, width, 1.5);
     }
     this.drawStart(origin, options.small);
+  }
+
+  // Water: a tint, and the marks along the bottom.
+  drawWater(origin, small) {
+    const c = this.context;
+    c.globalAlpha = 0.22;
+    c.fillStyle = theme.minus;
+    c.fillRect(0, 0, this.width, this.height);
+    c.globalAlpha = 1;
+    this.drawMarks(origin, small);
   }
 
   // A soft line of hills that moves slower than the ground.
@@ -148,7 +162,7 @@ class Stage {
       const main = metre % numbered === 0;
       const height = surfaceAt(this.ground, origin + metre);
       if (this.ground && height <= this.ground.floor) continue;
-      const groundY = this.screenY(height);
+      const groundY = this.ground?.water ? this.height - (small ? 26 : 34) : this.screenY(height);
       c.fillStyle = theme.mark;
       c.globalAlpha = main ? 0.9 : 0.45;
       c.fillRect(x - (main ? 0.75 : 0.5), groundY + 1, main ? 1.5 : 1, main ? (small ? 7 : 11) : (small ? 4 : 6));

@@ -1,4 +1,4 @@
-// Ground that is not flat: convex shapes above a floor. Places in metres, y up.
+// Ground that is not flat: convex shapes above a floor; or water, where there is none. Places in metres, y up.
 
 // The ground as stored (whole millimetres), or null for flat ground.
 function decodeGround(stored) {
@@ -9,12 +9,12 @@ function decodeGround(stored) {
     const places = corners.map(corner => corner[0]);
     return { corners, left: Math.min(...places), right: Math.max(...places) };
   });
-  return { shapes, floor: stored.floor === null ? -1000 : stored.floor / 1000 };
+  return { shapes, floor: stored.floor === null ? -1000 : stored.floor / 1000, water: Boolean(stored.water) };
 }
 
 // The height of the ground at x.
 function surfaceAt(ground, x) {
-  if (!ground) return 0;
+  if (!ground || ground.water) return 0;
   let top = ground.floor;
   for (const { corners, left, right } of ground.shapes) {
     if (x < left || x > right) continue;
@@ -29,7 +29,7 @@ function surfaceAt(ground, x) {
 
 // How high the ground around x is, pits left out: where the camera looks.
 function levelAround(ground, x, reach) {
-  if (!ground) return 0;
+  if (!ground || ground.water) return 0;
   let sum = 0, count = 0;
   for (let i = -12; i <= 12; i++) {
     const height = surfaceAt(ground, x + reach * i / 12);
