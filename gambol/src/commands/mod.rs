@@ -81,7 +81,7 @@ pub(crate) struct Program {
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Evolves a controller for a creature and a movement
-    Train(train::Train),
+    Train(Box<train::Train>),
     /// Goes on with a run from its last checkpoint
     Resume(resume::Resume),
     /// Makes the HTML report of a run anew

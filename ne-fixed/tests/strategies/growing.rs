@@ -161,7 +161,7 @@ fn a_centre_goes_on_in_grown_nets() {
     assert_same_behaviour(&old, new.clone().ask(seed)[0].weights());
     assert_resumes(new, 3);
     let champion = vec![0.25; dense().weight_count()];
-    let started = OpenEs::new(settings, dense()).and_then(|new| Ok(new.with_centre(&champion).expect("weights")));
+    let started = OpenEs::new(settings, dense()).map(|new| new.with_centre(&champion).expect("weights"));
     assert_eq!(started.expect("valid").ask(seed)[0].weights(), champion);
 }
 
