@@ -178,6 +178,7 @@ pub(crate) fn any_settings() -> impl Strategy<Value = PhysicsSettings> {
         motor_gain: libm::powf(10.0, others.0),
         settle_time: others.1,
         unstable_speed: others.2,
+        water: None,
     });
     let afloat = PhysicsSettings { settle_time: 0.0, ..PhysicsSettings::default() };
     prop_oneof![1 => Just(PhysicsSettings::default()), 1 => Just(afloat), 2 => drawn]
