@@ -31,7 +31,6 @@ mod robust;
 mod shaping;
 mod strategies;
 mod swimming;
-mod swimming;
 mod terrain;
 mod training;
 mod training_bench;
