@@ -1,8 +1,9 @@
 //! The page of a run with stages: that of its latest stage, with the curves of all and a film of each champion.
 
 use super::{
-    ReportError, champion_film,
+    DRAWN, ReportError, champion_film,
     data::{Fact, Replay, Report, Summary},
+    ground::GroundData,
     history,
 };
 use crate::{
@@ -30,6 +31,9 @@ pub(super) struct StageData {
     facts: Vec<Fact>,
     /// The champion's first seconds.
     film: Option<Replay>,
+    /// What it moves on; `None`: flat ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ground: Option<GroundData>,
     /// Its body, if that is another than the run's.
     #[serde(skip_serializing_if = "Option::is_none")]
     creature: Option<Creature>,
@@ -82,6 +86,8 @@ fn stage(
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,
     };
+    let ground = champion.as_ref().map(|champion| champion.episode(catalogue)).transpose()?;
+    let ground = ground.and_then(|episode| GroundData::new(episode.environment().ground(), DRAWN));
     let film = champion.as_ref().map(|champion| champion_film(champion, catalogue)).transpose()?;
     Ok(StageData {
         number: leg.stage + 1,
@@ -92,6 +98,7 @@ fn stage(
         unit: catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone()),
         facts: facts(leg, &config, run.stages.get(leg.stage)),
         film,
+        ground,
         creature: (config.creature != run.creature).then(|| config.creature.clone()),
     })
 }

@@ -200,11 +200,15 @@ class FitnessChart {
   // A line where each stage begins, with its name.
   drawStages(root) {
     const { box, x } = this;
+    let free = -Infinity;
     for (const stage of this.stages) {
       if (stage.last_generation < stage.first_generation) continue;
       const px = x(stage.first_generation);
       svg("line", { class: "stage-mark", x1: px, x2: px, y1: box.top - 6, y2: box.bottom }, root);
-      svg("text", { class: "stage-name", x: px + 4, y: box.top + 4 }, root).textContent = stage.name;
+      // A name that would stand on the one before goes a line lower.
+      const lower = px < free ? 14 : 0;
+      if (!lower) free = px + 8 + 7.5 * stage.name.length;
+      svg("text", { class: "stage-name", x: px + 4, y: box.top + 4 + lower }, root).textContent = stage.name;
     }
   }
 

@@ -138,9 +138,10 @@ class FrontChart {
 
 // The chosen point, moving.
 class FrontView {
-  constructor(front, model, varied) {
-    Object.assign(this, { front, model, varied });
+  constructor(front, model, varied, ground) {
+    Object.assign(this, { front, model, varied, ground });
     this.stage = new Stage(document.getElementById("front-canvas"), 0.8);
+    this.stage.ground = ground;
     this.clock = loop.addClock(new Clock(0));
     this.decoded = new Map();
     playButton(document.getElementById("front-play"), this.clock);
@@ -156,7 +157,7 @@ class FrontView {
   // A replay is decoded when it is first looked at.
   choose(index) {
     const point = this.front.points[index];
-    if (!this.decoded.has(index)) this.decoded.set(index, decodeReplay(point.replay));
+    if (!this.decoded.has(index)) this.decoded.set(index, decodeReplay(point.replay, this.ground));
     this.replay = this.decoded.get(index);
     this.pose = new Float32Array(this.replay.size);
     this.top = highestCentre(this.replay);
@@ -197,7 +198,7 @@ function buildFront(run, model) {
   const where = varied ? ` The chart has what was measured in training, in the worlds of ${worlds}.` : "";
   document.getElementById("front-intro").textContent = `None of these is better than another in one objective without being worse in another. ${shown}`
     + `Click one to see its first seconds.${where}`;
-  const view = new FrontView(front, model, varied);
+  const view = new FrontView(front, model, varied, run.ground);
   loop.addView(view);
   new FrontChart(front, index => view.choose(index));
 }

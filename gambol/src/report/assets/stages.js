@@ -22,6 +22,7 @@ class StageTile {
   draw() {
     const { stage, replay, model } = this;
     poseAt(replay, this.clock.now, this.pose);
+    stage.ground = replay.ground;
     stage.scale = fittingScale(stage, model, this.top, 0.55);
     stage.centreX = middleX(model, this.pose);
     stage.raise = raiseFor(stage, model, this.pose);
@@ -40,7 +41,7 @@ function buildStages(run, model) {
   const tiles = [];
   for (const stage of stages) {
     const item = document.createElement("li");
-    const replay = decodeReplay(stage.film);
+    const replay = decodeReplay(stage.film, decodeGround(stage.ground));
     if (replay) {
       const body = stage.creature ? makeModel(stage.creature) : model;
       const tile = new StageTile(stage, replay, body, clock, highestCentre(replay));
