@@ -3,7 +3,7 @@
 //! Without arguments it is a matter of seconds and proves nothing; ten paired seeds, as docs/shaping.md has them:
 //!
 //! ```text
-//! cargo run --release -p gambol-examples --example shaping_or_scratch -- 10 3500000 runs/shaping
+//! cargo run --release -p gambol-examples --example shaping_or_scratch -- 10 8000000 runs/shaping
 //! ```
 //!
 //! Arguments: seeds, physics steps of each run, a folder for the runs.
