@@ -1,7 +1,7 @@
 //! Going on with more inputs and outputs: what was learned stays, to the bit.
 
 use ne_core::{Evaluation, Genome, Phenotype, Seed, Strategy};
-use ne_neat::{BiasKind, Neat, NeatGenome, NeatSettings, StartTopology};
+use ne_neat::{BiasKind, Layout, Neat, NeatGenome, NeatSettings, StartTopology};
 use ne_net::Growth;
 use std::{cmp::Reverse, collections::BTreeMap};
 
@@ -45,6 +45,19 @@ fn settings() -> Vec<NeatSettings> {
     all
 }
 
+/// Which node of the grown net an old one is: [`growths`] adds two inputs and an output.
+fn renumbered(node: u32, layout: &Layout) -> u32 {
+    let sources = layout.sources() as u32;
+    let node_of_input = [1, 2, 4];
+    match node {
+        0..3 => node_of_input[node as usize],
+        _ if node < sources => 5,
+        _ if node == sources => sources + 2,
+        _ if node == sources + 1 => sources + 4,
+        _ => node + 3,
+    }
+}
+
 /// What a net answers, bit by bit, with or without the new inputs.
 fn answers(genome: &NeatGenome, grown: bool) -> Vec<Vec<u32>> {
     let mut net = genome.express();
@@ -85,12 +98,12 @@ fn genomes_do_the_same_and_stay_related() {
             }
             assert_eq!(old.connections().len(), new.connections().len());
             for old_gene in old.connections() {
-                let same = |gene: &&ne_neat::ConnectionGene| {
-                    gene.weight.to_bits() == old_gene.weight.to_bits()
-                        && numbers.get(&old_gene.innovation).is_none_or(|&number| number == gene.innovation)
-                };
+                let ends = (renumbered(old_gene.from, old.layout()), renumbered(old_gene.to, old.layout()));
+                let same = |gene: &&ne_neat::ConnectionGene| (gene.from, gene.to) == ends;
                 let gene = new.connections().iter().find(same).expect("the gene is still there");
-                numbers.insert(old_gene.innovation, gene.innovation);
+                assert_eq!((gene.weight, gene.enabled), (old_gene.weight, old_gene.enabled));
+                let number = *numbers.entry(old_gene.innovation).or_insert(gene.innovation);
+                assert_eq!(number, gene.innovation, "{settings:?}");
             }
             // A genome is one that a file could hold.
             let text = serde_json::to_string(new).expect("serialises");
