@@ -7,6 +7,7 @@ use gambol::{
     Setup,
     champion::{CHAMPION_FORMAT, Champion},
     config::Request,
+    shaping::Stages,
     source,
 };
 use ne_core::CHECKPOINT_FORMAT;
@@ -102,6 +103,11 @@ fn check_config(path: &Path, value: &Value) -> Result<(), Box<dyn Error>> {
     };
     let config = request.resolve(&catalogue)?;
     Setup::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let stages = Stages::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
     say!("{}: a valid configuration", path.display())?;
+    for (index, (stage, config)) in stages.configs().enumerate() {
+        let rule = stage.promotion.as_ref().map_or_else(|| "the run ends".into(), ToString::to_string);
+        say!("  stage {} {}: {}, until {rule}", index + 1, stage.name, config.movement.name)?;
+    }
     Ok(())
 }

@@ -26,6 +26,13 @@ pub(crate) struct Resume {
 impl Resume {
     pub(crate) fn run(self) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
+        if let Some(run) = shaping::run_of_stage(&self.folder) {
+            let (stage, run) = (self.folder.display(), run.display());
+            return Err(format!(
+                "{stage} is a stage of the run in {run}, which goes on as a whole: gambol resume {run}"
+            )
+            .into());
+        }
         config.stop = self.limits.beyond(config.stop);
         let stop = Some(config.stop);
         carry_out(&self.manner, &config, MovementCatalogue::default(), |options, journey| {

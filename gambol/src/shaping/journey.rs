@@ -174,6 +174,15 @@ pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
     Ok(legs)
 }
 
+/// The folder of the run that this folder is a stage of, if it is one.
+pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
+    let folder = folder.canonicalize().ok()?;
+    let stages = folder.parent().filter(|parent| parent.file_name().is_some_and(|name| name == "stages"))?;
+    let run = RunFolder::open(stages.parent()?).ok()?;
+    let config = run.read_config().ok()?;
+    (!config.stages.is_empty()).then(|| run.path().into())
+}
+
 fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
     match config.stages.is_empty() {
         true => Err(ShapingError::NoStages),

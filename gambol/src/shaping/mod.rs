@@ -25,7 +25,8 @@ mod stages;
 pub use carry::CarryError;
 pub use curriculum::{Curriculum, Leg, PlannedStage};
 pub use journey::{
-    Journey, ShapingError, adopt, legs, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
+    Journey, ShapingError, adopt, legs, resume_curriculum, resume_stages, run_of_stage, train_curriculum, train_from,
+    train_stages,
 };
 pub use origin::{Carried, Origin};
 pub use settings::StageSettings;

@@ -96,7 +96,9 @@ fn stages_follow_each_other_and_their_champions_are_kept() -> Outcome {
             "\"first_generation\":15,\"last_generation\":27",
         ],
     );
-    // With more generations the last stage goes on.
+    // A stage does not go on alone; with more generations the last one of the run does.
+    let message = fail(gambol("resume").arg(run_folder.join("stages/02-feel")).args(["--generations", "99"]));
+    assert_says(&message, &[" is a stage of the run in ", ", which goes on as a whole: gambol resume "]);
     succeed(gambol("resume").arg(&run_folder).args(["--generations", "45", "--no-report", "--quiet"]));
     assert_eq!(generations("03-jump"), json!(18));
     Ok(())
@@ -245,10 +247,21 @@ fn what_cannot_be_carried_is_said_before_training() -> Outcome {
     let mut missing = gambol("train");
     missing.args(["biped-1", "running", "--from"]).arg(path("nowhere")).arg("--out").arg(path("second"));
     assert_says(&fail(&mut missing), &[text(&path("nowhere"))]);
-    // Stages are checked before anything is written, too.
+    // Stages are checked before anything is written, too, and on their own.
+    let good = succeed(gambol("check").arg(write(folder.path(), &three_stages())));
+    assert_says(
+        &good,
+        &[
+            "a valid configuration",
+            "stage 2 feel: running, until 13 generations",
+            "stage 3 jump: jumping, until the run ends",
+        ],
+    );
     let mut config = three_stages();
     config["stages"][1]["promotion"] = json!({ "measurement": { "name": "joy", "at_least": 1 } });
-    let message = fail(train(&write(folder.path(), &config), &path("second")).arg("--quiet"));
+    let config = write(folder.path(), &config);
+    let message = fail(train(&config, &path("second")).arg("--quiet"));
+    assert_says(&fail(gambol("check").arg(&config)), &["stages[1] (\"feel\"): promotion.measurement.name = \"joy\""]);
     assert_says(
         &message,
         &["stages[1] (\"feel\"): promotion.measurement.name = \"joy\": must be one of those there are: "],
