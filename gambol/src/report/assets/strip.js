@@ -1,29 +1,24 @@
 // The gait emerges: a strip of champions through the generations, all started together, and whole populations drawn
 // on one stage.
 
-class StripTile {
-  constructor(entry, replay, model, clock, top, unit) {
-    Object.assign(this, { replay, model, clock, top });
+// A small film of one champion, in time with the others that share its clock.
+class FilmTile {
+  constructor(replay, model, clock, top, label, groundShare = 0.78) {
+    Object.assign(this, { replay, model, clock, top, groundShare });
     this.pose = new Float32Array(replay.size);
-    this.element = document.createElement("li");
-    const frame = document.createElement("div");
-    frame.className = "stage stage-tile";
-    const canvas = document.createElement("canvas");
-    canvas.setAttribute("role", "img");
-    canvas.setAttribute("aria-label", `The best of generation ${entry.generation}`);
-    frame.append(canvas);
-    const caption = document.createElement("p");
-    const name = document.createElement("span");
-    name.textContent = `generation ${fixed(entry.generation, 0)}`;
-    const score = document.createElement("b");
-    score.textContent = withUnit(entry.fitness, unit);
-    caption.append(name, score);
-    this.element.append(frame, caption);
-    this.canvas = canvas;
+    this.frame = element("div", undefined, "stage stage-tile");
+    this.canvas = element("canvas");
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", label);
+    this.frame.append(this.canvas);
   }
 
   // A stage measures its canvas, so it is made once the tile is on the page.
-  mount() { this.stage = new Stage(this.canvas, 0.78); }
+  mount() {
+    this.stage = new Stage(this.canvas, this.groundShare);
+    this.stage.ground = this.replay.ground;
+    loop.addView(this);
+  }
 
   get visible() { return this.stage.visible; }
   get stale() { return this.stage && this.stage.stale; }
@@ -32,13 +27,22 @@ class StripTile {
   draw() {
     const { stage, replay, model } = this;
     poseAt(replay, this.clock.now, this.pose);
-    stage.ground = replay.ground;
     stage.scale = fittingScale(stage, model, this.top, 0.55);
     stage.centreX = middleX(model, this.pose);
     stage.raise = raiseFor(stage, model, this.pose);
     stage.drawScenery(replay.startX, { small: true, plain: true });
     drawShadow(stage, model, this.pose);
     drawCreature(stage, model, this.pose);
+  }
+}
+
+class StripTile extends FilmTile {
+  constructor(entry, replay, model, clock, top, unit) {
+    super(replay, model, clock, top, `The best of generation ${entry.generation}`);
+    const caption = element("p");
+    caption.append(element("span", `generation ${fixed(entry.generation, 0)}`), element("b", withUnit(entry.fitness, unit)));
+    this.element = element("li");
+    this.element.append(this.frame, caption);
   }
 }
 
@@ -51,10 +55,7 @@ function buildStrip(run, model) {
   const list = document.getElementById("strip-list");
   const tiles = entries.map(({ entry, replay }) => new StripTile(entry, replay, model, clock, top, run.unit));
   list.append(...tiles.map(tile => tile.element));
-  for (const tile of tiles) {
-    tile.mount();
-    loop.addView(tile);
-  }
+  for (const tile of tiles) tile.mount();
   playButton(document.getElementById("strip-play"), clock);
   if (reducedMotion.matches) clock.seek(clock.duration * 0.5);
 }
