@@ -4,6 +4,7 @@
 
 use gambol::{
     config::{RunConfig, preset},
+    report::write_report,
     shaping::{Curriculum, Journey, Leg, PlannedStage, legs, train_curriculum},
     training::TrainOptions,
 };
@@ -72,6 +73,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for leg in legs(&outcome.folder)? {
         println!("{:02}-{}: {:?} after {} generations", leg.number, leg.name, leg.decision, leg.progress.generations);
     }
+    write_report(&outcome.folder, &MovementCatalogue::default(), Some(outcome.reason))?;
+    println!("the report has {} KB", std::fs::metadata(outcome.folder.report())?.len() / 1000);
     let champion = outcome.champion.ok_or("nobody ran")?;
     println!("the champion of the last stage runs {:.1} m", champion.fitness);
     if champion.verify(&MovementCatalogue::default())?.is_identical() {

@@ -65,7 +65,8 @@ pub fn write_report(
     ended: Option<StopReason>,
 ) -> Result<(), ReportError> {
     let config = folder.read_config()?;
-    let report = match config.stages.is_empty() {
+    // A curriculum that is listed nowhere has stages all the same.
+    let report = match config.stages.is_empty() && !folder.stages().is_dir() {
         true => compose(folder, catalogue, ended)?,
         false => stages::compose(folder, &config, catalogue, ended)?,
     };

@@ -7,6 +7,7 @@ mod common;
 mod heats;
 mod jury;
 mod observers;
+mod promotion;
 mod resuming;
 mod scripted;
 mod stopping;
