@@ -36,6 +36,11 @@ pub trait Search: Strategy<Genome: Genome<Phenotype: Into<Network>>> {
     /// If a setting is out of range, the weights are not the topology's, or the strategy cannot begin at a net.
     fn begin_at(settings: &Self::Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError>;
 
+    /// Whether it has left what it had found, to look elsewhere: the champion then knows more than the search.
+    fn has_begun_anew(&self) -> bool {
+        false
+    }
+
     /// The net of a genome: the topology and its weights, expressed or as they are searched.
     fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>);
 }
@@ -189,6 +194,10 @@ impl Search for CmaEs {
 
     fn begin_at(settings: &CmaEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
         Self::build(settings, topology)?.with_mean(weights).map_err(weights_error)
+    }
+
+    fn has_begun_anew(&self) -> bool {
+        self.has_begun_anew()
     }
 
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {

@@ -1,8 +1,9 @@
 //! A configuration put together from a preset, a file and single settings, later ones winning.
 
-use super::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig};
+use super::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig, VARIATIONS, variation};
 use crate::suggest;
-use serde_json::{Map, Value};
+use creatures::Terrain;
+use serde_json::{Map, Value, json};
 
 /// Why a configuration is not one. The message names the field, and the nearest valid name where a name is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -44,8 +45,10 @@ impl Assembly {
     }
 
     /// Lays fields over what is there. Objects are merged; a choice (an object whose one key names what was chosen, with
-    /// its settings, such as `{"tournament": {"size": 3}}`) replaces another choice.
-    pub fn lay_over(&mut self, layer: Value) {
+    /// its settings, such as `{"tournament": {"size": 3}}`) replaces another choice. A variation or a terrain may be named
+    /// (`"light"`, `"gaps:0.3"`), and replaces what is there.
+    pub fn lay_over(&mut self, mut layer: Value) {
+        spell_out(&mut layer);
         merge(&mut self.value, layer);
     }
 
@@ -91,7 +94,7 @@ impl Assembly {
                 }
             }
         }
-        merge(&mut self.value, layer);
+        self.lay_over(layer);
         Ok(())
     }
 
@@ -105,10 +108,37 @@ impl Assembly {
 
     /// As [`finish`](Self::finish), for a look in between.
     pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
+        self.check_names()?;
         serde_path_to_error::deserialize(&self.value).map_err(|error| {
             let field = error.path().to_string();
             ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
         })
+    }
+
+    /// Names that could not be spelled out.
+    fn check_names(&self) -> Result<(), ConfigError> {
+        let name = |field: &str| self.value.get(field).and_then(Value::as_str);
+        let wrong = |field: &str, message| Err(ConfigError::Field { field: field.into(), message });
+        if let Some(name) = name("variation") {
+            return wrong("variation", suggest::unknown("variation", name, &VARIATIONS));
+        }
+        match name("terrain").map(str::parse::<Terrain>) {
+            Some(Err(error)) => wrong("terrain", error.to_string()),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Puts what they stand for in the place of a variation's and a terrain's names; those that nobody knows stay.
+fn spell_out(layer: &mut Value) {
+    let name = |field: &str| layer.get(field).and_then(Value::as_str);
+    let named = name("variation").and_then(variation);
+    let terrain = name("terrain").and_then(|name| name.parse::<Terrain>().ok());
+    if let Some(variation) = named {
+        layer["variation"] = json!(variation);
+    }
+    if let Some(terrain) = terrain {
+        layer["terrain"] = json!(terrain);
     }
 }
 

@@ -1,17 +1,18 @@
 //! From what was learned to a new search: on another task, with more senses, by another strategy.
 
-use super::{Carried, Origin, names};
+use super::{
+    Carried, Origin,
+    source::{ChampionNet, Kind, Source, names_of},
+};
 use crate::{
-    champion::{Champion, ChannelRecord},
     config::{FrozenTopology, RunConfig, StrategySettings},
-    run_folder::{FolderError, RunFolder},
-    search::{Passage, Search, SearchVisitor},
+    run_folder::FolderError,
+    search::{Passage, Search},
     setup::{Setup, SetupError},
 };
 use creatures::Channel;
 use ne_core::{Checkpoint, SettingError};
-use ne_net::{Growth, Topology};
-use std::path::Path;
+use ne_net::Growth;
 use tasks::MovementCatalogue;
 
 /// Why nothing can be carried over.
@@ -51,17 +52,6 @@ pub enum CarryError {
 /// How losses are allowed.
 const FORGET: &str = "--forget, or \"forget\": true in the stage";
 
-/// What a new search can begin from.
-pub(crate) struct Source {
-    name: String,
-    kind: Kind,
-}
-
-enum Kind {
-    Run { folder: RunFolder, config: Box<RunConfig>, setup: Box<Setup> },
-    Champion(Box<Champion>),
-}
-
 /// How it is to be carried.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Manner {
@@ -85,117 +75,6 @@ pub(crate) struct Departure {
     weights: Vec<f32>,
 }
 
-impl Source {
-    /// A run folder, or a champion file.
-    pub(crate) fn open(path: &Path, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
-        let name = path.display().to_string();
-        if !path.is_dir() {
-            let champion = Champion::read(path).map_err(FolderError::from)?;
-            return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
-        }
-        let folder = RunFolder::open(path)?;
-        Self::run(name, folder, catalogue)
-    }
-
-    /// A run, under a name of its own.
-    pub(crate) fn run(name: String, folder: RunFolder, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
-        if !folder.checkpoint().is_file() {
-            return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
-        }
-        let config = folder.read_config()?;
-        let setup = Setup::new(&config, catalogue)?;
-        Ok(Self { name, kind: Kind::Run { folder, config: Box::new(config), setup: Box::new(setup) } })
-    }
-
-    fn strategy(&self) -> &str {
-        match &self.kind {
-            Kind::Run { config, .. } => config.strategy.name(),
-            Kind::Champion(champion) => &champion.strategy,
-        }
-    }
-
-    fn channels(&self) -> [Vec<ChannelRecord>; 2] {
-        match &self.kind {
-            Kind::Run { setup, .. } => {
-                [setup.inputs(), setup.outputs()].map(|channels| channels.iter().map(Into::into).collect())
-            }
-            Kind::Champion(champion) => [champion.inputs.clone(), champion.outputs.clone()],
-        }
-    }
-
-    /// The strategy's settings, unless it is a champion alone.
-    fn settings(&self) -> Option<&StrategySettings> {
-        match &self.kind {
-            Kind::Run { config, .. } => Some(&config.strategy),
-            Kind::Champion(_) => None,
-        }
-    }
-
-    /// The net of the champion: its topology, its weights, and their names; expressed, or with its genes as they are
-    /// searched.
-    fn champion(&self, expressed: bool) -> Result<ChampionNet, CarryError> {
-        let [inputs, outputs] = self.channels().map(|channels| names_of(&channels));
-        match &self.kind {
-            Kind::Champion(champion) => {
-                let topology = champion.network.topology();
-                let names = names::of_weights(&topology, &inputs, &outputs);
-                let weights = champion.network.weights().to_vec();
-                Ok(ChampionNet { topology, weights, names, generation: champion.generation })
-            }
-            Kind::Run { folder, config, setup } => {
-                let found = config.strategy.visit(ReadChampion { folder, expressed })?;
-                let (topology, weights, generation) =
-                    found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
-                let names = match topology == setup.topology {
-                    true => setup.weight_names.clone(),
-                    false => names::of_weights(&topology, &inputs, &outputs),
-                };
-                Ok(ChampionNet { topology, weights, names, generation })
-            }
-        }
-    }
-}
-
-struct ChampionNet {
-    topology: Topology,
-    weights: Vec<f32>,
-    names: Vec<String>,
-    generation: u64,
-}
-
-fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
-    channels.iter().map(|channel| channel.name.clone()).collect()
-}
-
-/// Reads the champion out of a checkpoint, or the best that waits for the first hearing: its topology and weights, and the generation it was found in.
-struct ReadChampion<'a> {
-    folder: &'a RunFolder,
-    expressed: bool,
-}
-
-impl SearchVisitor for ReadChampion<'_> {
-    type Output = Result<Option<(Topology, Vec<f32>, u64)>, CarryError>;
-
-    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
-        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
-        let Checkpoint { champion, finalists, .. } = checkpoint;
-        let heard = champion.map(|champion| (champion.genome, champion.generation));
-        // Before the first hearing the best of those who wait for it stands in; of equals the first.
-        let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
-        let best = heard.or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
-        Ok(best.map(|(genome, generation)| {
-            let (topology, weights) = S::net(&genome, self.expressed);
-            (topology, weights, generation)
-        }))
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(CarryError::Impossible(format!(
-            "the strategy \"{name}\" belongs to another program, which alone can read it"
-        )))
-    }
-}
-
 impl Departure {
     /// Prepares a search with the new configuration. Nothing is written.
     ///
@@ -208,7 +87,14 @@ impl Departure {
         catalogue: &MovementCatalogue,
     ) -> Result<Self, CarryError> {
         let from = source.settings();
-        let carried = manner.carried.unwrap_or(from.map_or(Carried::Topology, |from| usual(from, &to.strategy)));
+        let carried = match (manner.carried, from) {
+            (Some(carried), _) => carried,
+            (None, Some(from)) => match usual(from, &to.strategy) {
+                Carried::Population if source.has_begun_anew()? => Carried::Champion,
+                carried => carried,
+            },
+            (None, None) => Carried::Topology,
+        };
         check_possible(&source.name, from, carried, &to.strategy)?;
         let mut config = to.clone();
         if let (Kind::Run { config: from, .. }, None, true) = (&source.kind, &to.topology, carried != Carried::Nothing)

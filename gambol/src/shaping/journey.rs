@@ -2,7 +2,8 @@
 
 use super::{
     Carried, Curriculum, Leg, Origin, PlannedStage, StageError, Stages,
-    carry::{CarryError, Departure, Manner, Source},
+    carry::{CarryError, Departure, Manner},
+    source::Source,
 };
 use crate::{
     config::RunConfig,

@@ -20,6 +20,7 @@ mod journey;
 mod names;
 mod origin;
 mod settings;
+mod source;
 mod stages;
 
 pub use carry::CarryError;

@@ -6,6 +6,7 @@ use crate::{
     setup::Setup,
 };
 use creatures::Sensor;
+use envs_rapier::Variation;
 use ne_core::{Decision, Phenotype, Progress};
 use ne_net::{Activation, GraphNeuron, GraphShape, Growth};
 use serde_json::json;
@@ -191,6 +192,14 @@ fn errors_name_stage_and_field() {
             two(json!({ "name": "b", "promotion": "usable", "changes": { "variation": null } })),
             "stages[1] (\"b\"): changes.variation: ",
         ),
+        (
+            two(json!({ "name": "b", "changes": { "variation": "ligth" } })),
+            "stages[1] (\"b\"): changes.variation: there is no variation \"ligth\"; did you mean \"light\"?",
+        ),
+        (
+            two(json!({ "name": "b", "changes": { "terrain": "gasp:0.5" } })),
+            "stages[1] (\"b\"): changes.terrain: there is no terrain \"gasp\"",
+        ),
         (two(json!({ "name": "b", "changes": { "rehersal": 5 } })), "stages[1] (\"b\"): changes."),
         (
             two(json!({ "name": "b", "changes": { "seed": 5 } })),
@@ -217,6 +226,10 @@ fn errors_name_stage_and_field() {
         let error = stages(given.clone()).expect_err("it is wrong");
         assert!(error.starts_with(message), "{given}: {error}");
     }
+    // A variation and a terrain can be named.
+    let named = stages(two(json!({ "name": "b", "changes": { "variation": "strong", "terrain": "gaps:0.5" } })));
+    let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));
+    assert_eq!(named, Some((Variation::strong(), "gaps:0.5".parse().expect("a terrain"))));
     // What was learned may be given up if that is said.
     let forgetful = json!({ "name": "b", "forget": true, "changes": { "sensors": ["joint-angles"] } });
     assert!(stages(two(forgetful)).is_ok());

@@ -222,6 +222,24 @@ fn a_run_goes_on_from_another_run_or_a_champion() -> Outcome {
 }
 
 #[test]
+fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    // It cannot get any finer, so every generation is followed by a restart.
+    succeed(small_run(&path("first"), 3).args(["--quiet", "--set", "strategy.cma-es.least_deviation=0.5"]));
+    let origin = |out: &str, more: &[&str]| {
+        let mut train = gambol("train");
+        train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
+        train.args(["--generations", "2", "--from"]).arg(path("first")).arg("--out").arg(path(out)).args(more);
+        succeed(&mut train);
+        json(&path(out).join("config.json"))["content"]["origin"]["carried"].clone()
+    };
+    assert_eq!(origin("second", &[]), json!("champion"));
+    assert_eq!(origin("third", &["--carry", "population"]), json!("population"));
+    Ok(())
+}
+
+#[test]
 fn what_cannot_be_carried_is_said_before_training() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);

@@ -1,0 +1,163 @@
+//! What a new search can begin from: a run, or a champion alone.
+
+use super::{carry::CarryError, names};
+use crate::{
+    champion::{Champion, ChannelRecord},
+    config::{RunConfig, StrategySettings},
+    run_folder::{FolderError, RunFolder},
+    search::{Search, SearchVisitor},
+    setup::Setup,
+};
+use ne_core::Checkpoint;
+use ne_net::Topology;
+use std::path::Path;
+use tasks::MovementCatalogue;
+
+/// What a new search can begin from.
+pub(crate) struct Source {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+}
+
+pub(super) enum Kind {
+    Run { folder: RunFolder, config: Box<RunConfig>, setup: Box<Setup> },
+    Champion(Box<Champion>),
+}
+
+impl Source {
+    /// A run folder, or a champion file.
+    pub(crate) fn open(path: &Path, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+        let name = path.display().to_string();
+        if !path.is_dir() {
+            let champion = Champion::read(path).map_err(FolderError::from)?;
+            return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
+        }
+        let folder = RunFolder::open(path)?;
+        Self::run(name, folder, catalogue)
+    }
+
+    /// A run, under a name of its own.
+    pub(crate) fn run(name: String, folder: RunFolder, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+        if !folder.checkpoint().is_file() {
+            return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
+        }
+        let config = folder.read_config()?;
+        let setup = Setup::new(&config, catalogue)?;
+        Ok(Self { name, kind: Kind::Run { folder, config: Box::new(config), setup: Box::new(setup) } })
+    }
+
+    pub(super) fn strategy(&self) -> &str {
+        match &self.kind {
+            Kind::Run { config, .. } => config.strategy.name(),
+            Kind::Champion(champion) => &champion.strategy,
+        }
+    }
+
+    pub(super) fn channels(&self) -> [Vec<ChannelRecord>; 2] {
+        match &self.kind {
+            Kind::Run { setup, .. } => {
+                [setup.inputs(), setup.outputs()].map(|channels| channels.iter().map(Into::into).collect())
+            }
+            Kind::Champion(champion) => [champion.inputs.clone(), champion.outputs.clone()],
+        }
+    }
+
+    /// The strategy's settings, unless it is a champion alone.
+    pub(super) fn settings(&self) -> Option<&StrategySettings> {
+        match &self.kind {
+            Kind::Run { config, .. } => Some(&config.strategy),
+            Kind::Champion(_) => None,
+        }
+    }
+
+    /// Whether the search of a run has left what it had found.
+    pub(super) fn has_begun_anew(&self) -> Result<bool, CarryError> {
+        match &self.kind {
+            Kind::Run { folder, config, .. } => config.strategy.visit(HasBegunAnew { folder }),
+            Kind::Champion(_) => Ok(false),
+        }
+    }
+
+    /// The net of the champion: its topology, its weights, and their names; expressed, or with its genes as they are
+    /// searched.
+    pub(super) fn champion(&self, expressed: bool) -> Result<ChampionNet, CarryError> {
+        let [inputs, outputs] = self.channels().map(|channels| names_of(&channels));
+        match &self.kind {
+            Kind::Champion(champion) => {
+                let topology = champion.network.topology();
+                let names = names::of_weights(&topology, &inputs, &outputs);
+                let weights = champion.network.weights().to_vec();
+                Ok(ChampionNet { topology, weights, names, generation: champion.generation })
+            }
+            Kind::Run { folder, config, setup } => {
+                let found = config.strategy.visit(ReadChampion { folder, expressed })?;
+                let (topology, weights, generation) =
+                    found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
+                let names = match topology == setup.topology {
+                    true => setup.weight_names.clone(),
+                    false => names::of_weights(&topology, &inputs, &outputs),
+                };
+                Ok(ChampionNet { topology, weights, names, generation })
+            }
+        }
+    }
+}
+
+pub(super) struct ChampionNet {
+    pub(super) topology: Topology,
+    pub(super) weights: Vec<f32>,
+    pub(super) names: Vec<String>,
+    pub(super) generation: u64,
+}
+
+pub(super) fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
+    channels.iter().map(|channel| channel.name.clone()).collect()
+}
+
+/// Asks the strategy in a checkpoint whether it has begun anew, and whether there is a champion to begin at.
+struct HasBegunAnew<'a> {
+    folder: &'a RunFolder,
+}
+
+impl SearchVisitor for HasBegunAnew<'_> {
+    type Output = Result<bool, CarryError>;
+
+    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
+        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
+        let someone = checkpoint.champion.is_some() || !checkpoint.finalists.is_empty();
+        Ok(checkpoint.strategy.has_begun_anew() && someone)
+    }
+
+    fn foreign(self, _: &str) -> Self::Output {
+        Ok(false)
+    }
+}
+
+/// Reads the champion out of a checkpoint, or the best that waits for the first hearing: its topology and weights, and the generation it was found in.
+struct ReadChampion<'a> {
+    folder: &'a RunFolder,
+    expressed: bool,
+}
+
+impl SearchVisitor for ReadChampion<'_> {
+    type Output = Result<Option<(Topology, Vec<f32>, u64)>, CarryError>;
+
+    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
+        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
+        let Checkpoint { champion, finalists, .. } = checkpoint;
+        let heard = champion.map(|champion| (champion.genome, champion.generation));
+        // Before the first hearing the best of those who wait for it stands in; of equals the first.
+        let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
+        let best = heard.or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
+        Ok(best.map(|(genome, generation)| {
+            let (topology, weights) = S::net(&genome, self.expressed);
+            (topology, weights, generation)
+        }))
+    }
+
+    fn foreign(self, name: &str) -> Self::Output {
+        Err(CarryError::Impossible(format!(
+            "the strategy \"{name}\" belongs to another program, which alone can read it"
+        )))
+    }
+}
