@@ -1,6 +1,7 @@
 //! From a configuration to the things a run is made of.
 
 use crate::{
+    bodies,
     config::{ControllerSettings, EngineChoice, FrozenTopology, HeatSettings, RunConfig, StrategySettings},
     gait::Stage,
     limbs::{self, Limbs},
@@ -14,7 +15,7 @@ use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials, gait::Kind};
 
-pub use crate::{nominal::Nominal, training_task::TrainingTask};
+pub use crate::{bodies::SeveralBodies, nominal::Nominal, training_task::TrainingTask};
 
 /// The task and the topology of the controller a configuration describes: checked, built, ready.
 #[derive(Clone)]
@@ -25,7 +26,7 @@ pub struct Setup {
     heats: Vec<HeatSettings>,
     /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
-    /// Where the champion is chosen, if training varies the world.
+    /// Where the champion is chosen, if training varies the world, shortens the episode or has several bodies.
     pub nominal: Option<Nominal>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,
@@ -66,6 +67,19 @@ pub enum SetupError {
     /// The topology was made for another creature, or for other sensors.
     #[error("the topology does not fit the creature: {0}")]
     Topology(String),
+    /// A companion cannot be built, or its inputs and outputs are not those of the creature.
+    #[error("companions[{index}] (\"{name}\"): {problem}")]
+    Companion {
+        /// Which, from 0.
+        index: usize,
+        /// Its name.
+        name: String,
+        /// What is wrong with it.
+        problem: Box<SetupError>,
+    },
+    /// Two bodies cannot have one net.
+    #[error("one net cannot move it and the creature: {0}")]
+    Channels(String),
     /// A topology is given to a strategy that searches for one.
     #[error("topology: NEAT finds its own, and cannot keep one; choose another strategy for its weights")]
     Evolving,
@@ -164,7 +178,7 @@ impl EpisodeParts<'_> {
     }
 
     /// Builds the task in rapier, and in the engine of training.
-    fn build_both(
+    pub(crate) fn build_both(
         &self,
         engine: EngineChoice,
         catalogue: &MovementCatalogue,
@@ -229,7 +243,9 @@ impl Setup {
         if let Some(steps) = config.rehearsal {
             SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
         }
-        let nominal = match config.variation.is_none() && config.rehearsal.is_none() {
+        let is_judged_as_trained =
+            config.variation.is_none() && config.rehearsal.is_none() && config.companions.is_empty();
+        let nominal = match is_judged_as_trained {
             true => None,
             false => {
                 let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
@@ -243,12 +259,13 @@ impl Setup {
         };
         if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
             let allowed = format!(
-                "null where no gaits are judged during training: only those of {} are, and only in runs with a variation or a \
-                 rehearsal",
+                "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
+                 rehearsal or companions",
                 Kind::JUDGED.join(", ")
             );
             return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
         }
+        let task = bodies::with_companions(config, task, [senses, motors], catalogue)?;
         let task = match config.rehearsal {
             Some(steps) => task.shortened(steps),
             None => task,
@@ -335,7 +352,7 @@ impl FrozenTopology {
                     .within("topology")
                     .into());
             }
-            if let Some(difference) = difference(what, mine, channels) {
+            if let Some(difference) = difference("topology", what, mine, channels) {
                 return Err(SetupError::Topology(difference));
             }
         }
@@ -343,8 +360,8 @@ impl FrozenTopology {
     }
 }
 
-/// Says how the names of a topology's inputs or outputs differ from those of the creature.
-fn difference(what: &str, mine: &[String], channels: &[Channel]) -> Option<String> {
+/// Says how the names of the inputs or outputs of a topology, or of something else, differ from those of the creature.
+pub(crate) fn difference(whose: &str, what: &str, mine: &[String], channels: &[Channel]) -> Option<String> {
     let theirs: Vec<&String> = channels.iter().map(|channel| &channel.name).collect();
     let only = |names: Vec<&String>| names.into_iter().map(|name| format!("\"{name}\"")).collect::<Vec<_>>().join(", ");
     let missing = only(mine.iter().filter(|name| !theirs.contains(name)).collect());
@@ -357,8 +374,8 @@ fn difference(what: &str, mine: &[String], channels: &[Channel]) -> Option<Strin
             Some(format!("its {what} are in another order: \"{mine}\" where the creature has \"{theirs}\""))
         }
         (false, true) => Some(format!("{counts}; {missing} is not among the creature's")),
-        (true, false) => Some(format!("{counts}; {new} is not among the topology's")),
-        (false, false) => Some(format!("{counts}; only the topology has {missing}, only the creature has {new}")),
+        (true, false) => Some(format!("{counts}; {new} is not among the {whose}'s")),
+        (false, false) => Some(format!("{counts}; only the {whose} has {missing}, only the creature has {new}")),
     }
 }
 

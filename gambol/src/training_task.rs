@@ -1,4 +1,4 @@
-use crate::config::EngineChoice;
+use crate::{bodies::SeveralBodies, config::EngineChoice};
 use envs_lanes::LaneEpisode;
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Phenotype, Seed, Task};
@@ -11,6 +11,8 @@ pub enum TrainingTask {
     Rapier(Box<Episode<RapierEnvironment>>),
     /// Many creatures at once.
     Lanes(Box<LaneEpisode>),
+    /// In several bodies.
+    Several(Box<SeveralBodies>),
 }
 
 impl TrainingTask {
@@ -19,6 +21,7 @@ impl TrainingTask {
         match self {
             Self::Rapier(_) => EngineChoice::Rapier,
             Self::Lanes(_) => EngineChoice::Lanes,
+            Self::Several(several) => several.bodies()[0].engine(),
         }
     }
 
@@ -28,6 +31,7 @@ impl TrainingTask {
         match self {
             Self::Rapier(episode) => Self::Rapier(Box::new(episode.shortened(steps))),
             Self::Lanes(episode) => Self::Lanes(Box::new(episode.shortened(steps))),
+            Self::Several(several) => Self::Several(Box::new(several.map(|task| task.shortened(steps)))),
         }
     }
 
@@ -37,6 +41,7 @@ impl TrainingTask {
         match self {
             Self::Rapier(episode) => Self::Rapier(Box::new(episode.with_fewer_trials(count))),
             Self::Lanes(episode) => Self::Lanes(Box::new(episode.with_fewer_trials(count))),
+            Self::Several(several) => Self::Several(Box::new(several.map(|task| task.with_fewer_trials(count)))),
         }
     }
 
@@ -45,6 +50,7 @@ impl TrainingTask {
         match self {
             Self::Rapier(episode) => episode.steps(),
             Self::Lanes(episode) => episode.steps(),
+            Self::Several(several) => several.bodies()[0].steps(),
         }
     }
 
@@ -52,6 +58,7 @@ impl TrainingTask {
         match self {
             Self::Rapier(episode) => &**episode,
             Self::Lanes(episode) => &**episode,
+            Self::Several(several) => &**several,
         }
     }
 }

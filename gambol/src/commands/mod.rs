@@ -27,6 +27,7 @@ mod train;
 mod verify;
 
 use clap::{Parser, Subcommand};
+use gambol::config::RunConfig;
 use ne_core::StopSignal;
 use std::{error::Error, process::ExitCode};
 
@@ -50,6 +51,14 @@ fn stop_on_interrupt(signal: &StopSignal) -> Result<(), ctrlc::Error> {
         eprintln!("\nfinishing this generation, then saving; Ctrl-C once more to stop at once");
         on_interrupt.stop();
     })
+}
+
+/// ` in 3 bodies`, where a creature has companions.
+fn in_bodies(config: &RunConfig) -> String {
+    match config.companions.len() {
+        0 => String::new(),
+        companions => format!(" in {} bodies", companions + 1),
+    }
 }
 
 /// Gambol evolves controllers for 2D creatures: pick a creature and a movement, watch it learn, keep the gait.

@@ -24,7 +24,7 @@ pub(super) struct Show {
     first: Option<u64>,
     last_line: Option<Instant>,
     limit: Option<u64>,
-    /// Whether every generation has another world, so that its best is not yet the champion.
+    /// Whether every generation has another world, or other bodies, so that its best is not yet the champion.
     varied: bool,
 }
 
@@ -53,7 +53,8 @@ impl Show {
                 .population()
                 .map_or_else(String::new, |population| format!("population {population}, "));
             let (creature, movement) = (&config.creature.name, &config.movement.name);
-            eprintln!("{creature} learns {movement}: {population}seed {}", config.seed);
+            let bodies = super::in_bodies(config);
+            eprintln!("{creature} learns {movement}{bodies}: {population}seed {}", config.seed);
         }
         Self {
             manner,
@@ -62,14 +63,14 @@ impl Show {
             first: None,
             last_line: None,
             limit,
-            varied: !config.variation.is_none(),
+            varied: is_varied(config),
         }
     }
 
     /// A stage begins, or is taken up again: of a run of `stages`, if they are listed.
     pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
         (self.start, self.first, self.last_line) = (Instant::now(), None, None);
-        self.varied = !planned.config.variation.is_none();
+        self.varied = is_varied(&planned.config);
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
         match &self.manner {
@@ -160,6 +161,11 @@ impl Show {
         }
         Ok(())
     }
+}
+
+/// Whether the best of a generation is not yet the champion.
+fn is_varied(config: &RunConfig) -> bool {
+    !config.variation.is_none() || !config.companions.is_empty()
 }
 
 /// What is said where lanes and rapier should agree and do not.

@@ -81,6 +81,10 @@ pub struct RunConfig {
     pub sensors: Option<Vec<Sensor>>,
     /// The body.
     pub creature: Creature,
+    /// Further bodies in which every individual is evaluated in training, each with the creature's inputs and outputs; at
+    /// most 15, none by default. What they come to is combined as trials are; the champion is chosen in `creature` alone.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub companions: Vec<Creature>,
 }
 
 /// The net between sensors and motors.

@@ -108,6 +108,7 @@ impl Preset {
             origin: None,
             sensors: None,
             creature,
+            companions: Vec::new(),
         };
         if movement == "swimming" {
             // Only rapier has water.

@@ -34,9 +34,11 @@ pub struct Request {
     pub strategy: Option<String>,
     /// A champion whose topology is to be kept while its weights are searched for anew.
     pub topology_from: Option<PathBuf>,
-    /// A configuration file laid over the preset. Its `creature` may be a whole creature, a name, or a path (seen from
-    /// the file's folder).
+    /// A configuration file laid over the preset. Its `creature` and `companions`, those of its stages too, may be whole
+    /// creatures, names, or paths (seen from the file's folder).
     pub config: Option<PathBuf>,
+    /// Companions of the creature: shipped creatures' names or creature files; if any, in place of the configuration file's.
+    pub companions: Vec<String>,
     /// Single settings, `key=value`.
     pub set: Vec<String>,
     /// The engine of training, by name.
@@ -101,6 +103,9 @@ impl Request {
     /// Names the file, field or setting that is wrong, and the nearest valid name.
     pub fn resolve(&self, catalogue: &MovementCatalogue) -> Result<RunConfig, RequestError> {
         let mut layer = self.config.as_deref().map(Layer::read).transpose()?;
+        if let Some(layer) = &mut layer {
+            layer.find_companions()?;
+        }
         let creature = self.creature(layer.as_ref())?;
         let movement = self.movement(layer.as_ref(), catalogue)?;
         let mut base = self.preset(layer.as_ref())?.config(creature, &movement);
@@ -126,6 +131,10 @@ impl Request {
         if let Some(path) = &self.topology_from {
             let topology = FrozenTopology::of(&Champion::read(path)?);
             assembly.lay_over(json!({ "topology": topology }));
+        }
+        if !self.companions.is_empty() {
+            let companions = self.companions.iter().map(|name| source::creature(name));
+            assembly.lay_over(json!({ "companions": companions.collect::<Result<Vec<_>, _>>()? }));
         }
         assembly.lay_over(self.choices()?);
         for assignment in &self.set {
@@ -165,16 +174,7 @@ impl Request {
         let Some((layer, value)) = layer.and_then(|layer| Some((layer, layer.value.get("creature")?))) else {
             return Err(RequestError::Missing("say which creature: a name (see: gambol creatures) or a creature file"));
         };
-        if let Some(name) = value.as_str() {
-            let beside = layer.path.parent().map(|folder| folder.join(name)).filter(|path| path.is_file());
-            return match beside {
-                Some(path) => Ok(source::creature_file(&path)?),
-                None => source::creature(name).map_err(|error| layer.wrong("creature", error)),
-            };
-        }
-        let blueprint =
-            Blueprint::from_json(&value.to_string()).map_err(|error| layer.wrong("creature", without_place(&error)))?;
-        Ok(blueprint.creature().clone())
+        layer.creature("creature", value)
     }
 
     fn movement(&self, layer: Option<&Layer>, catalogue: &MovementCatalogue) -> Result<String, RequestError> {
@@ -272,6 +272,37 @@ impl Layer {
         let text = fs::read_to_string(path).map_err(|source| RequestError::Read { path: path.into(), source })?;
         let value = super::assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
         Ok(Self { path: path.into(), value })
+    }
+
+    /// The creature that a field of this file names, or is.
+    fn creature(&self, field: &str, value: &Value) -> Result<Creature, RequestError> {
+        if let Some(name) = value.as_str() {
+            let beside = self.path.parent().map(|folder| folder.join(name)).filter(|path| path.is_file());
+            return match beside {
+                Some(path) => Ok(source::creature_file(&path)?),
+                None => source::creature(name).map_err(|error| self.wrong(field, error)),
+            };
+        }
+        let blueprint =
+            Blueprint::from_json(&value.to_string()).map_err(|error| self.wrong(field, without_place(&error)))?;
+        Ok(blueprint.creature().clone())
+    }
+
+    /// Puts creatures in the place of their names: of the companions of the run, and of each of its stages.
+    fn find_companions(&mut self) -> Result<(), RequestError> {
+        let stages = self.value.get("stages").and_then(Value::as_array).map_or(0, Vec::len);
+        let of_stage =
+            |stage| (format!("/stages/{stage}/changes/companions"), format!("stages[{stage}].changes.companions"));
+        let of_run = ("/companions".to_owned(), "companions".to_owned());
+        for (place, field) in std::iter::once(of_run).chain((0..stages).map(of_stage)) {
+            let Some(named) = self.value.pointer(&place).and_then(Value::as_array) else { continue };
+            let found = named.iter().enumerate().map(|(index, it)| self.creature(&format!("{field}[{index}]"), it));
+            let found = json!(found.collect::<Result<Vec<_>, _>>()?);
+            if let Some(companions) = self.value.pointer_mut(&place) {
+                *companions = found;
+            }
+        }
+        Ok(())
     }
 
     fn text(&self, pointer: &str) -> Option<&str> {

@@ -209,6 +209,10 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         let objectives = config.movement.objectives.iter().map(|term| format!("{} × {}", term.weight, term.term));
         facts.insert(2, Fact::new("Objectives", objectives.collect::<Vec<_>>().join(", ")));
     }
+    if !config.companions.is_empty() {
+        let names: Vec<&str> = config.companions.iter().map(|companion| companion.name.as_str()).collect();
+        facts.insert(1, Fact::new("Companions in training", names.join(", ")));
+    }
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts
 }

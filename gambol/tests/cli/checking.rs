@@ -47,6 +47,15 @@ fn every_shipped_creature_is_valid() -> Outcome {
 }
 
 #[test]
+fn every_shipped_configuration_is_valid() -> Outcome {
+    for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaping"))? {
+        let printed = succeed(gambol("check").arg(entry?.path()));
+        assert_says(&printed, &["a valid configuration", "\n  stage 1 ", "\n  stage 2 "]);
+    }
+    Ok(())
+}
+
+#[test]
 fn the_files_of_a_run_are_valid() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");

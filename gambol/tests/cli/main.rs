@@ -8,6 +8,7 @@ mod bad_settings;
 mod broken_runs;
 mod checking;
 mod coaching;
+mod companions;
 mod comparing;
 mod damage;
 mod engines;

@@ -1,0 +1,152 @@
+//! Fitness over several bodies: one net that has to move them all.
+
+use crate::{
+    config::RunConfig,
+    setup::{EpisodeParts, SetupError, TrainingTask, difference},
+};
+use creatures::{Channel, Creature};
+use ne_core::{Evaluation, Fitness, Phenotype, Seed, SettingError, Task};
+use tasks::{Combine, MovementCatalogue};
+
+/// The most companions a creature can have.
+const MOST_COMPANIONS: usize = 15;
+
+/// The same episodes in several bodies, in each of which every individual is evaluated with the same seed.
+///
+/// An evaluation is put together of one in each body as one is of trials: the mean or the worst of their fitnesses, the
+/// means of objectives and measurements, the sum of steps. Bodies come one after the other, and whoever fails in one is
+/// not tried in those that follow.
+#[derive(Clone)]
+pub struct SeveralBodies {
+    /// At least one.
+    bodies: Vec<TrainingTask>,
+    combine: Combine,
+}
+
+impl SeveralBodies {
+    /// In this body, and in others with as many inputs and outputs.
+    pub(crate) fn new(first: TrainingTask, others: Vec<TrainingTask>, combine: Combine) -> Self {
+        Self { bodies: [vec![first], others].concat(), combine }
+    }
+
+    /// The task in each body alone; the first is that of the creature itself.
+    pub fn bodies(&self) -> &[TrainingTask] {
+        &self.bodies
+    }
+
+    /// The same with each body's task changed.
+    pub(crate) fn map(&self, change: impl Fn(&TrainingTask) -> TrainingTask) -> Self {
+        Self { bodies: self.bodies.iter().map(change).collect(), combine: self.combine }
+    }
+
+    /// One evaluation, of those in the bodies; the last may have failed.
+    fn together(&self, evaluations: &[Evaluation]) -> Evaluation {
+        let steps = evaluations.iter().map(|evaluation| evaluation.steps).sum();
+        if let Some(Err(failure)) = evaluations.last().map(|evaluation| &evaluation.outcome) {
+            return Evaluation::failed(failure.clone()).with_steps(steps);
+        }
+        let count = evaluations.len() as f64;
+        let fitnesses = evaluations.iter().filter_map(Evaluation::fitness).map(Fitness::get);
+        let fitness = match self.combine {
+            Combine::Mean => fitnesses.sum::<f64>() / count,
+            Combine::Worst => fitnesses.fold(f64::INFINITY, f64::min),
+        };
+        let mut all = Evaluation::new(fitness).with_steps(steps);
+        for evaluation in evaluations {
+            all.objectives.resize(evaluation.objectives.len(), 0.0);
+            for (mean, objective) in all.objectives.iter_mut().zip(&evaluation.objectives) {
+                *mean += objective / count;
+            }
+            for (name, value) in &evaluation.measurements {
+                *all.measurements.entry(name.clone()).or_default() += value / count;
+            }
+        }
+        all
+    }
+}
+
+impl Task for SeveralBodies {
+    fn inputs(&self) -> usize {
+        self.bodies[0].inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.bodies[0].outputs()
+    }
+
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        self.evaluate_batch(&mut [phenotype], seed).remove(0)
+    }
+
+    fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
+        let mut evaluations: Vec<Vec<Evaluation>> = vec![Vec::new(); phenotypes.len()];
+        for body in &self.bodies {
+            let fine = |so_far: &[Evaluation]| so_far.last().is_none_or(|last| last.outcome.is_ok());
+            let able: Vec<usize> = (0..phenotypes.len()).filter(|&index| fine(&evaluations[index])).collect();
+            let mut able_phenotypes: Vec<&mut dyn Phenotype> = phenotypes
+                .iter_mut()
+                .enumerate()
+                .filter(|(index, _)| able.binary_search(index).is_ok())
+                .map(|(_, phenotype)| &mut **phenotype)
+                .collect();
+            for (index, evaluation) in able.into_iter().zip(body.evaluate_batch(&mut able_phenotypes, seed)) {
+                evaluations[index].push(evaluation);
+            }
+        }
+        evaluations.iter().map(|evaluations| self.together(evaluations)).collect()
+    }
+
+    fn batch_size(&self) -> usize {
+        self.bodies[0].batch_size()
+    }
+}
+
+/// The task of a configuration in its creature and its companions; `alone` is that in its creature, which has these inputs
+/// and outputs.
+///
+/// # Errors
+/// If there are too many companions, or one cannot be built, or senses or moves something else than the creature.
+pub(crate) fn with_companions(
+    config: &RunConfig,
+    alone: TrainingTask,
+    channels: [&[Channel]; 2],
+    catalogue: &MovementCatalogue,
+) -> Result<TrainingTask, SetupError> {
+    let count = config.companions.len();
+    if count > MOST_COMPANIONS {
+        let allowed = format!("at most {MOST_COMPANIONS} creatures");
+        return Err(SettingError::new("companions", format!("{count} creatures"), allowed).into());
+    }
+    if count == 0 {
+        return Ok(alone);
+    }
+    let companion = |(index, creature): (usize, &Creature)| {
+        let parts = EpisodeParts { creature, ..config.episode_parts() };
+        let built = parts.build_both(config.engine, catalogue).and_then(|(episode, task)| {
+            let environment = episode.environment();
+            let own = [environment.senses().channels(), environment.motors().channels()];
+            check_channels(own, channels).map(|()| task)
+        });
+        built.map_err(|problem| SetupError::Companion {
+            index,
+            name: creature.name.clone(),
+            problem: Box::new(problem),
+        })
+    };
+    let others = config.companions.iter().enumerate().map(companion).collect::<Result<_, _>>()?;
+    Ok(TrainingTask::Several(Box::new(SeveralBodies::new(alone, others, config.trials.combine))))
+}
+
+/// Checks that a companion has the inputs and outputs of the creature, by name and in order.
+fn check_channels(own: [&[Channel]; 2], creatures: [&[Channel]; 2]) -> Result<(), SetupError> {
+    for (what, (own, creatures)) in ["inputs", "outputs"].into_iter().zip(own.into_iter().zip(creatures)) {
+        let own: Vec<String> = own.iter().map(|channel| channel.name.clone()).collect();
+        if let Some(difference) = difference("companion", what, &own, creatures) {
+            return Err(SetupError::Channels(difference));
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;
