@@ -1,4 +1,4 @@
-//! The experiment behind shaping: does it help to run on the flat before leaping gaps, and to run before being thrifty?
+//! The experiment behind shaping: does it help to run on the flat before leaping gaps? `thrift.rs` has the one on thrift.
 //!
 //! Without arguments it is a matter of seconds and proves nothing; ten paired seeds, as docs/shaping.md has them:
 //!

@@ -1,7 +1,7 @@
 use crate::{
-    Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping, Idleness, Jumping,
-    Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, Swimming, TimeAloft, Upright, Vibration,
-    Walking,
+    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping,
+    Idleness, Jumping, Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, Swimming, TimeAloft,
+    Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -154,6 +154,11 @@ impl Default for MovementCatalogue {
             Some(2000),
             "distance covered at a walk; settings: speed, body lengths/s (1)",
             Walking::new,
+        );
+        catalogue.add_with_settings(
+            Some(2000),
+            "distance at a wanted speed, discounted by its cost of transport; settings: speed, body lengths/s (2)",
+            Cruising::new,
         );
         catalogue.add_with_settings(
             Some(1000),

@@ -54,9 +54,10 @@ pub use classic::{
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
-    Backwards, Carrying, Climbing, Energy, FallEnds, Footfalls, GettingUp, GettingUpSettings, Headway, HeadwaySettings,
-    Honest, Hopping, Idleness, Jumping, Leap, LongJump, Movement, MovementClone, Objectives, Rollovers, Running,
-    Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
+    Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
+    GettingUpSettings, Headway, HeadwaySettings, Honest, Hopping, Idleness, Jumping, Leap, LongJump, Movement,
+    MovementClone, Objectives, Rollovers, Running, Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright,
+    Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trials};

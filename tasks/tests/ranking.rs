@@ -1,9 +1,11 @@
 //! The movements beyond running and jumping, on a puppet whose every move is written by hand: what is meant is worth most,
 //! and what only looks like it is worth less.
 
+use proptest::prelude::*;
 use tasks::{
-    Backwards, Body, BodyPart, Carrying, Climbing, GettingUp, GettingUpSettings, Headway, HeadwaySettings, Hopping,
-    LongJump, Movement, PartState, Snapshot, Standing, StandingSettings, Swimming, Verdict, Walking, WalkingSettings,
+    Backwards, Body, BodyPart, Carrying, Climbing, Cruising, CruisingSettings, GettingUp, GettingUpSettings, Headway,
+    HeadwaySettings, Hopping, LongJump, Movement, PartState, Snapshot, Standing, StandingSettings, Swimming, Verdict,
+    Walking, WalkingSettings,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -43,6 +45,8 @@ struct Pose {
     ground: [f32; 2],
     aloft: bool,
     torso_touches: bool,
+    /// Of the motors since the start, J.
+    work: f64,
 }
 
 impl Pose {
@@ -65,7 +69,7 @@ impl Pose {
             touching: !self.aloft && !self.torso_touches,
             ..PartState::default()
         };
-        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: 0.0 }
+        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: self.work }
     }
 }
 
@@ -281,6 +285,56 @@ fn carrying_is_to_run_level() {
         phase => Pose { x: 1.0 - phase, turn: 1.0, ..Pose::default() },
     };
     assert!(worth(&rocking) < 0.05);
+}
+
+/// Gets ahead at a speed, m/s, with the motors at a power, W.
+fn powered(speed: f32, power: f32) -> impl Fn(f32) -> Pose {
+    move |time| Pose { x: speed * time, work: f64::from(power * time), ..Pose::default() }
+}
+
+#[test]
+fn cruising_is_to_be_as_fast_as_wanted_and_cheap() {
+    /// W, with which the puppet of 3 kg has a cost of transport of 1 at 2 m/s.
+    const POWER: f32 = 2.0 * 3.0 * GRAVITY;
+    let worth = |pose: &dyn Fn(f32) -> Pose| value(Cruising::default(), 10.0, pose);
+    assert_near(worth(&powered(2.0, 0.0)), 20.0);
+    assert_near(worth(&powered(2.0, POWER)), 10.0);
+    assert_near(worth(&powered(1.0, POWER)), 10.0 / 3.0);
+    assert_ranked(&[
+        ("cheap", worth(&powered(2.0, 0.5 * POWER))),
+        ("as fast as wanted", worth(&powered(2.0, POWER))),
+        ("faster, for as much a metre", worth(&powered(5.0, 2.5 * POWER))),
+        ("half as fast, for as much a metre", worth(&powered(1.0, 0.5 * POWER))),
+        ("slow", worth(&powered(0.2, POWER))),
+        ("kicking on the spot", worth(&powered(0.0, POWER))),
+        ("backwards", worth(&powered(-1.0, POWER))),
+    ]);
+    assert_eq!(worth(&powered(5.0, POWER)), worth(&powered(2.0, POWER)), "more speed than is wanted earns nothing");
+    assert_eq!(worth(&powered(0.0, 0.0)), 0.0, "still");
+    assert_near(worth(&powered(-1.0, 0.0)), -10.0);
+    assert_near(worth(&powered(-1.0, POWER)), -10.0);
+    // Falls by 0.3 m, for nothing, and lies there.
+    assert_near(worth(&|time| Pose { x: time.min(0.3), torso_touches: time > 0.3, ..Pose::default() }), 0.3);
+    let leisurely = Cruising::new(CruisingSettings { speed: 0.5 }).expect("a speed");
+    assert_near(value(leisurely, 10.0, powered(2.0, 0.0)), 5.0);
+}
+
+proptest! {
+    /// It never pays to spend more, nor to get less far, and nobody gets more than the way.
+    #[test]
+    fn cruising_pays_for_way_and_thrift(
+        speed in -5.0..5.0_f32,
+        more in 0.0..2.0_f32,
+        power in 0.0..1000.0_f32,
+        spared in 0.0..1.0_f32,
+    ) {
+        let worth = |speed: f32, power: f32| value(Cruising::default(), 2.0, powered(speed, power));
+        let plain = worth(speed, power);
+        prop_assert!(plain.is_finite() && plain <= 2.0 * f64::from(speed.abs()));
+        prop_assert!((plain >= 0.0) == (speed >= 0.0));
+        prop_assert!(worth(speed, spared * power) >= plain);
+        prop_assert!(worth(speed + more, power) >= plain);
+    }
 }
 
 #[test]

@@ -30,6 +30,10 @@ fn wrong_settings_are_named_with_their_field() {
             json!({ "name": "walking", "settings": { "speed": null } }),
             "settings.speed: invalid type: null, expected f64",
         ),
+        (
+            json!({ "name": "cruising", "settings": { "speed": 100.5 } }),
+            "settings.speed = 100.5: must be from 0 to 100",
+        ),
         (json!({ "name": "standing", "settings": { "after": -0.5 } }), "settings.after = -0.5: must be from 0 to 1000"),
         (
             json!({ "name": "getting-up", "settings": { "turn": 5 } }),
@@ -78,6 +82,7 @@ proptest! {
         let catalogue = MovementCatalogue::default();
         for (name, field, number, allowed) in [
             ("walking", "speed", speed, (0.0..=100.0).contains(&speed)),
+            ("cruising", "speed", speed, (0.0..=100.0).contains(&speed)),
             ("standing", "after", after, (0.0..=1000.0).contains(&after)),
             ("getting-up", "turn", turn, (10.0..=180.0).contains(&turn.abs())),
         ] {

@@ -54,7 +54,7 @@ enum Movement {
 impl Movement {
     fn of(name: &str) -> Self {
         match name {
-            "running" | "climbing" | "carrying" => Self::Running,
+            "running" | "climbing" | "carrying" | "cruising" => Self::Running,
             "backwards" => Self::Backwards,
             "walking" => Self::Walking,
             "jumping" => Self::Jumping,

@@ -59,6 +59,18 @@ fn legs(folder: &Path) -> Vec<String> {
 }
 
 #[test]
+fn every_shipped_story_is_valid() -> Outcome {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shaping");
+    let stories = fs::read_dir(folder)?.collect::<Result<Vec<_>, _>>()?;
+    assert!(stories.len() >= 2, "{stories:?}");
+    for story in stories {
+        let printed = succeed(gambol("check").arg(story.path()));
+        assert_says(&printed, &["a valid configuration", "until the run ends"]);
+    }
+    Ok(())
+}
+
+#[test]
 fn stages_follow_each_other_and_their_champions_are_kept() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (config, run_folder) = (write(folder.path(), &three_stages()), folder.path().join("run"));

@@ -8,7 +8,7 @@ const CLOCK_ERROR: f64 = 1e-5;
 ///
 /// | movement | judged as | why |
 /// |---|---|---|
-/// | `running`, `climbing`, `carrying` | running | they get ahead, upright and step by step |
+/// | `running`, `climbing`, `carrying`, `cruising` | running | they get ahead, upright and step by step |
 /// | `backwards` | backwards | the same, the other way |
 /// | `swimming` | swimming | it gets ahead, and there is neither ground nor up |
 /// | `jumping`, `long-jump` | jumping | what gets far without getting high off all legs is a stride |
@@ -30,12 +30,13 @@ pub enum Kind {
 
 impl Kind {
     /// The movements whose gaits are judged.
-    pub const JUDGED: [&str; 7] = ["running", "jumping", "long-jump", "climbing", "carrying", "backwards", "swimming"];
+    pub const JUDGED: [&str; 8] =
+        ["running", "jumping", "long-jump", "climbing", "carrying", "cruising", "backwards", "swimming"];
 
     /// How a movement of this name is judged, if it is.
     pub fn of(movement: &str) -> Option<Self> {
         match movement {
-            "running" | "climbing" | "carrying" => Some(Self::Running),
+            "running" | "climbing" | "carrying" | "cruising" => Some(Self::Running),
             "backwards" => Some(Self::Backwards),
             "jumping" | "long-jump" => Some(Self::Jumping),
             "swimming" => Some(Self::Swimming),

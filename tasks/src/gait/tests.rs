@@ -263,7 +263,7 @@ fn names_of_movements_tell_the_kind() {
     assert_eq!(Kind::of("walking"), None);
     let judged: Vec<_> = Kind::JUDGED.iter().filter_map(|movement| Kind::of(movement)).collect();
     use Kind::{Backwards, Jumping, Running, Swimming};
-    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Backwards, Swimming]);
+    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Running, Backwards, Swimming]);
 }
 
 #[test]

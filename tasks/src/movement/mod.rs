@@ -3,6 +3,7 @@
 mod backwards;
 mod carrying;
 mod climbing;
+mod cruising;
 mod energy;
 mod fall_ends;
 mod flights;
@@ -30,6 +31,7 @@ pub use {
     backwards::Backwards,
     carrying::Carrying,
     climbing::Climbing,
+    cruising::{Cruising, CruisingSettings},
     energy::Energy,
     fall_ends::FallEnds,
     footfalls::Footfalls,
