@@ -227,9 +227,9 @@ fn errors_name_stage_and_field() {
         assert!(error.starts_with(message), "{given}: {error}");
     }
     // A variation and a terrain can be named.
-    let named = stages(two(json!({ "name": "b", "changes": { "variation": "strong", "terrain": "gaps:0.5" } })));
+    let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));
     let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));
-    assert_eq!(named, Some((Variation::strong(), "gaps:0.5".parse().expect("a terrain"))));
+    assert_eq!(named, Some((Variation::default(), "gaps:0.5".parse().expect("a terrain"))));
     // What was learned may be given up if that is said.
     let forgetful = json!({ "name": "b", "forget": true, "changes": { "sensors": ["joint-angles"] } });
     assert!(stages(two(forgetful)).is_ok());

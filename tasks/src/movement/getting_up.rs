@@ -3,14 +3,16 @@ use crate::{Body, PartState, Snapshot};
 use ne_core::SettingError;
 use serde::Deserialize;
 
-/// How far it has got up at the end, for a creature that is drawn lying on its back or its side: 0 as it lies, 1 when it
+/// How far it gets up, and stays up, for a creature that is drawn lying on its back or its side: 0 as it lies, 1 when it
 /// stands upright.
 ///
 /// Two fifths of it are the torso's turn from the start pose to upright; the rest, which also needs the turn, is its rise
 /// above where it lay, by 0.8 times the length of its longest leg (without legs the turn is all). A body on its end is
-/// worth at most a quarter, so that it does better to fall over to the right side, even if it lies on its belly then. The
-/// value is a mean that forgets within a few seconds: what is not held until the end is lost, a leap at the end is worth
-/// little, and a somersault that comes to lie again nothing.
+/// worth at most a quarter, so that it does better to fall over to the right side, even if it lies on its belly then. While the
+/// torso moves at half a metre a second, its rise is worth half: up in the air is not up on its legs.
+///
+/// The value is a mean in which each moment counts by the time since the start: what is up early and stays up is worth most, a
+/// leap at the end little, and so is a somersault that comes to lie again.
 #[derive(Clone, Debug)]
 pub struct GettingUp {
     turn: f64,
@@ -19,6 +21,8 @@ pub struct GettingUp {
     start: PartState,
     /// Cosine and sine of the torso's angle when it is upright.
     upright: [f64; 2],
+    /// When it lay, s.
+    begun: f32,
     time: f32,
     up: f64,
 }
@@ -38,8 +42,8 @@ const LEAST: f64 = 10.0;
 const TURN: f64 = 0.4;
 /// Of the longest leg's length.
 const RISE: f64 = 0.8;
-/// How slowly it forgets, s: a leap at the end must not be worth a stand.
-const MEMORY: f64 = 1.5;
+/// The speed of the torso at which its rise is worth half, m/s.
+const HASTE: f64 = 0.5;
 
 impl Default for GettingUpSettings {
     fn default() -> Self {
@@ -70,14 +74,17 @@ impl GettingUp {
             true => ((f64::from(torso.y) - f64::from(self.start.y)) / self.rise).clamp(0.0, 1.0),
             false => 1.0,
         };
-        turned * turned * (TURN + (1.0 - TURN) * risen)
+        // Up in the air is not up on its legs.
+        let (vx, vy) = (f64::from(torso.vx), f64::from(torso.vy));
+        let rest = 1.0 / (1.0 + (vx * vx + vy * vy) / (HASTE * HASTE));
+        turned * turned * (TURN + (1.0 - TURN) * risen * rest)
     }
 }
 
 impl Default for GettingUp {
     fn default() -> Self {
         let turn = GettingUpSettings::default().turn.to_radians();
-        Self { turn, rise: 0.0, start: PartState::default(), upright: [1.0, 0.0], time: 0.0, up: 0.0 }
+        Self { turn, rise: 0.0, start: PartState::default(), upright: [1.0, 0.0], begun: 0.0, time: 0.0, up: 0.0 }
     }
 }
 
@@ -101,13 +108,17 @@ impl Movement for GettingUp {
         let (cos, sin) = (f64::from(self.start.cos), f64::from(self.start.sin));
         let (c, s) = (libm::cos(self.turn), libm::sin(self.turn));
         self.upright = [cos * c - sin * s, sin * c + cos * s];
-        (self.time, self.up) = (start.time, 0.0);
+        (self.begun, self.time, self.up) = (start.time, start.time, 0.0);
     }
 
     fn observe(&mut self, now: &Snapshot) -> Verdict {
-        let seconds = f64::from(now.time) - f64::from(self.time);
+        let before = f64::from(self.time) - f64::from(self.begun);
         self.time = now.time;
-        self.up += (self.height(now.torso()) - self.up) * (seconds / MEMORY).min(1.0);
+        let after = f64::from(self.time) - f64::from(self.begun);
+        if after > 0.0 {
+            // The mean of the height, each moment weighted by its time.
+            self.up += (self.height(now.torso()) - self.up) * (1.0 - (before / after) * (before / after));
+        }
         Verdict::GoOn
     }
 
