@@ -19,7 +19,7 @@ use gambol::{
 };
 use ne_core::{Seed, StopConditions};
 use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
-use std::{error::Error, path::Path};
+use std::{error::Error, fs, path::Path};
 use tasks::{MovementCatalogue, MovementSpec};
 
 /// Crossing so many gaps within 40 s is a success.
@@ -81,10 +81,14 @@ fn median(scores: &Scores) -> f64 {
     scores.rows().next().and_then(|row| quantile(row, 0.5)).unwrap_or(f64::NAN)
 }
 
-/// One run, unless it is there already.
+/// One run, unless it is there already. It has another name until it is complete, so that a killed one is not taken for one.
 fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
-    if folder.join("champion.json").is_file() {
+    if folder.exists() {
         return Ok(());
+    }
+    let part = folder.with_extension("part");
+    if part.exists() {
+        fs::remove_dir_all(&part)?;
     }
     let options = TrainOptions {
         threads: 0,
@@ -93,10 +97,10 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
         on_generation: &mut |_| {},
     };
     let _: Outcome = match config.stages.is_empty() {
-        true => train(config, folder, options)?,
-        false => train_stages(config, folder, Journey { on_leg: &mut |_, _| {} }, options)?,
+        true => train(config, &part, options)?,
+        false => train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?,
     };
-    Ok(())
+    Ok(fs::rename(part, folder)?)
 }
 
 /// How many gaps the champion crosses in 40 s without variation, in rapier, and how far it gets. One of a stage before the

@@ -17,7 +17,7 @@ use gambol::{
 };
 use ne_core::StopConditions;
 use ne_statistics::quantile;
-use std::{error::Error, path::Path};
+use std::{error::Error, fs, path::Path};
 use tasks::{Environment, MovementCatalogue};
 
 /// A champion's gait, as `gambol gait` judges it: 20 s in rapier, without variation.
@@ -72,10 +72,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One run, unless it is there already.
+/// One run, unless it is there already. It has another name until it is complete, so that a killed one is not taken for one.
 fn train(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
-    if folder.join("champion.json").is_file() {
+    if folder.exists() {
         return Ok(());
+    }
+    let part = folder.with_extension("part");
+    if part.exists() {
+        fs::remove_dir_all(&part)?;
     }
     let options = TrainOptions {
         threads: 0,
@@ -83,8 +87,8 @@ fn train(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
-    train_stages(config, folder, Journey { on_leg: &mut |_, _| {} }, options)?;
-    Ok(())
+    train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?;
+    Ok(fs::rename(part, folder)?)
 }
 
 /// What the champion of a stage does.

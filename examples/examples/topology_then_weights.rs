@@ -21,7 +21,7 @@ use gambol::{
 };
 use ne_core::{Rule, Seed, StopConditions, Task};
 use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
-use std::{error::Error, path::Path};
+use std::{error::Error, fs, path::Path};
 use tasks::{MovementCatalogue, MovementSpec};
 
 const ARMS: [&str; 5] = ["topology-then-weights", "class-then-weights", "neat", "dense", "limbs"];
@@ -55,9 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     for seed in 1..=seeds {
         for (arm, name) in arms.iter().enumerate() {
             let path = folder.join(format!("{name}-{seed}"));
-            if !path.join("champion.json").is_file() {
-                run(&config(name, seed, steps, &experiment)?, &path)?;
-            }
+            run(&config(name, seed, steps, &experiment)?, &path)?;
             let (distance, is_usable) = judge(&path)?;
             distances[arm].push(distance);
             usable[arm] += usize::from(is_usable);
@@ -137,14 +135,22 @@ fn with_legs(creature: &Creature, scale: f32) -> Creature {
     scaled
 }
 
+/// One run, unless it is there already. It has another name until it is complete, so that a killed one is not taken for one.
 fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
+    if folder.exists() {
+        return Ok(());
+    }
+    let part = folder.with_extension("part");
+    if part.exists() {
+        fs::remove_dir_all(&part)?;
+    }
     let catalogue = MovementCatalogue::default();
     let options = TrainOptions { threads: 0, catalogue, signal: Default::default(), on_generation: &mut |_| {} };
     match config.stages.is_empty() {
-        true => train(config, folder, options)?,
-        false => train_stages(config, folder, Journey { on_leg: &mut |_, _| {} }, options)?,
+        true => train(config, &part, options)?,
+        false => train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?,
     };
-    Ok(())
+    Ok(fs::rename(part, folder)?)
 }
 
 /// How far the champion gets in 20 s without variation, in rapier, coaching left aside; and whether its gait is usable.

@@ -1,6 +1,9 @@
-use super::Outcome;
+use super::{Outcome, gait::champion_file};
 use clap::Args;
-use gambol::{Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, trajectory::Recording};
+use gambol::{
+    Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::legs,
+    trajectory::Recording,
+};
 use ne_core::archive;
 use std::{
     error::Error,
@@ -20,7 +23,7 @@ Examples:
 The trajectory has a row for each step and part, the start included:
   step,time_s,part,x_m,y_m,angle_rad,ground_contact")]
 pub(crate) struct Replay {
-    /// A champion file; with --point the folder of a run
+    /// A champion file, or the folder of a run
     champion: PathBuf,
     /// Replay this point of the run's front (see: --strategy nsga2), from 1, which is the best in the first objective
     #[arg(long, value_name = "NUMBER")]
@@ -47,11 +50,11 @@ pub(crate) struct Replay {
 
 impl Replay {
     pub(crate) fn run(self) -> Outcome {
-        self.check_outputs()?;
+        self.check_outputs(&champion_file(&self.champion)?)?;
         let catalogue = MovementCatalogue::default();
         let mut champion = match self.point {
             Some(number) => point(&self.champion, number, &catalogue)?,
-            None => Champion::read(&self.champion)?,
+            None => Champion::read(&champion_file(&self.champion)?)?,
         };
         if let Some(path) = &self.save {
             champion.write(path)?;
@@ -94,7 +97,7 @@ impl Replay {
     }
 
     /// Nothing may be overwritten unasked, and the files must be different ones.
-    fn check_outputs(&self) -> Result<(), String> {
+    fn check_outputs(&self, champion: &PathBuf) -> Result<(), String> {
         let outputs =
             [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot), ("champion", &self.save)];
         let outputs: Vec<_> = outputs.iter().filter_map(|(what, path)| Some((what, path.as_ref()?))).collect();
@@ -103,8 +106,8 @@ impl Replay {
             if path.exists() && !self.force {
                 return Err(format!("{} exists; say --force to overwrite it", path.display()));
             }
-            if file(path).is_some_and(|path| Some(path) == file(&self.champion)) {
-                return Err(format!("{} is the champion itself", self.champion.display()));
+            if file(path).is_some_and(|path| Some(path) == file(champion)) {
+                return Err(format!("{} is the champion itself", champion.display()));
             }
             if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| *other == path) {
                 return Err(format!("{} cannot be both the {other} and the {what}", path.display()));
@@ -114,9 +117,11 @@ impl Replay {
     }
 }
 
-/// A point of the front in a run's folder, counted from 1.
+/// A point of the front in a run's folder, counted from 1; of a run with stages, of its latest.
 fn point(folder: &Path, number: usize, catalogue: &MovementCatalogue) -> Result<Champion, Box<dyn Error>> {
-    let folder = RunFolder::open(folder)?;
+    let run = RunFolder::open(folder)?;
+    let latest = legs(&run)?.pop();
+    let folder = latest.map_or(Ok(run), |leg| RunFolder::open(&leg.folder))?;
     let config = folder.read_config()?;
     if !folder.front().is_file() {
         let (path, strategy) = (folder.path().display(), config.strategy.name());

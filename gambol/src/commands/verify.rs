@@ -1,4 +1,4 @@
-use super::{DIVERGED, Outcome};
+use super::{DIVERGED, Outcome, gait::champion_file};
 use clap::Args;
 use gambol::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
 use ne_core::archive;
@@ -13,7 +13,7 @@ Example:
 
 Exit code 0: identical. 3: the replay differs, or the file was changed after it was saved.")]
 pub(crate) struct Verify {
-    /// A champion file
+    /// A champion file, or the folder of a run
     champion: PathBuf,
     /// Print the result as JSON
     #[arg(long)]
@@ -22,7 +22,7 @@ pub(crate) struct Verify {
 
 impl Verify {
     pub(crate) fn run(self) -> Outcome {
-        let path = &self.champion;
+        let path = &champion_file(&self.champion)?;
         // A file whose content was edited is replayed too: the user wants to know what the edit did.
         let (content, digests) = archive::read_unverified(path, CHAMPION_FORMAT, CHAMPION_VERSION)?;
         let champion: Champion = archive::content(path, content)?;

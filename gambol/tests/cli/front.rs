@@ -75,6 +75,19 @@ fn lanes_and_rapier_find_the_same_front() -> Outcome {
     Ok(())
 }
 
+/// Of a run with stages the front is that of the latest.
+#[test]
+fn a_point_of_a_run_with_stages_is_one_of_its_latest_stage() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let stages = r#"stages=[{"name":"run","promotion":{"generations":3}},{"name":"go-on"}]"#;
+    succeed(train(&path, 6).args(["--set", stages]));
+    let [of_run, of_stage] = [path.clone(), path.join("stages/02-go-on")]
+        .map(|path| succeed(gambol("replay").arg(path).args(["--point", "1"])));
+    assert_eq!(of_run, of_stage);
+    Ok(())
+}
+
 /// Each number in the file is what the task of training gives again, and nobody in it beats another.
 #[test]
 fn a_front_holds_what_was_measured() -> Outcome {

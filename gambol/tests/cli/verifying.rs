@@ -50,6 +50,21 @@ fn every_trained_champion_is_identical() -> Outcome {
 }
 
 #[test]
+fn the_folder_of_a_run_stands_for_its_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = trained(&folder);
+    let run = run.parent().expect("a folder");
+    for command in ["verify", "replay"] {
+        let [of_run, of_file] = [run, &run.join("champion.json")].map(|path| succeed(gambol(command).arg(path)));
+        assert_eq!(of_run, of_file);
+    }
+    let itself = fail(gambol("replay").arg(run).arg("--force").arg("--html").arg(run.join("champion.json")));
+    assert_says(&itself, &["champion.json is the champion itself"]);
+    assert_says(&fail(gambol("verify").arg(folder.path())), &["is not the folder of a run"]);
+    Ok(())
+}
+
+#[test]
 fn a_champion_of_several_varied_trials_is_identical() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
