@@ -9,16 +9,16 @@ use ne_net::Growth;
 use std::cmp::Reverse;
 
 impl Neat {
-    /// Goes on with other settings, on another task, or with inputs and outputs that were added: the population last told
-    /// is the first generation, best first. It is divided into species anew.
+    /// Goes on with other settings, on another task, or with other inputs and outputs: the population last told is the
+    /// first generation, best first. It is divided into species anew.
     ///
     /// `inputs` and `outputs` say for each new one which old one it is. A new input is connected with nothing; a new output
-    /// has no connection, and no bias. All genomes are renumbered alike, so that genes that had the same number have the
+    /// has no connection, and no bias. One that is lost takes its connections with it. All genomes are renumbered alike, so that genes that had the same number have the
     /// same number still, and whatever is invented from now on has a number that was never given.
     ///
     /// # Errors
-    /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, an input or output
-    /// is lost, or those that stay change their order.
+    /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, or `inputs` or
+    /// `outputs` are not of these nets.
     pub fn grown(self, settings: NeatSettings, inputs: &Growth, outputs: &Growth) -> Result<Self, SettingError> {
         check("inputs", inputs, self.layout.inputs)?;
         check("outputs", outputs, self.layout.outputs)?;
@@ -32,9 +32,8 @@ impl Neat {
         }
         let renumbering = Renumbering::new(self.layout, next.layout, inputs, outputs);
         let too_many = || SettingError::new("innovations", "the last number", "less: numbers have run out");
-        let registry = (renumbering.node(self.innovations.next_node), self.innovations.next_innovation);
-        let next_node = registry.0.ok_or_else(too_many)?;
-        let next_innovation = renumbering.invented(registry.1).ok_or_else(too_many)?;
+        let next_node = renumbering.hidden(self.innovations.next_node).ok_or_else(too_many)?;
+        let next_innovation = renumbering.invented(self.innovations.next_innovation).ok_or_else(too_many)?;
         next.innovations.next_node = next.innovations.next_node.max(next_node);
         next.innovations.next_innovation = next.innovations.next_innovation.max(next_innovation);
         let mut order: Vec<usize> = (0..self.parents.len()).collect();
@@ -51,75 +50,93 @@ impl Neat {
     }
 }
 
-/// Checks that nothing is lost and that the order stays.
+/// Checks that this is about so many old inputs or outputs.
 fn check(field: &str, growth: &Growth, old: usize) -> Result<(), SettingError> {
-    let kept: Vec<usize> = growth.origins().iter().flatten().copied().collect();
-    if growth.old_weight_count() == old && kept.iter().copied().eq(0..old) {
-        return Ok(());
+    match growth.old_weight_count() {
+        count if count == old => Ok(()),
+        count => Err(SettingError::new(field, format!("from {count}"), format!("from {old}, as the nets have"))),
     }
-    Err(SettingError::new(field, format!("{kept:?} of {old}"), "all of those there were, in their order"))
 }
 
-/// What numbers become when inputs and outputs are added.
+/// What numbers become when inputs and outputs are added or lost.
 struct Renumbering {
     old: Layout,
     new: Layout,
-    /// For each old input and output its new node.
-    inputs: Vec<NodeId>,
-    outputs: Vec<NodeId>,
+    /// For each old input and output its new node; `None`: it is lost.
+    inputs: Vec<Option<NodeId>>,
+    outputs: Vec<Option<NodeId>>,
+}
+
+/// What becomes of a node.
+enum Fate {
+    Kept(NodeId),
+    Lost,
 }
 
 impl Renumbering {
     fn new(old: Layout, new: Layout, inputs: &Growth, outputs: &Growth) -> Self {
         let places = |growth: &Growth, first: usize| {
-            let kept = growth.origins().iter().enumerate().filter(|(_, origin)| origin.is_some());
-            kept.map(|(place, _)| (first + place) as NodeId).collect()
+            let place = |old: usize| growth.origins().iter().position(|&origin| origin == Some(old));
+            let node = |old: usize| place(old).map(|place| (first + place) as NodeId);
+            (0..growth.old_weight_count()).map(node).collect()
         };
         Self { old, new, inputs: places(inputs, 0), outputs: places(outputs, new.sources()) }
     }
 
-    /// The new number of a node; `None` if numbers have run out.
-    fn node(&self, node: NodeId) -> Option<NodeId> {
+    /// What becomes of a node; `None` if numbers have run out.
+    fn node(&self, node: NodeId) -> Option<Fate> {
         let (index, sources) = (node as usize, self.old.sources());
+        let place = |node: Option<NodeId>| Some(node.map_or(Fate::Lost, Fate::Kept));
         if index < self.old.inputs {
-            Some(self.inputs[index])
+            place(self.inputs[index])
         } else if index < sources {
-            Some(self.new.inputs as NodeId)
+            Some(Fate::Kept(self.new.inputs as NodeId))
         } else if let Some(&output) = self.outputs.get(index - sources) {
-            Some(output)
+            place(output)
         } else {
-            node.checked_add(self.new.first_hidden() - self.old.first_hidden())
+            self.hidden(node).map(Fate::Kept)
         }
+    }
+
+    /// The new number of a hidden node, or of one to come; `None` if numbers have run out.
+    fn hidden(&self, node: NodeId) -> Option<NodeId> {
+        (node - self.old.first_hidden()).checked_add(self.new.first_hidden())
     }
 
     /// The new number of an innovation that is not a connection from an input to an output.
     fn invented(&self, number: InnovationNumber) -> Option<InnovationNumber> {
         let direct = |layout: &Layout| (layout.sources() * layout.outputs) as InnovationNumber;
-        number.checked_add(direct(&self.new) - direct(&self.old))
+        (number - direct(&self.old)).checked_add(direct(&self.new))
     }
 
-    fn connection(&self, gene: &ConnectionGene) -> Option<ConnectionGene> {
-        let (from, to) = (self.node(gene.from)?, self.node(gene.to)?);
+    /// What becomes of a connection: nothing, if an end of it is lost. `None` if numbers have run out.
+    fn connection(&self, gene: &ConnectionGene) -> Option<Option<ConnectionGene>> {
+        let (Fate::Kept(from), Fate::Kept(to)) = (self.node(gene.from)?, self.node(gene.to)?) else {
+            return Some(None);
+        };
         let innovation = match direct_connection(from, to, &self.new) {
             Some(direct) => direct,
             None => self.invented(gene.innovation)?,
         };
-        Some(ConnectionGene { innovation, from, to, ..*gene })
+        Some(Some(ConnectionGene { innovation, from, to, ..*gene }))
     }
 
+    /// The genome; `None` if numbers have run out.
     fn genome(&self, genome: &NeatGenome, activation: ne_net::Activation) -> Option<NeatGenome> {
         let mut grown = NeatGenome::blank(self.new);
         let (nodes, connections) = grown.genes_mut();
         for gene in genome.nodes() {
-            nodes.push(NodeGene { id: self.node(gene.id)?, ..*gene });
+            if let Fate::Kept(id) = self.node(gene.id)? {
+                nodes.push(NodeGene { id, ..*gene });
+            }
         }
         let sources = self.new.sources() as NodeId;
-        for id in (sources..self.new.first_hidden()).filter(|id| !self.outputs.contains(id)) {
+        for id in (sources..self.new.first_hidden()).filter(|&id| !self.outputs.contains(&Some(id))) {
             nodes.push(NodeGene { id, activation, bias: 0.0 });
         }
         nodes.sort_by_key(|gene| gene.id);
         for gene in genome.connections() {
-            connections.push(self.connection(gene)?);
+            connections.extend(self.connection(gene)?);
         }
         connections.sort_by_key(|gene| gene.innovation);
         Some(grown)
