@@ -116,7 +116,7 @@ impl Departure {
         if let Some(frozen) = &config.topology {
             // The body's channels are known once it is built; the net has to wait for them.
             let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, catalogue)?;
-            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs()));
+            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs(), manner.forget));
         }
         let setup = Setup::new(&config, catalogue)?;
         let after = [setup.inputs(), setup.outputs()];

@@ -86,7 +86,7 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     let frozen = FrozenTopology { inputs, outputs, net: net.into() };
     let old = RunConfig { topology: Some(frozen.clone()), ..old };
     let more = setup(&RunConfig { topology: None, ..with_more_senses(&old) });
-    let grown = frozen.grown(more.inputs(), more.outputs());
+    let grown = frozen.grown(more.inputs(), more.outputs(), false);
     let new = RunConfig { topology: Some(grown), ..with_more_senses(&old) };
     assert_same_behaviour("frozen", &setup(&old), &setup(&new));
 }

@@ -13,6 +13,7 @@ mod comparing;
 mod damage;
 mod engines;
 mod folder;
+mod forgetting;
 mod front;
 mod full_disk;
 mod gait;
