@@ -45,7 +45,7 @@ const RESTART: Purpose = Purpose::new("cma-es restart");
 pub struct CmaEs {
     pub(super) settings: CmaEsSettings,
     pub(super) topology: Topology,
-    /// Where each search begins, if the settings do not say it.
+    /// Where the first search begins, if the settings do not say it.
     pub(super) start: Option<Vec<f32>>,
     pub(super) restarts: Restarts,
     pub(super) history: History,
@@ -94,8 +94,8 @@ impl CmaEs {
         })
     }
 
-    /// The same search, beginning at these weights, as do its restarts: a champion to be made better, or moved to another
-    /// task. Without effect on a generation that was asked.
+    /// The same search, beginning at these weights: a champion to be made better, or moved to another task. Restarts
+    /// begin elsewhere. Without effect once a generation was asked.
     ///
     /// # Errors
     /// If the number of weights is not the topology's or one is NaN or infinite.
@@ -107,7 +107,7 @@ impl CmaEs {
     /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
     /// paths. A new weight has a mean of 0, the first step size as its deviation, and varies with no other. If no weight
     /// deviates by 0.3 of the first step size any more, the step size grows until one does. Restarts are counted anew, and
-    /// begin at the mean that was carried: what was learned is not forgotten.
+    /// begin elsewhere: at the mean that was carried they found less.
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
@@ -119,8 +119,7 @@ impl CmaEs {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
-        let mean = self.mean().map(|mean| mean.iter().map(|&weight| weight as f32).collect::<Vec<_>>());
-        let start = mean.or(self.start).map(|start| growth.carry(&start, 0.0));
+        let start = self.start.map(|start| growth.carry(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
         let distribution = self.distribution.map(|mut distribution| {
             distribution.limit_deviation(REVIVED * first, f64::INFINITY);
@@ -158,8 +157,8 @@ impl CmaEs {
     /// The distribution a search begins with.
     fn first_distribution(&self, seed: Seed) -> Distribution {
         let mean = match &self.start {
-            Some(start) => start.clone(),
-            None => {
+            Some(start) if self.restarts.count == 0 => start.clone(),
+            _ => {
                 let mut individual = WeightVector::zero(self.topology.clone());
                 self.settings.initial_mean.draw(&mut individual, &mut seed.stream(MEAN));
                 individual.weights().to_vec()

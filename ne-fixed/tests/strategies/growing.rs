@@ -4,7 +4,7 @@ use crate::common::{assert_resumes, dense, generation, recurrent, reload};
 use ne_core::{Phenotype, Seed, Strategy};
 use ne_fixed::{
     CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, CovarianceModel, Nsga2,
-    Nsga2Settings, OpenEs, OpenEsSettings, Restart, WeightVector,
+    Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
 };
 use ne_net::{DenseShape, Growth, Topology};
 
@@ -147,27 +147,6 @@ fn what_has_settled_can_leave_again() {
     let new = strategy.grown(settings.clone(), dense(), &same).expect("goes on");
     assert_eq!(new.mean(), Some(mean.as_slice()));
     assert!((deviation(&new) / (0.3 * settings.step_size) - 1.0).abs() < 1e-9);
-}
-
-#[test]
-fn restarts_begin_at_what_was_carried() {
-    // It settles at once, so that it begins anew.
-    let settings = CmaEsSettings { least_deviation: 0.49, restart: Restart::Ipop, ..CmaEsSettings::default() };
-    let (mut strategy, _) = trained(CmaEs::new(CmaEsSettings::default(), dense()).expect("valid"));
-    let carried: Vec<f32> = strategy.mean().expect("a mean").iter().map(|&weight| weight as f32).collect();
-    assert!(!strategy.has_begun_anew());
-    let same = Growth::none(dense().weight_count());
-    strategy = strategy.grown(settings, dense(), &same).expect("goes on");
-    let mut number = 0;
-    while strategy.mean().is_some() {
-        number += 1;
-        assert!(number < 1000, "no restart");
-        generation(&mut strategy, number);
-    }
-    assert!(strategy.has_begun_anew());
-    strategy.ask(Seed::of_run(1));
-    let mean: Vec<f32> = strategy.mean().expect("asked").iter().map(|&weight| weight as f32).collect();
-    assert_eq!(mean, carried);
 }
 
 #[test]
