@@ -243,11 +243,9 @@ impl Setup {
         if let Some(steps) = config.rehearsal {
             SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
         }
-        let is_judged_as_trained =
-            config.variation.is_none() && config.rehearsal.is_none() && config.companions.is_empty();
-        let nominal = match is_judged_as_trained {
-            true => None,
-            false => {
+        let nominal = match config.has_jury() {
+            false => None,
+            true => {
                 let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
                 let stage = Stage::new(parts, catalogue)?;
                 let proof = match config.variation.is_none() {

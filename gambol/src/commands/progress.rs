@@ -24,8 +24,8 @@ pub(super) struct Show {
     first: Option<u64>,
     last_line: Option<Instant>,
     limit: Option<u64>,
-    /// Whether every generation has another world, or other bodies, so that its best is not yet the champion.
-    varied: bool,
+    /// Whether a jury chooses the champion, so that the best of a generation is not yet it.
+    judged: bool,
 }
 
 enum Manner {
@@ -63,14 +63,14 @@ impl Show {
             first: None,
             last_line: None,
             limit,
-            varied: is_varied(config),
+            judged: config.has_jury(),
         }
     }
 
     /// A stage begins, or is taken up again: of a run of `stages`, if they are listed.
     pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
         (self.start, self.first, self.last_line) = (Instant::now(), None, None);
-        self.varied = is_varied(&planned.config);
+        self.judged = planned.config.has_jury();
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
         match &self.manner {
@@ -87,7 +87,7 @@ impl Show {
         let measure = |fitness: Option<f64>| fitness.map_or_else(|| "–".into(), |it| format!("{it:.2} {}", self.unit));
         let champion = measure(report.best_so_far.map(f64::from));
         let mean = report.fitness.map_or_else(|| "–".into(), |of| format!("{:.2}", of.mean));
-        let message = match self.varied {
+        let message = match self.judged {
             true => {
                 let best = measure(report.fitness.map(|of| of.best));
                 format!("best {best} in training, mean {mean}, champion {champion} in rapier, {rate:.0} evaluations/s")
@@ -161,11 +161,6 @@ impl Show {
         }
         Ok(())
     }
-}
-
-/// Whether the best of a generation is not yet the champion.
-fn is_varied(config: &RunConfig) -> bool {
-    !config.variation.is_none() || !config.companions.is_empty()
 }
 
 /// What is said where lanes and rapier should agree and do not.

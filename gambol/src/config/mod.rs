@@ -87,6 +87,14 @@ pub struct RunConfig {
     pub companions: Vec<Creature>,
 }
 
+impl RunConfig {
+    /// Whether a jury chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
+    /// that the best of a generation need not be the best in one whole episode of `creature`.
+    pub fn has_jury(&self) -> bool {
+        !self.variation.is_none() || self.rehearsal.is_some() || !self.companions.is_empty()
+    }
+}
+
 /// The net between sensors and motors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

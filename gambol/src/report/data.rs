@@ -61,8 +61,8 @@ pub(super) struct Summary {
     /// The champion's fitness in training, if that is another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) fitness_in_training: Option<f64>,
-    /// Whether each generation was evaluated in worlds of its own.
-    pub(super) varied: bool,
+    /// Whether a jury chose the champion, so that the best of a generation is not it.
+    pub(super) judged: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) warning: Option<String>,
     pub(super) generations: u64,

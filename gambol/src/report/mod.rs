@@ -109,7 +109,7 @@ fn compose(
         summary: last.map(|last| Summary {
             fitness: fitness.map(f64::from),
             fitness_in_training: champion.as_ref().and_then(Champion::fitness_in_training).map(f64::from),
-            varied: setup.nominal.is_some(),
+            judged: config.has_jury(),
             warning: parting::warning(&log, parted),
             generations: last.generation,
             evaluations: last.evaluations,

@@ -54,7 +54,21 @@ fn log_champion_and_verify_have_both_figures() -> Outcome {
     succeed(gambol("report").arg(&path));
     let summary = data(&fs::read_to_string(path.join("report.html"))?)["summary"].take();
     assert_eq!((&summary["fitness"], &summary["fitness_in_training"]), (&champion["fitness"], &trained["fitness"]));
-    assert_eq!((&summary["varied"], &summary["warning"]), (&true.into(), &Value::Null));
+    assert_eq!((&summary["judged"], &summary["warning"]), (&true.into(), &Value::Null));
+    Ok(())
+}
+
+/// Short episodes alone are reason enough for a jury.
+#[test]
+fn whoever_shows_a_run_knows_whether_there_is_a_jury() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for (name, rehearsal, judged) in [("rehearsed", "rehearsal=30", true), ("whole", "rehearsal=null", false)] {
+        let path = folder.path().join(name);
+        let ended = run(small_run(&path, 10).args(["--variation", "none", "--set", rehearsal]));
+        assert_eq!(ended.stderr.contains(" in training, mean "), judged, "{}", ended.stderr);
+        succeed(gambol("report").arg(&path));
+        assert_eq!(data(&fs::read_to_string(path.join("report.html"))?)["summary"]["judged"], judged);
+    }
     Ok(())
 }
 

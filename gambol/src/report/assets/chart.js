@@ -78,7 +78,7 @@ class FitnessChart {
     this.failures = this.rows.some(row => row.failures > 0);
     const usable = value => value !== null && value !== undefined && Number.isFinite(value);
     this.series = SERIES.filter(series => this.rows.some(row => usable((series.value || series.low)(row))))
-      .map(series => run.summary?.varied && series.kind === "best-so-far" ? { ...series, name: "champion, in rapier" } : series);
+      .map(series => run.summary?.judged && series.kind === "best-so-far" ? { ...series, name: "champion, in rapier" } : series);
     this.usable = usable;
     this.place = document.getElementById("fitness-chart");
     this.buildLegend();

@@ -138,8 +138,8 @@ class FrontChart {
 
 // The chosen point, moving.
 class FrontView {
-  constructor(front, model, varied, ground) {
-    Object.assign(this, { front, model, varied, ground });
+  constructor(front, model, judged, ground) {
+    Object.assign(this, { front, model, judged, ground });
     this.stage = new Stage(document.getElementById("front-canvas"), 0.8);
     this.stage.ground = ground;
     this.clock = loop.addClock(new Clock(0));
@@ -166,7 +166,7 @@ class FrontView {
     this.stale = true;
     const list = values => values.map((value, i) => objectiveValue(this.front.objectives[i], value)).join(" · ");
     const text = `Point ${point.number}: ${list(point.values)}`;
-    const judged = !this.varied ? "" : point.judged ? ` · in a whole episode without variation: ${list(point.judged)}`
+    const judged = !this.judged ? "" : point.judged ? ` · in a whole episode without variation: ${list(point.judged)}`
       : " · fails in a whole episode without variation";
     this.stage.canvas.setAttribute("aria-label", text);
     const note = document.getElementById("front-note");
@@ -192,13 +192,13 @@ function buildFront(run, model) {
   if (!front.points.length) return;
   document.getElementById("front").hidden = false;
   const shown = front.points.length < front.total ? `${front.points.length} of ${fixed(front.total, 0)} points, evenly spread. ` : "";
-  const varied = run.summary?.varied;
+  const judged = run.summary?.judged;
   const generations = new Set(front.points.map(point => point.generation));
-  const worlds = generations.size > 1 ? "the generation each was evaluated in" : `generation ${fixed(front.points[0].generation, 0)}`;
-  const where = varied ? ` The chart has what was measured in training, in the worlds of ${worlds}.` : "";
+  const when = generations.size > 1 ? "the generation each was evaluated in" : `generation ${fixed(front.points[0].generation, 0)}`;
+  const where = judged ? ` The chart has what was measured in training, in ${when}.` : "";
   document.getElementById("front-intro").textContent = `None of these is better than another in one objective without being worse in another. ${shown}`
     + `Click one to see its first seconds.${where}`;
-  const view = new FrontView(front, model, varied, run.ground);
+  const view = new FrontView(front, model, judged, run.ground);
   loop.addView(view);
   new FrontChart(front, index => view.choose(index));
 }
