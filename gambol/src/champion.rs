@@ -82,9 +82,20 @@ pub struct Training {
     pub trials: Trials,
     /// How those trials differed.
     pub variation: Variation,
+    /// Bodies that fitness is over: the creature and its companions; 1 without companions.
+    #[serde(default = "one_body", skip_serializing_if = "is_one_body")]
+    pub bodies: usize,
     /// Whether the engine of training gives it, in the champion's world, another fitness than rapier.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub parted: bool,
+}
+
+fn one_body() -> usize {
+    1
+}
+
+fn is_one_body(bodies: &usize) -> bool {
+    *bodies == 1
 }
 
 /// One number between body and network.
@@ -141,6 +152,7 @@ impl Champion {
             fitness: trained.unwrap_or(fitness),
             trials: config.trials,
             variation: config.variation,
+            bodies: config.bodies(),
             parted: parted || Some(fitness) != evaluation.fitness(),
         });
         Self {

@@ -104,10 +104,10 @@ fn check_config(path: &Path, value: &Value) -> Result<(), Box<dyn Error>> {
     let config = request.resolve(&catalogue)?;
     Setup::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
     let stages = Stages::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    say!("{}: a valid configuration{}", path.display(), super::in_bodies(&config))?;
+    say!("{}: a valid configuration{}", path.display(), super::in_bodies(config.bodies()))?;
     for (index, (stage, config)) in stages.configs().enumerate() {
         let rule = stage.promotion.as_ref().map_or_else(|| "the run ends".into(), ToString::to_string);
-        let bodies = super::in_bodies(config);
+        let bodies = super::in_bodies(config.bodies());
         say!("  stage {} {}: {}{bodies}, until {rule}", index + 1, stage.name, config.movement.name)?;
     }
     Ok(())

@@ -27,7 +27,6 @@ mod train;
 mod verify;
 
 use clap::{Parser, Subcommand};
-use gambol::config::RunConfig;
 use ne_core::StopSignal;
 use std::{error::Error, process::ExitCode};
 
@@ -53,12 +52,9 @@ fn stop_on_interrupt(signal: &StopSignal) -> Result<(), ctrlc::Error> {
     })
 }
 
-/// ` in 3 bodies`, where a creature has companions.
-fn in_bodies(config: &RunConfig) -> String {
-    match config.companions.len() {
-        0 => String::new(),
-        companions => format!(" in {} bodies", companions + 1),
-    }
+/// ` in 3 bodies`, where there are several.
+fn in_bodies(bodies: usize) -> String {
+    if bodies > 1 { format!(" in {bodies} bodies") } else { String::new() }
 }
 
 /// Gambol evolves controllers for 2D creatures: pick a creature and a movement, watch it learn, keep the gait.

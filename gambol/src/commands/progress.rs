@@ -53,7 +53,7 @@ impl Show {
                 .population()
                 .map_or_else(String::new, |population| format!("population {population}, "));
             let (creature, movement) = (&config.creature.name, &config.movement.name);
-            let bodies = super::in_bodies(config);
+            let bodies = super::in_bodies(config.bodies());
             eprintln!("{creature} learns {movement}{bodies}: {population}seed {}", config.seed);
         }
         Self {

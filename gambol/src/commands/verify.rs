@@ -58,7 +58,8 @@ fn explain(champion: &Champion, verification: &Verification, unchanged: bool) ->
     }
     if let Some(trained) = &champion.trained {
         let worlds = if trained.variation.is_none() { "without variation" } else { "in worlds that vary" };
-        say!("training: fitness {} in {}, {worlds}", trained.fitness, trained.engine.name())?;
+        let bodies = super::in_bodies(trained.bodies);
+        say!("training: fitness {} in {}, {worlds}{bodies}", trained.fitness, trained.engine.name())?;
     }
     let again = match &evaluation.outcome {
         Ok(fitness) => format!("fitness {fitness}"),

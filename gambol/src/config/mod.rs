@@ -88,6 +88,11 @@ pub struct RunConfig {
 }
 
 impl RunConfig {
+    /// In how many bodies every individual is evaluated in training: in `creature` and its companions.
+    pub fn bodies(&self) -> usize {
+        1 + self.companions.len()
+    }
+
     /// Whether a jury chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
     /// that the best of a generation need not be the best in one whole episode of `creature`.
     pub fn has_jury(&self) -> bool {

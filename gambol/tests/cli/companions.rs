@@ -81,10 +81,13 @@ fn a_run_is_trained_in_all_bodies_and_its_champion_judged_in_the_creature() -> O
     assert!(three[9]["hearing"].is_object() && one[9]["hearing"].is_null());
     let champion = &json(&with.join("champion.json"))["content"];
     assert_eq!((&champion["creature"]["name"], &champion["fitness"]), (&"biped-1".into(), &three[9]["best_so_far"]));
-    assert_says(&succeed(gambol("verify").arg(with.join("champion.json"))), &["training: fitness ", "identical: "]);
+    assert_eq!(champion["trained"]["bodies"], 3);
+    let verified = succeed(gambol("verify").arg(with.join("champion.json")));
+    assert_says(&verified, &["training: fitness ", " without variation in 3 bodies\n", "identical: "]);
     succeed(gambol("report").arg(&with));
     assert_says(&fs::read_to_string(with.join("report.html"))?, &["Companions in training", "biped-x0.6, biped-x1.7"]);
     // A run without companions says nothing of them, as before there were any.
+    assert_eq!(json(&without.join("champion.json"))["content"]["trained"].get("bodies"), None);
     let of = |run: &Path| json(&run.join("config.json"))["content"].get("companions").cloned();
     assert_eq!((of(&without), of(&with).is_some()), (None, true));
     Ok(())
