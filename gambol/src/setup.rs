@@ -13,7 +13,9 @@ use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variatio
 use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
-use tasks::{Combine, Episode, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials, gait::Kind};
+use tasks::{
+    Combine, Episode, Movement, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials, gait::Kind,
+};
 
 pub use crate::{bodies::SeveralBodies, nominal::Nominal, training_task::TrainingTask};
 
@@ -136,12 +138,9 @@ impl EpisodeParts<'_> {
     /// # Errors
     /// Names the field that is wrong.
     pub fn build(&self, catalogue: &MovementCatalogue) -> Result<Episode<RapierEnvironment>, SetupError> {
-        let movement = catalogue.build(self.movement)?;
-        let steps = catalogue.steps(self.movement)?;
-        let blueprint = Blueprint::new(self.creature.clone())?;
+        let (movement, steps, blueprint) = self.pieces(catalogue)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let terrain = self.terrain.clone();
-        let (physics, variation) = (self.physics, self.variation);
+        let (physics, variation, terrain) = (self.physics, self.variation, self.terrain.clone());
         let environment =
             RapierEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)?
                 .with_actuation(self.actuation)?;
@@ -153,17 +152,21 @@ impl EpisodeParts<'_> {
     /// # Errors
     /// Names the field that is wrong, or what only rapier can do.
     pub fn build_lanes(&self, catalogue: &MovementCatalogue) -> Result<LaneEpisode, SetupError> {
-        let movement = catalogue.build(self.movement)?;
-        let steps = catalogue.steps(self.movement)?;
-        let blueprint = Blueprint::new(self.creature.clone())?;
+        let (movement, steps, blueprint) = self.pieces(catalogue)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let terrain = self.terrain.clone();
-        let (physics, variation) = (self.physics, self.variation);
+        let (physics, variation, terrain) = (self.physics, self.variation, self.terrain.clone());
         let environment =
             LaneEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)
                 .and_then(|environment| environment.with_actuation(self.actuation))
                 .map_err(SetupError::Engine)?;
         Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)
+    }
+
+    /// What both engines are given: the movement, the steps of an episode and the body.
+    fn pieces(&self, catalogue: &MovementCatalogue) -> Result<(Box<dyn Movement>, u32, Blueprint), SetupError> {
+        let movement = catalogue.build(self.movement)?;
+        let steps = catalogue.steps(self.movement)?;
+        Ok((movement, steps, Blueprint::new(self.creature.clone())?))
     }
 
     /// The same without variation, and with one trial: more would all be alike.
