@@ -65,7 +65,8 @@ pub struct Champion {
     pub fitness: Fitness,
     /// What it did in the first trial.
     pub trajectory: TrajectoryDigest,
-    /// What it was in training, if that was in another engine or in varied worlds.
+    /// What it was in training, if that was in another engine, in varied worlds, in shorter episodes or in several
+    /// bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trained: Option<Training>,
 }

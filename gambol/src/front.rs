@@ -90,8 +90,8 @@ impl Front {
 }
 
 impl SavedPoint {
-    /// The point as a champion, with all that is needed to move and to verify it. Where training varies the world or
-    /// shortens the episode, it is one in the world and the episode champions are judged in.
+    /// The point as a champion, with all that is needed to move and to verify it. Where a jury chooses the
+    /// champion, it is one in the world, the episode and the body champions are judged in.
     pub fn champion(&self, config: &RunConfig, setup: &Setup) -> Champion {
         let (seed, judged) = match &setup.nominal {
             Some(nominal) => (nominal.seed, nominal.task.evaluate(&mut self.network.clone(), nominal.seed).fitness()),

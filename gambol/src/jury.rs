@@ -1,4 +1,5 @@
-//! The jury of runs whose worlds vary: who is champion is decided in the world as the configuration has it, and by rapier.
+//! The jury of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
+//! whole episode of the creature, in the world as the configuration has it, and by rapier.
 
 use crate::{config::EngineChoice, gait::USABLE, proving, setup::Nominal};
 use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};

@@ -7,7 +7,8 @@ use ne_net::Network;
 use std::sync::{Arc, Mutex};
 use tasks::{Episode, MovementCatalogue, Trials};
 
-/// One trial in the world as the configuration has it, where training varies it.
+/// One trial of the creature, whole and in the world as the configuration has it, where training varies the world, shortens
+/// the episode or has further bodies.
 #[derive(Clone)]
 pub struct Nominal {
     /// In the engine of training.

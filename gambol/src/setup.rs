@@ -28,7 +28,7 @@ pub struct Setup {
     heats: Vec<HeatSettings>,
     /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
-    /// Where the champion is chosen, if training varies the world, shortens the episode or has several bodies.
+    /// Where the champion is chosen, if a [jury](RunConfig::has_jury) does that.
     pub nominal: Option<Nominal>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,

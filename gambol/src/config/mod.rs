@@ -41,7 +41,7 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ. With any variation the champion is chosen by how it does without, in one trial.
+    /// How trials differ. With any, with a rehearsal or companions, the champion is chosen without variation, in one trial.
     pub variation: Variation,
     /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
@@ -59,7 +59,7 @@ pub struct RunConfig {
     /// The controller.
     pub controller: ControllerSettings,
     /// A topology to search the weights of, in place of the controller's layers; of the controller only `input_range`
-    /// counts then.
+    /// and `actuation` count then.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub topology: Option<FrozenTopology>,
     /// When the run ends.
@@ -153,8 +153,9 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
-    /// With variation: with each checkpoint so many of the best of the generation, and the best of each generation since
-    /// the last, are evaluated without variation, and the best of them may become champion; from 1 to 1000, default 23.
+    /// With variation, a rehearsal or companions: with each checkpoint so many of the best of the generation, and the best of
+    /// each generation since the last, are evaluated in one whole episode of the creature without variation, and the best of
+    /// them may become champion; from 1 to 1000, default 23.
     #[serde(default = "default_finalists")]
     pub finalists: usize,
 }
