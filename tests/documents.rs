@@ -1,14 +1,31 @@
-//! Every path the documents name exists.
+//! Every path the documents name exists, and what should be listed in them is.
 //!
 //! A path is what stands in backticks and begins with the name of something in the workspace's folder, such as
-//! `ne-core/src/lib.rs`, and where a link goes that is not an address.
+//! `ne-core/src/lib.rs`, and where a link goes that is not an address, seen from the folder of the document.
 
 use crate::root;
-use std::{collections::BTreeSet, fs};
+use std::{
+    collections::BTreeSet,
+    fs,
+    path::{Path, PathBuf},
+};
 
-const DOCUMENTS: [&str; 3] = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"];
+/// The documents beside the workspace's manifest, and those in `docs`.
+fn documents() -> Vec<PathBuf> {
+    let beside = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md"].map(|name| root().join(name));
+    let in_docs = files(&root().join("docs"), "md");
+    assert!(!in_docs.is_empty(), "there are documents in docs");
+    beside.into_iter().chain(in_docs).collect()
+}
 
-/// Names of files and folders beside the workspace's manifest, those of crates included that are gone by now.
+/// The files with this ending in a folder.
+fn files(folder: &Path, ending: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("a readable folder").path());
+    entries.filter(|path| path.extension().is_some_and(|found| found == ending)).collect()
+}
+
+/// Names of files and folders beside the workspace's manifest, those of crates included that are gone by now. Where runs
+/// go by default is left out: the documents name runs that a reader may make.
 fn beginnings() -> BTreeSet<String> {
     let manifest = fs::read_to_string(root().join("Cargo.toml")).expect("there is a manifest");
     let (_, members) = manifest.split_once("members = [").expect("there are members");
@@ -17,7 +34,7 @@ fn beginnings() -> BTreeSet<String> {
     let entries = fs::read_dir(root())
         .expect("a folder")
         .map(|entry| entry.expect("a readable folder").file_name().into_string().expect("plain names"));
-    members.chain(entries).collect()
+    members.chain(entries).filter(|name| name != "runs").collect()
 }
 
 /// What stands in backticks in a text, blocks of code left out.
@@ -56,12 +73,26 @@ fn paths<'a>(text: &'a str, beginnings: &BTreeSet<String>) -> Vec<&'a str> {
 fn every_path_in_the_documents_exists() {
     let beginnings = beginnings();
     let mut missing = Vec::new();
-    for document in DOCUMENTS {
-        let text = fs::read_to_string(root().join(document)).unwrap_or_else(|error| panic!("{document}: {error}"));
-        let named = paths(&text, &beginnings).into_iter().chain(linked(&text));
-        missing.extend(named.filter(|path| !root().join(path).exists()).map(|path| format!("{document}: {path}")));
+    for document in documents() {
+        let text = fs::read_to_string(&document).unwrap_or_else(|error| panic!("{}: {error}", document.display()));
+        let quoted = paths(&text, &beginnings).into_iter().map(|path| (path, root().join(path)));
+        let linked = linked(&text).map(|path| (path, document.with_file_name(path)));
+        let named = quoted.chain(linked).filter(|(_, place)| !place.exists());
+        missing.extend(named.map(|(path, _)| format!("{}: {path}", document.display())));
     }
     assert!(missing.is_empty(), "named, but not there:\n{}", missing.join("\n"));
+}
+
+#[test]
+fn every_example_is_in_the_table_of_the_readme() {
+    let readme = fs::read_to_string(root().join("README.md")).expect("it is there");
+    let (_, section) = readme.split_once("\n## Examples\n").expect("a section of examples");
+    let (section, _) = section.split_once("\n## ").expect("its end");
+    let rows = section.lines().filter_map(|line| line.strip_prefix("| `")?.split('`').next());
+    let listed: BTreeSet<String> = rows.map(str::to_owned).collect();
+    let name = |path: PathBuf| path.file_stem().and_then(|name| name.to_str()).expect("a plain name").to_owned();
+    let there: BTreeSet<String> = files(&root().join("examples/examples"), "rs").into_iter().map(name).collect();
+    assert_eq!(listed, there);
 }
 
 /// The architecture is drawn with the paths of the code; were none found, the test above would promise nothing.
