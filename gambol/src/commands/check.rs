@@ -1,6 +1,6 @@
 use super::Outcome;
 use clap::Args;
-use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use creatures::{Blueprint, Creature, DEFAULT_INPUT_RANGE, Motors, Senses};
 use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
 use envs_lanes::LaneEngine;
 use gambol::{
@@ -24,16 +24,22 @@ use tasks::MovementCatalogue;
 #[command(after_help = "\
 Examples:
   gambol check my-creature.json
+  gambol check tetrapod-2
   gambol check my-config.json
   gambol check runs/biped-1-running/champion.json")]
 pub(crate) struct Check {
-    /// A creature, configuration or champion file
+    /// A creature, configuration or champion file, or a shipped creature's name (see: gambol creatures)
+    #[arg(value_name = "FILE|NAME")]
     file: PathBuf,
 }
 
 impl Check {
     pub(crate) fn run(self) -> Outcome {
         let path = &self.file;
+        if let Some(name) = path.to_str().filter(|name| !path.exists() && !name.contains(['/', '\\', '.'])) {
+            check_creature(path, source::creature(name)?)?;
+            return Ok(ExitCode::SUCCESS);
+        }
         let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         // What is not even JSON is left to the readers of creatures and configurations, which say where.
         let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };
@@ -41,16 +47,17 @@ impl Check {
         match value.get("format").and_then(Value::as_str) {
             Some(CHAMPION_FORMAT) => check_champion(path)?,
             Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),
-            Some(creatures::FORMAT) => check_creature(path)?,
-            _ if !value.is_object() || value.get("parts").is_some() => check_creature(path)?,
+            Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?)?,
+            _ if !value.is_object() || value.get("parts").is_some() => {
+                check_creature(path, source::creature_file(path)?)?
+            }
             _ => check_config(path, &value)?,
         }
         Ok(ExitCode::SUCCESS)
     }
 }
 
-fn check_creature(path: &Path) -> Result<(), Box<dyn Error>> {
-    let creature = source::creature_file(path)?;
+fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>> {
     let blueprint = Blueprint::new(creature)?;
     let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
     let motors = Motors::new(&blueprint);

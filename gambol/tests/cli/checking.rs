@@ -47,6 +47,23 @@ fn every_shipped_creature_is_valid() -> Outcome {
 }
 
 #[test]
+fn a_shipped_creature_is_checked_by_its_name() {
+    let printed = succeed(gambol("check").arg("tetrapod-2"));
+    assert_says(
+        &printed,
+        &["tetrapod-2: a valid creature, \"tetrapod-2\": 9 parts, 8 joints", "\n  in   ", "\n  out  "],
+    );
+    assert_says(
+        &fail(gambol("check").arg("tetrapd-2")),
+        &["there is no creature `tetrapd-2`", "did you mean `tetrapod-2`?"],
+    );
+    // What can only be a file is sought as one.
+    for file in ["tetrapod-2.json", "./tetrapod-2"] {
+        assert_says(&fail(gambol("check").arg(file)), &[&format!("cannot read {file}: ")]);
+    }
+}
+
+#[test]
 fn every_shipped_configuration_is_valid() -> Outcome {
     for entry in fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../shaping"))? {
         let printed = succeed(gambol("check").arg(entry?.path()));
