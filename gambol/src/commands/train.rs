@@ -58,7 +58,7 @@ pub(crate) struct Train {
     #[arg(long, value_name = "CHAMPION")]
     topology_from: Option<PathBuf>,
     /// Go on from what this run has learned (its population), or from this champion (its net): with another movement, other
-    /// senses, another body. Without --config, sensors and controller are those it learned with
+    /// senses, another body. Without --config, sensors and controller are those it learned with, but for what --set changes
     #[arg(long, value_name = "RUN|CHAMPION", conflicts_with = "topology_from")]
     from: Option<PathBuf>,
     /// What to take along from there: population, champion or topology [default: as much as can be]
@@ -205,6 +205,7 @@ impl Train {
             preset: preset.clone(),
             strategy: strategy.clone(),
             topology_from: topology_from.clone(),
+            from: self.from.clone(),
             config: config.clone(),
             set: set.clone(),
             engine: engine.clone(),
@@ -221,15 +222,6 @@ impl Train {
         }
         config.stop = self.limits.over(config.stop);
         let carried = self.carried()?;
-        if let Some(source) = &self.from
-            && self.config.is_none()
-        {
-            // Senses and net are those that were learned with, unless others are asked for.
-            let is_set = |field: &str| self.set.iter().any(|set| set.trim_start().starts_with(field));
-            let adopted = shaping::adopt(&config, source)?;
-            config.sensors = if is_set("sensors") { config.sensors } else { adopted.sensors };
-            config.controller = if is_set("controller") { config.controller } else { adopted.controller };
-        }
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
         if let Some(source) = &self.from {
             config.origin = None;

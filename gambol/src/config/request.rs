@@ -6,6 +6,7 @@ use super::{
 };
 use crate::{
     champion::{Champion, ChannelRecord},
+    shaping::{self, ShapingError},
     source,
     source::SourceError,
     suggest,
@@ -34,6 +35,9 @@ pub struct Request {
     pub strategy: Option<String>,
     /// A champion whose topology is to be kept while its weights are searched for anew.
     pub topology_from: Option<PathBuf>,
+    /// A run or a champion that is gone on from: without a configuration file, sensors and controller are those it learned
+    /// with, in place of the preset's.
+    pub from: Option<PathBuf>,
     /// A configuration file laid over the preset. Its `creature` and `companions`, those of its stages too, may be whole
     /// creatures, names, or paths (seen from the file's folder).
     pub config: Option<PathBuf>,
@@ -86,6 +90,9 @@ pub enum RequestError {
     /// The champion cannot be read.
     #[error(transparent)]
     Champion(#[from] ArchiveError),
+    /// What is gone on from cannot be read.
+    #[error(transparent)]
+    From(Box<ShapingError>),
     /// A single setting is wrong.
     #[error("--set {assignment}: {source}")]
     Set {
@@ -115,6 +122,9 @@ impl Request {
         if self.unvaried {
             base.variation = Variation::default();
             base.rehearsal = None;
+        }
+        if let (Some(source), None) = (&self.from, &layer) {
+            base = shaping::adopt(&base, source).map_err(|error| RequestError::From(Box::new(error)))?;
         }
         let mut assembly = Assembly::new(&base);
         if let Some(Layer { path, value }) = layer {

@@ -17,6 +17,7 @@ mod forgetting;
 mod front;
 mod full_disk;
 mod gait;
+mod going_on;
 mod heats;
 mod help;
 mod interrupted;
