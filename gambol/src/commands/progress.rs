@@ -13,13 +13,19 @@ use std::{
     io::{self, IsTerminal, Write},
     time::{Duration, Instant},
 };
+use tasks::MovementCatalogue;
 
 /// Between two lines where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
 pub(super) struct Show {
     manner: Manner,
+    /// Units of fitness, by the names of movements.
+    catalogue: MovementCatalogue,
+    /// The unit of what is trained now.
     unit: String,
+    /// Whether the run has stages: its generations are then counted in each of them, its limit over all.
+    staged: bool,
     start: Instant,
     first: Option<u64>,
     last_line: Option<Instant>,
@@ -36,8 +42,9 @@ enum Manner {
 }
 
 impl Show {
-    pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, unit: &str) -> Self {
-        let limit = config.stop.generations;
+    pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, catalogue: &MovementCatalogue) -> Self {
+        let staged = !config.stages.is_empty();
+        let limit = config.stop.generations.filter(|_| !staged);
         let manner = if quiet {
             Manner::Quiet
         } else if json {
@@ -58,7 +65,9 @@ impl Show {
         }
         Self {
             manner,
-            unit: unit.into(),
+            catalogue: catalogue.clone(),
+            unit: unit_of(catalogue, &config.movement.name),
+            staged,
             start: Instant::now(),
             first: None,
             last_line: None,
@@ -70,6 +79,7 @@ impl Show {
     /// A stage begins, or is taken up again: of a run of `stages`, if they are listed.
     pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
         (self.start, self.first, self.last_line) = (Instant::now(), None, None);
+        self.unit = unit_of(&self.catalogue, &planned.config.movement.name);
         self.judged = planned.config.has_jury();
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
@@ -141,8 +151,11 @@ impl Show {
         let generations = progress.generations;
         match champion {
             Some(champion) => {
-                let (best, found) = (worth(champion, &self.unit), champion.generation);
-                say!("best {best}, found in generation {found} of {generations}; {reason} after {seconds:.1} s")?;
+                // Of a run with stages that had ended before, no stage was begun.
+                let best = worth(champion, &unit_of(&self.catalogue, &champion.movement.name));
+                let of = if self.staged { "its stage".into() } else { generations.to_string() };
+                let found = champion.generation;
+                say!("best {best}, found in generation {found} of {of}; {reason} after {seconds:.1} s")?;
                 if champion.parted() {
                     say!("warning   {PARTED}")?;
                 }
@@ -161,6 +174,11 @@ impl Show {
         }
         Ok(())
     }
+}
+
+/// The unit of a movement's fitness.
+fn unit_of(catalogue: &MovementCatalogue, movement: &str) -> String {
+    catalogue.find(movement).map_or_else(String::new, |entry| entry.unit.clone())
 }
 
 /// What is said where lanes and rapier should agree and do not.

@@ -278,8 +278,7 @@ pub(super) fn carry_out(
 ) -> Outcome {
     let signal = StopSignal::default();
     super::stop_on_interrupt(&signal)?;
-    let unit = catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
-    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &unit));
+    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &catalogue));
     let began = Instant::now();
     let options = TrainOptions {
         threads: manner.threads,

@@ -1,11 +1,11 @@
-//! Runs that go on from others: which settings they have.
+//! Runs that go on from others: which settings they have, and what is said of those that go through stages.
 
 use crate::{
     damage::json,
-    program::{assert_says, fail, gambol, small_run, succeed},
+    program::{assert_says, fail, gambol, run, small_run, succeed},
 };
 use serde_json::{Value, json};
-use std::path::Path;
+use std::{fs, path::Path};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -49,5 +49,38 @@ fn what_is_set_is_changed_in_what_was_learned_with_and_nothing_else() -> Outcome
     train.args(["biped-1", "running", "--from"]).arg(path("first")).args(wrong).arg(path("sixth"));
     assert_says(&fail(&mut train), &["--set controller.hiden=[3]: ", "did you mean `hidden`?"]);
     assert!(!path("sixth").exists());
+    Ok(())
+}
+
+/// Each stage's figures are in its movement's unit, and its generations are not counted against those of the run.
+#[test]
+fn what_is_said_of_a_stage_is_in_its_unit() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (file, out) = (folder.path().join("stages.json"), folder.path().join("run"));
+    let stages = json!({
+        "creature": "biped-1",
+        "movement": { "name": "running", "steps": 60 },
+        "strategy": { "cma-es": { "population": 8 } },
+        "stop": { "generations": 20 },
+        "stages": [
+            { "name": "run", "promotion": { "generations": 4 } },
+            {
+                "name": "stand",
+                "changes": { "movement": { "name": "standing", "steps": 60, "settings": { "after": 0 } } },
+                "promotion": { "generations": 4 }
+            }
+        ]
+    });
+    fs::write(&file, stages.to_string())?;
+    let ended = run(gambol("train").arg("--config").arg(&file).arg("--out").arg(&out).arg("--no-report"));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    let (first, last) = ended.stderr.split_once("stage 2 of 2, stand").ok_or("there are two stages")?;
+    assert_says(first, &["generation 1: best ", " m in training, "]);
+    assert_says(last, &["generation 1: best ", " s in training, "]);
+    assert!(!last.contains(" m in "), "{last}");
+    assert_says(&ended.stdout, &[" s in rapier (", " s in training), found in generation ", " of its stage; "]);
+    // Where all stages were passed before, none is begun.
+    let again = run(gambol("resume").arg(&out).arg("--no-report"));
+    assert_says(&again.stdout, &[" s in rapier (", " of its stage; "]);
     Ok(())
 }
