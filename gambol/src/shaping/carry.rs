@@ -7,12 +7,12 @@ use super::{
 use crate::{
     config::{FrozenTopology, RunConfig, StrategySettings},
     run_folder::FolderError,
-    search::{Passage, Search},
+    search::{Passage, Search, SearchVisitor},
     setup::{Setup, SetupError},
 };
 use creatures::Channel;
 use ne_core::{Checkpoint, SettingError};
-use ne_net::Growth;
+use ne_net::{Growth, Topology};
 use tasks::MovementCatalogue;
 
 /// Why nothing can be carried over.
@@ -211,7 +211,8 @@ impl Departure {
 /// Checks that a stage could go on from another, before there is anything to carry.
 ///
 /// # Errors
-/// If what is asked to be carried cannot be, or inputs or outputs would be lost.
+/// If what is asked to be carried cannot be, or inputs or outputs would be lost that may not be, or that the strategy cannot
+/// give up.
 pub(super) fn check_planned(
     (from, before): (&StrategySettings, &Setup),
     (to, after): (&StrategySettings, &Setup),
@@ -219,15 +220,43 @@ pub(super) fn check_planned(
 ) -> Result<(), CarryError> {
     let carried = manner.carried.unwrap_or_else(|| usual(from, to));
     check_possible("the stage before", Some(from), carried, to)?;
-    if manner.forget || carried == Carried::Nothing {
+    let channels = [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())];
+    if !manner.forget && carried != Carried::Nothing {
+        let mut what = Vec::new();
+        for (before, after) in channels {
+            let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
+            what.extend(before.iter().filter(is_lost).map(|channel| format!("\"{}\"", channel.name)));
+        }
+        if !what.is_empty() {
+            return Err(CarryError::Lost { what, allow: FORGET });
+        }
+    }
+    if carried != Carried::Population {
         return Ok(());
     }
-    let mut what = Vec::new();
-    for (before, after) in [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())] {
-        let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
-        what.extend(before.iter().filter(is_lost).map(|channel| format!("\"{}\"", channel.name)));
+    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+    let [inputs, outputs] = channels.map(|(before, after)| Growth::by_name(&names(before), &names(after)));
+    let genes = Growth::by_name(&before.weight_names, &after.weight_names);
+    let passage = Passage { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
+    Ok(from.visit(CanGrow { topology: &before.topology, passage })?)
+}
+
+/// Lets a search that has not begun go on with other nets.
+struct CanGrow<'a> {
+    topology: &'a Topology,
+    passage: Passage<'a>,
+}
+
+impl SearchVisitor for CanGrow<'_> {
+    type Output = Result<(), SettingError>;
+
+    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
+        S::build(settings, self.topology)?.grown(settings, &self.passage).map(drop)
     }
-    if what.is_empty() { Ok(()) } else { Err(CarryError::Lost { what, allow: FORGET }) }
+
+    fn foreign(self, _: &str) -> Self::Output {
+        Ok(())
+    }
 }
 
 /// What is carried from a run if nobody says what.

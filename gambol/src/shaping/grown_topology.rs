@@ -1,4 +1,4 @@
-//! A frozen topology for a body that senses or moves something else than when it was found.
+//! A frozen topology for a body that senses or moves more than when it was found.
 
 use crate::config::FrozenTopology;
 use creatures::Channel;
@@ -6,13 +6,13 @@ use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
 
 impl FrozenTopology {
     /// The topology with these inputs and outputs. A new input of a graph is connected with every output; a new output has a
-    /// bias and hears every input. What it has too much is left out if it may be forgotten; else it stays, and is refused
-    /// when it is used.
+    /// bias and hears every input. What it has too much is given up if `forget` says so: inputs with all connections from them,
+    /// outputs by becoming hidden neurons; else it stays, and is refused when it is used.
     pub(crate) fn grown(&self, senses: &[Channel], motors: &[Channel], forget: bool) -> Self {
         let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
         let (inputs, outputs) = (names(senses), names(motors));
         let kept = |old: &[String], new: &[String]| old.iter().all(|name| new.contains(name));
-        if !forget && (!kept(&self.inputs, &inputs) || !kept(&self.outputs, &outputs)) {
+        if !forget && !(kept(&self.inputs, &inputs) && kept(&self.outputs, &outputs)) {
             return self.clone();
         }
         let net = match &self.net {
@@ -27,14 +27,16 @@ impl FrozenTopology {
 
     fn grown_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {
         let place = |name: &String| inputs.iter().position(|other| other == name);
-        let node = |node: usize| match node.checked_sub(shape.inputs) {
-            Some(neuron) => Some(inputs.len() + neuron),
-            None => self.inputs.get(node).and_then(place),
+        // What is no neuron stays below them, and is refused when it is used.
+        let neuron_node = |node: usize| (inputs.len() + node).saturating_sub(shape.inputs);
+        let source_node = |&node: &usize| match self.inputs.get(node).filter(|_| node < shape.inputs) {
+            Some(name) => place(name),
+            None => Some(neuron_node(node)),
         };
         let new_inputs: Vec<usize> = (0..inputs.len()).filter(|&input| !self.inputs.contains(&inputs[input])).collect();
         let mut neurons: Vec<GraphNeuron> = Vec::with_capacity(shape.neurons.len());
         for (index, neuron) in shape.neurons.iter().enumerate() {
-            let mut sources: Vec<usize> = neuron.sources.iter().filter_map(|&source| node(source)).collect();
+            let mut sources: Vec<usize> = neuron.sources.iter().filter_map(source_node).collect();
             if shape.outputs.contains(&(shape.inputs + index)) {
                 sources.extend(&new_inputs);
             }
@@ -43,7 +45,7 @@ impl FrozenTopology {
         let activation = shape.outputs.first().and_then(|&output| shape.neurons.get(output.checked_sub(shape.inputs)?));
         let activation = activation.map_or(Activation::Tanh, |neuron| neuron.activation);
         let mut output_node = |name: &String| match self.outputs.iter().position(|other| other == name) {
-            Some(output) => shape.outputs[output] - shape.inputs + inputs.len(),
+            Some(output) => neuron_node(shape.outputs[output]),
             None => {
                 neurons.push(GraphNeuron { activation, bias: true, sources: (0..inputs.len()).collect() });
                 inputs.len() + neurons.len() - 1

@@ -21,7 +21,8 @@ pub struct StageSettings {
     /// When the stage is passed. Only the last may have none: it goes on until the run ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub promotion: Option<Rule>,
-    /// When the population goes back to the stage before; looked at after `promotion`. The first stage has none.
+    /// When the population goes back to the stage before; looked at after `promotion`. The first stage has none. What goes
+    /// back is as much as can be, whatever `carry` says; inputs and weights that this stage added are given up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demotion: Option<Rule>,
     /// What it takes from the stage before; by default as much as it can: the population if the strategy is the same, else the

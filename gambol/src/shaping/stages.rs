@@ -47,6 +47,9 @@ pub enum StageProblem {
     /// Nothing can be carried to it.
     #[error(transparent)]
     Carry(#[from] CarryError),
+    /// Nothing can be carried back from it to the stage before.
+    #[error("demotion: {0}")]
+    Demotion(Box<CarryError>),
 }
 
 impl Stages {
@@ -68,8 +71,11 @@ impl Stages {
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
             if let Some(setup_before) = &setup_before {
                 let manner = Manner { carried: settings.carry, forget: settings.forget };
-                let from = (&before.strategy, setup_before);
-                check_planned(from, (&resolved.strategy, &setup), manner).map_err(|error| wrong(error.into()))?;
+                let (earlier, this) = ((&before.strategy, setup_before), (&resolved.strategy, &setup));
+                check_planned(earlier, this, manner).map_err(|error| wrong(error.into()))?;
+                if settings.demotion.is_some() {
+                    check_planned(this, earlier, BACK).map_err(|error| wrong(StageProblem::Demotion(error.into())))?;
+                }
             }
             setup_before = Some(setup);
             stages.push((settings.clone(), resolved.clone()));
@@ -84,6 +90,9 @@ impl Stages {
     }
 }
 
+/// Whoever goes back takes as much as can be, and gives up what the later stage had added.
+const BACK: Manner = Manner { carried: None, forget: true };
+
 impl Curriculum for Stages {
     fn next(&self, legs: &[Leg]) -> Option<PlannedStage> {
         let stage = match legs.last() {
@@ -94,13 +103,15 @@ impl Curriculum for Stages {
         let (settings, config) = self.stages.get(stage)?;
         let rules = Rules { promotion: settings.promotion.clone(), demotion: settings.demotion.clone() };
         let has_rules = rules.promotion.is_some() || rules.demotion.is_some();
+        let goes_back = legs.last().is_some_and(|leg| leg.decision == Decision::Demote);
+        let manner = if goes_back { BACK } else { Manner { carried: settings.carry, forget: settings.forget } };
         Some(PlannedStage {
             stage,
             name: settings.name.clone(),
             config: config.clone(),
             promotion: has_rules.then(|| Arc::new(rules) as Arc<dyn Promotion>),
-            carry: settings.carry,
-            forget: settings.forget,
+            carry: manner.carried,
+            forget: manner.forget,
         })
     }
 }

@@ -87,8 +87,11 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     let old = RunConfig { topology: Some(frozen.clone()), ..old };
     let more = setup(&RunConfig { topology: None, ..with_more_senses(&old) });
     let grown = frozen.grown(more.inputs(), more.outputs(), false);
-    let new = RunConfig { topology: Some(grown), ..with_more_senses(&old) };
+    let new = RunConfig { topology: Some(grown.clone()), ..with_more_senses(&old) };
     assert_same_behaviour("frozen", &setup(&old), &setup(&new));
+    // It gives up what it has gained only if it may.
+    assert_eq!(grown.grown(bare.inputs(), bare.outputs(), true), frozen);
+    assert_eq!(grown.grown(bare.inputs(), bare.outputs(), false), grown);
 }
 
 fn stages(stages: serde_json::Value) -> Result<Stages, String> {
@@ -131,6 +134,9 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
     for (name, decision) in [("a", Promote), ("b", Demote), ("a", Promote), ("b", Promote), ("c", Promote)] {
         let planned = stages.next(&legs).expect("a stage");
         assert_eq!(planned.name, name);
+        // Only whoever goes back may give something up.
+        let went_back = legs.last().is_some_and(|leg| leg.decision == Demote);
+        assert_eq!(planned.forget, went_back);
         legs.push(Leg {
             number: legs.len() + 1,
             stage: planned.stage,
@@ -219,6 +225,17 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): NEAT goes on from a population of its own, and from no single net",
         ),
         (
+            json!([
+                { "name": "a", "promotion": { "generations": 3 }, "changes": { "strategy": { "neat": {} } } },
+                { "name": "b", "demotion": { "generations": 3 }, "changes": { "strategy": { "cma-es": {} } } }
+            ]),
+            "stages[1] (\"b\"): demotion: NEAT goes on from a population of its own, and from no single net",
+        ),
+        (
+            two(json!({ "name": "b", "changes": { "creature": "biped-2" } })),
+            "stages[1] (\"b\"): changes.creature: invalid type: string \"biped-2\", expected ",
+        ),
+        (
             two(json!({ "name": "b", "carry": "population", "changes": { "strategy": { "open-es": {} } } })),
             "stages[1] (\"b\"): a population of cma-es is none of open-es: carry the champion or its topology, or keep the strategy",
         ),
@@ -230,6 +247,12 @@ fn errors_name_stage_and_field() {
     let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));
     let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));
     assert_eq!(named, Some((Variation::default(), "gaps:0.5".parse().expect("a terrain"))));
+    // NEAT can give up what a stage has added.
+    let there_and_back = json!([
+        { "name": "a", "promotion": { "generations": 3 }, "changes": { "strategy": { "neat": {} } } },
+        { "name": "b", "demotion": { "generations": 3 }, "add_sensors": ["joint-speeds"] }
+    ]);
+    assert!(stages(there_and_back).is_ok());
     // What was learned may be given up if that is said.
     let forgetful = json!({ "name": "b", "forget": true, "changes": { "sensors": ["joint-angles"] } });
     assert!(stages(two(forgetful)).is_ok());

@@ -165,6 +165,47 @@ fn populations_are_sent_back() -> Outcome {
 }
 
 #[test]
+fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let feel = json!({
+        "name": "feel", "add_sensors": ["joint-speeds"], "promotion": { "fitness": 1e9 }, "demotion": { "generations": 3 }
+    });
+    let mut config = three_stages();
+    config["stages"] = json!([{ "name": "run", "promotion": { "generations": 4 } }, feel]);
+    config["stop"] = json!({ "generations": 12 });
+    let run_folder = folder.path().join("run");
+    let ended = run(&mut train(&write(folder.path(), &config), &run_folder));
+    assert_eq!(ended.code, Some(0), "{}", ended.stderr);
+    assert_eq!(legs(&run_folder), ["01-run", "02-feel", "03-run", "04-feel"]);
+    assert_says(
+        &ended.stderr,
+        &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); ", "; given up: speed of "],
+    );
+    succeed(gambol("verify").arg(run_folder.join("stages/03-run/champion.json")));
+    // So does a topology that NEAT has found; but NEAT itself takes nobody back.
+    config["strategy"] = json!({ "neat": { "population": 12 } });
+    let weights = json!({
+        "name": "weights", "changes": { "strategy": { "cma-es": { "population": 8 } } }, "promotion": { "generations": 3 }
+    });
+    config["stages"] = json!([{ "name": "topology", "promotion": { "generations": 3 } }, weights, feel]);
+    let run_folder = folder.path().join("with-neat");
+    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    assert_eq!(legs(&run_folder), ["01-topology", "02-weights", "03-feel", "04-weights"]);
+    let inputs = |leg: &str| {
+        let config = json(&run_folder.join("stages").join(leg).join("config.json"))["content"].clone();
+        config["topology"]["inputs"].clone()
+    };
+    assert!(inputs("04-weights") == inputs("02-weights") && inputs("03-feel") != inputs("02-weights"));
+    config["stages"][1]["demotion"] = json!({ "generations": 3 });
+    let config = write(folder.path(), &config);
+    let refused = ["stages[1] (\"weights\"): demotion: NEAT goes on from a population of its own"];
+    assert_says(&fail(gambol("check").arg(&config)), &refused);
+    assert_says(&fail(&mut train(&config, &folder.path().join("refused"))), &refused);
+    assert!(!folder.path().join("refused").exists());
+    Ok(())
+}
+
+#[test]
 fn neat_finds_a_topology_and_another_strategy_its_weights() -> Outcome {
     let folder = tempfile::tempdir()?;
     let mut config = three_stages();
