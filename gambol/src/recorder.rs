@@ -9,7 +9,7 @@ use crate::{
     setup::Setup,
 };
 use ne_core::{
-    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Standing, Strategy,
+    Decision, Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Standing, Strategy,
 };
 use ne_net::Network;
 use std::time::Instant;
@@ -149,7 +149,9 @@ impl<'a> Recorder<'a> {
         let seconds = self.last.elapsed().as_secs_f64();
         self.last = Instant::now();
         self.timing.write(&Timing { generation, seconds })?;
-        if generation.is_multiple_of(self.config.record.checkpoint_every) {
+        // A stage that is passed or left is saved once it has ended, with the champion that goes on from it.
+        let goes_on = event.decision == Decision::Stay;
+        if goes_on && generation.is_multiple_of(self.config.record.checkpoint_every) {
             self.sync()?;
             self.write_champion(event.strategy.name(), event.champion)?;
             self.write_front(event.strategy, generation)?;

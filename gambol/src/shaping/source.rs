@@ -8,7 +8,7 @@ use crate::{
     search::{Search, SearchVisitor},
     setup::Setup,
 };
-use ne_core::Checkpoint;
+use ne_core::{Checkpoint, Genome};
 use ne_net::Topology;
 use std::path::Path;
 use tasks::MovementCatalogue;
@@ -133,7 +133,10 @@ impl SearchVisitor for HasBegunAnew<'_> {
     }
 }
 
-/// Reads the champion out of a checkpoint, or the best that waits for the first hearing: its topology and weights, and the generation it was found in.
+/// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
+///
+/// It is the one in the champion file, which may still wait there for a hearing. If a kill has parted the two files, it is the
+/// champion of the checkpoint, or the best that waits for the first hearing.
 struct ReadChampion<'a> {
     folder: &'a RunFolder,
     expressed: bool,
@@ -145,10 +148,19 @@ impl SearchVisitor for ReadChampion<'_> {
     fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
         let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
         let Checkpoint { champion, finalists, .. } = checkpoint;
+        let file = self.folder.champion();
+        let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;
+        let is_written = |genome: &S::Genome, generation: u64| {
+            let is_it =
+                |written: &Champion| written.generation == generation && written.network == genome.express().into();
+            written.as_ref().is_some_and(is_it)
+        };
+        let kept = finalists.iter().find(|finalist| is_written(&finalist.genome, finalist.generation));
+        let kept = kept.map(|finalist| (finalist.genome.clone(), finalist.generation));
         let heard = champion.map(|champion| (champion.genome, champion.generation));
-        // Before the first hearing the best of those who wait for it stands in; of equals the first.
+        // Of equals the first.
         let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
-        let best = heard.or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
+        let best = kept.or(heard).or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
         Ok(best.map(|(genome, generation)| {
             let (topology, weights) = S::net(&genome, self.expressed);
             (topology, weights, generation)

@@ -274,6 +274,35 @@ fn a_run_goes_on_from_another_run_or_a_champion() -> Outcome {
     Ok(())
 }
 
+/// The weights a CMA-ES that was carried over begins at.
+fn start_of(run: &Path) -> Value {
+    json(&run.join("checkpoint"))["content"]["strategy"]["start"].clone()
+}
+
+/// The weights of the champion in the file.
+fn champion_weights(run: &Path) -> Value {
+    json(&run.join("champion.json"))["content"]["network"]["weights"].clone()
+}
+
+#[test]
+fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small_run(&path("first"), 22).arg("--quiet"));
+    // It was found since the last hearing, so that the checkpoint has it among those who wait for the next.
+    let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
+    let generation = file["content"]["generation"].clone();
+    assert!(generation.as_u64() > heard["content"]["champion"]["generation"].as_u64());
+    assert!(heard["content"]["champion"].is_object());
+    let mut train = gambol("train");
+    train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
+    train.args(["--generations", "1", "--carry", "topology", "--from"]).arg(path("first"));
+    succeed(train.arg("--out").arg(path("second")));
+    assert_eq!(json(&path("second/config.json"))["content"]["origin"]["generation"], generation);
+    assert_eq!(start_of(&path("second")), champion_weights(&path("first")));
+    Ok(())
+}
+
 #[test]
 fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     let folder = tempfile::tempdir()?;
