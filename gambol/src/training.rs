@@ -99,7 +99,7 @@ pub enum TrainError {
 }
 
 fn resume_hint(folder: &RunFolder) -> String {
-    if folder.checkpoint().is_file() {
+    if folder.checkpoint().is_file() || folder.stages().is_dir() {
         format!("; go on with: gambol resume {}", folder.path().display())
     } else {
         String::new()

@@ -233,6 +233,8 @@ fn travel(
             stages: Vec::new(),
             ..planned.config.clone()
         };
+        // The process may have been killed before it came to that.
+        keep_champion(folder, &legs, is_begun.then_some(&leg_folder))?;
         let options = TrainOptions {
             threads: options.threads,
             catalogue: options.catalogue.clone(),
@@ -241,11 +243,12 @@ fn travel(
         };
         let outcome = if is_begun {
             (journey.on_leg)(&planned, leg_folder.read_config()?.origin.as_ref());
-            training::resume_leg(&path, stop, now, planned.promotion.clone(), options)?
+            training::resume_leg(&path, stop, now, planned.promotion.clone(), options).map_err(ShapingError::from)
         } else {
-            begin(&planned, leg_config, &path, legs.last(), now, &mut *journey.on_leg, options)?
+            begin(&planned, leg_config, &path, legs.last(), now, &mut *journey.on_leg, options)
         };
-        keep_champion(&leg_folder, folder)?;
+        let outcome = outcome.map_err(|error| of_the_run(error, folder, used))?;
+        keep_champion(folder, &legs, Some(&leg_folder))?;
         let passed = leg(&leg_folder, number, planned.stage, &planned.name)?;
         if passed.decision == Decision::Stay {
             legs.push(passed);
@@ -378,13 +381,29 @@ fn exhausted(stop: StopConditions) -> Option<StopReason> {
     .find_map(|(left, reason)| (left == Some(0)).then_some(reason))
 }
 
-/// The champion of the latest stage is that of the run.
-fn keep_champion(leg: &RunFolder, run: &RunFolder) -> Result<(), FolderError> {
-    if !leg.champion().is_file() {
-        return Ok(());
+/// The champion of the latest leg that has one is that of the run; `current` is the leg under way.
+fn keep_champion(run: &RunFolder, legs: &[Leg], current: Option<&RunFolder>) -> Result<(), FolderError> {
+    let earlier = legs.iter().rev().map(|leg| RunFolder::at(&leg.folder).champion());
+    let mut latest = current.map(RunFolder::champion).into_iter().chain(earlier).filter(|path| path.is_file());
+    match latest.next() {
+        Some(path) => Ok(crate::champion::Champion::read(&path)?.write(&run.champion())?),
+        None => Ok(()),
     }
-    let champion = crate::champion::Champion::read(&leg.champion())?;
-    Ok(champion.write(&run.champion())?)
+}
+
+/// The error of a leg, told of the whole run: its folder, and the generations of all legs; `used` is what those before have
+/// used.
+pub(super) fn of_the_run(error: ShapingError, run: &RunFolder, used: Progress) -> ShapingError {
+    let folder = run.clone();
+    match error {
+        ShapingError::Train(TrainError::Over { reason, generations, .. }) => {
+            TrainError::Over { folder, reason, generations: used.generations + generations }.into()
+        }
+        ShapingError::Train(TrainError::BrokeOff { generation, source, .. }) => {
+            TrainError::BrokeOff { folder, generation: used.generations + generation, source }.into()
+        }
+        other => other,
+    }
 }
 
 fn finish(
@@ -394,6 +413,7 @@ fn finish(
     last: Option<Outcome>,
     legs: &[Leg],
 ) -> Result<Outcome, ShapingError> {
+    keep_champion(folder, legs, None)?;
     let champion = match last {
         Some(outcome) => outcome.champion,
         None => match legs.last().map(|leg| RunFolder::at(&leg.folder).champion()).filter(|path| path.is_file()) {

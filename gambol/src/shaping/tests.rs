@@ -4,10 +4,11 @@ use super::*;
 use crate::{
     config::{FrozenTopology, RunConfig, preset},
     setup::Setup,
+    training::TrainError,
 };
 use creatures::Sensor;
 use envs_rapier::Variation;
-use ne_core::{Decision, Phenotype, Progress};
+use ne_core::{Decision, EvolutionError, Phenotype, Progress, StopReason};
 use ne_net::{Activation, GraphNeuron, GraphShape, Growth};
 use serde_json::json;
 use tasks::MovementCatalogue;
@@ -119,6 +120,23 @@ fn a_stage_changes_what_it_names_and_keeps_the_rest() {
     // What the preset knows of another movement comes with its name.
     let jumping = preset("default").expect("there").config(plain.creature.clone(), "jumping");
     assert_eq!((&configs[2].movement, configs[2].rehearsal), (&jumping.movement, jumping.rehearsal));
+}
+
+#[test]
+fn errors_of_a_leg_are_told_of_the_run() {
+    let run = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all"));
+    let leg = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all/stages/02-feel"));
+    let used = Progress { generations: 14, ..Progress::default() };
+    let told = |error: TrainError| super::journey::of_the_run(error.into(), &run, used).to_string();
+    let over = TrainError::Over { folder: leg.clone(), reason: StopReason::Generations, generations: 6 };
+    let message = told(over);
+    assert!(message.starts_with("the run in runs/all has ended: "), "{message}");
+    assert!(message.ends_with(" (generation 20); to go on, raise its limit, such as --generations 120"), "{message}");
+    let source = EvolutionError::EmptyPopulation { strategy: "cma-es".into(), generation: 3 };
+    let message = told(TrainError::BrokeOff { folder: leg, generation: 2, source });
+    assert!(message.contains("\nthe run stopped in generation 16; "), "{message}");
+    // Any other is what it was.
+    assert_eq!(told(TrainError::Stages), TrainError::Stages.to_string());
 }
 
 #[test]

@@ -205,6 +205,49 @@ fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
     Ok(())
 }
 
+/// Trains `three_stages` with a last stage that is passed, which takes no time worth speaking of.
+fn short_stages(folder: &Path) -> PathBuf {
+    let mut config = three_stages();
+    config["stages"][0]["promotion"] = json!({ "generations": 2 });
+    config["stages"][1]["promotion"] = json!({ "generations": 3 });
+    config["stages"][2]["promotion"] = json!({ "generations": 2 });
+    let run_folder = folder.join("run");
+    succeed(train(&write(folder, &config), &run_folder).arg("--quiet"));
+    run_folder
+}
+
+#[test]
+fn a_run_killed_before_it_kept_its_champion_keeps_it_when_resumed() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = short_stages(folder.path());
+    let (kept, last) = (run_folder.join("champion.json"), run_folder.join("stages/03-jump/champion.json"));
+    let expected = read(&last);
+    let resume = |code: i32| {
+        let ended = run(gambol("resume").arg(&run_folder).args(["--no-report", "--quiet"]));
+        assert_eq!((ended.code, read(&kept) == expected), (Some(code), true), "{}", ended.stderr);
+        ended.stderr
+    };
+    fs::remove_file(&kept)?;
+    resume(0);
+    fs::copy(run_folder.join("stages/01-run/champion.json"), &kept)?;
+    resume(0);
+    // Of a stage that goes on until the run ends, too.
+    let mut config = three_stages();
+    config["stages"] = json!([config["stages"][0], { "name": "jump" }]);
+    config["stages"][0]["promotion"] = json!({ "generations": 2 });
+    config["stop"] = json!({ "generations": 5 });
+    let run_folder = folder.path().join("limited");
+    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let (kept, last) = (run_folder.join("champion.json"), run_folder.join("stages/02-jump/champion.json"));
+    fs::copy(run_folder.join("stages/01-run/champion.json"), &kept)?;
+    let message = fail(gambol("resume").arg(&run_folder).args(["--no-report", "--quiet"]));
+    assert_eq!(read(&kept), read(&last));
+    // What is said is said of the run.
+    let said = format!("the run in {} has ended: ", text(&run_folder));
+    assert_says(&message, &[&said, "(generation 5)", "--generations 105"]);
+    Ok(())
+}
+
 #[test]
 fn neat_finds_a_topology_and_another_strategy_its_weights() -> Outcome {
     let folder = tempfile::tempdir()?;
