@@ -111,7 +111,7 @@ impl Request {
     pub fn resolve(&self, catalogue: &MovementCatalogue) -> Result<RunConfig, RequestError> {
         let mut layer = self.config.as_deref().map(Layer::read).transpose()?;
         if let Some(layer) = &mut layer {
-            layer.find_companions()?;
+            layer.find_creatures()?;
         }
         let creature = self.creature(layer.as_ref())?;
         let movement = self.movement(layer.as_ref(), catalogue)?;
@@ -298,8 +298,9 @@ impl Layer {
         Ok(blueprint.creature().clone())
     }
 
-    /// Puts creatures in the place of their names: of the companions of the run, and of each of its stages.
-    fn find_companions(&mut self) -> Result<(), RequestError> {
+    /// Puts creatures in the place of their names: of the companions of the run, and of the creature and the companions of
+    /// each of its stages.
+    fn find_creatures(&mut self) -> Result<(), RequestError> {
         let stages = self.value.get("stages").and_then(Value::as_array).map_or(0, Vec::len);
         let of_stage =
             |stage| (format!("/stages/{stage}/changes/companions"), format!("stages[{stage}].changes.companions"));
@@ -310,6 +311,14 @@ impl Layer {
             let found = json!(found.collect::<Result<Vec<_>, _>>()?);
             if let Some(companions) = self.value.pointer_mut(&place) {
                 *companions = found;
+            }
+        }
+        for stage in 0..stages {
+            let place = format!("/stages/{stage}/changes/creature");
+            let Some(named) = self.value.pointer(&place) else { continue };
+            let found = json!(self.creature(&format!("stages[{stage}].changes.creature"), named)?);
+            if let Some(creature) = self.value.pointer_mut(&place) {
+                *creature = found;
             }
         }
         Ok(())

@@ -143,12 +143,24 @@ fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, St
         return Err(SettingError::new(format!("changes.{field}"), "a change", allowed).into());
     }
     let mut assembly = Assembly::new(before);
+    let mut creature = before.creature.clone();
+    if let Some(changed) = settings.changes.get("creature") {
+        creature = serde_json::from_value(changed.clone())
+            .map_err(|error| ConfigError::Field { field: "creature".into(), message: error.to_string() })?;
+        // A creature is chosen as a whole, too.
+        assembly.lay_over(json!({ "creature": null }));
+    }
     let movement = settings.changes.get("movement");
     let renamed = movement.and_then(|movement| movement.get("name")).and_then(Value::as_str);
     if let Some(name) = renamed.filter(|&name| name != before.movement.name)
         && let Some(preset) = preset(&before.preset)
     {
-        let fresh = preset.config(before.creature.clone(), name);
+        let fresh = preset.config(creature, name);
+        let former = preset.config(before.creature.clone(), &before.movement.name);
+        if fresh.physics.water.is_some() != former.physics.water.is_some() {
+            // Into the water or out of it, and to the engine that has it.
+            assembly.lay_over(json!({ "physics": { "water": fresh.physics.water }, "engine": fresh.engine }));
+        }
         // Null first: a movement is merged, and terms of the old one must not stay.
         assembly.lay_over(json!({ "movement": null, "rehearsal": fresh.rehearsal }));
         assembly.lay_over(json!({ "movement": fresh.movement }));

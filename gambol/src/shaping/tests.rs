@@ -123,6 +123,49 @@ fn a_stage_changes_what_it_names_and_keeps_the_rest() {
 }
 
 #[test]
+fn water_comes_with_swimming_and_goes_with_it() {
+    let stages = stages(json!([
+        { "name": "run", "promotion": { "generations": 3 } },
+        { "name": "swim", "promotion": { "generations": 3 }, "changes": { "movement": { "name": "swimming" } } },
+        { "name": "jump", "promotion": { "generations": 3 }, "changes": { "movement": { "name": "jumping" } } },
+        {
+            "name": "dive",
+            "changes": { "movement": { "name": "swimming" }, "physics": { "water": { "density": 1.5 } } }
+        }
+    ]))
+    .expect("valid");
+    let given: Vec<_> = stages.configs().map(|(_, config)| (config.physics, config.engine)).collect();
+    let plain = config("biped-1");
+    let swimming = preset("default").expect("there").config(plain.creature.clone(), "swimming");
+    assert!(swimming.physics.water.is_some() && swimming.engine != plain.engine);
+    let (dry, wet) = ((plain.physics, plain.engine), (swimming.physics, swimming.engine));
+    assert_eq!(given[..3], [dry, wet, dry]);
+    let dense = given[3].0.water.expect("it dives");
+    assert_eq!((dense.density, given[3].1), (Some(1.5), swimming.engine));
+}
+
+#[test]
+fn a_stage_has_a_creature_of_its_own_as_a_whole() {
+    let worm = creatures::find("apod").expect("shipped");
+    let stages = stages(json!([
+        { "name": "run", "promotion": { "generations": 3 } },
+        { "name": "worm", "promotion": { "generations": 3 }, "forget": true, "carry": "nothing", "changes": {
+            "creature": worm, "movement": { "name": "backwards" }, "sensors": ["joint-angles"]
+        } },
+        { "name": "biped", "carry": "nothing", "changes": { "creature": creatures::find("biped-1").expect("shipped") } }
+    ]))
+    .expect("valid");
+    let configs: Vec<&RunConfig> = stages.configs().map(|(_, config)| config).collect();
+    assert_eq!((&configs[1].creature, &configs[2].creature), (&worm, &config("biped-1").creature));
+    // Who has no legs is coached as one without.
+    let coached = preset("default").expect("there").config(worm, "backwards").movement;
+    assert_ne!(coached, preset("default").expect("there").config(configs[0].creature.clone(), "backwards").movement);
+    assert_eq!(configs[1].movement, coached);
+    // Nothing of the movement is new where it is the same.
+    assert_eq!(configs[2].movement, coached);
+}
+
+#[test]
 fn errors_of_a_leg_are_told_of_the_run() {
     let run = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all"));
     let leg = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all/stages/02-feel"));

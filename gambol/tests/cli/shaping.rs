@@ -249,6 +249,31 @@ fn a_run_killed_before_it_kept_its_champion_keeps_it_when_resumed() -> Outcome {
 }
 
 #[test]
+fn a_stage_has_a_creature_by_its_name_or_its_file() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut config = three_stages();
+    config["stop"] = json!({ "generations": 4 });
+    config["stages"] = json!([
+        { "name": "biped", "promotion": { "generations": 2 } },
+        { "name": "other", "carry": "nothing", "changes": { "creature": "tetrapod-1" }, "promotion": { "generations": 1 } },
+        { "name": "mine", "carry": "nothing", "changes": { "creature": "mine.json" } }
+    ]);
+    let mut mine = serde_json::to_value(creatures::find("biped-1").expect("shipped"))?;
+    mine["name"] = json!("mine");
+    fs::write(folder.path().join("mine.json"), mine.to_string())?;
+    let run_folder = folder.path().join("run");
+    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let name = |leg: &str| {
+        json(&run_folder.join("stages").join(leg).join("config.json"))["content"]["creature"]["name"].clone()
+    };
+    assert_eq!(["01-biped", "02-other", "03-mine"].map(name), [json!("biped-1"), json!("tetrapod-1"), json!("mine")]);
+    config["stages"][1]["changes"]["creature"] = json!("tetrapot-1");
+    let message = fail(gambol("check").arg(write(folder.path(), &config)));
+    assert_says(&message, &["stages[1].changes.creature: ", "did you mean `tetrapod-1`?"]);
+    Ok(())
+}
+
+#[test]
 fn neat_finds_a_topology_and_another_strategy_its_weights() -> Outcome {
     let folder = tempfile::tempdir()?;
     let mut config = three_stages();
