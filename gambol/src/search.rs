@@ -41,6 +41,11 @@ pub trait Search: Strategy<Genome: Genome<Phenotype: Into<Network>>> {
         false
     }
 
+    /// Whether it has nothing that could go on: it has left what it had found, and found nothing since.
+    fn has_nothing_to_carry(&self) -> bool {
+        false
+    }
+
     /// The net of a genome: the topology and its weights, expressed or as they are searched.
     fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>);
 }
@@ -198,6 +203,10 @@ impl Search for CmaEs {
 
     fn has_begun_anew(&self) -> bool {
         self.has_begun_anew()
+    }
+
+    fn has_nothing_to_carry(&self) -> bool {
+        self.has_begun_anew() && self.mean().is_none()
     }
 
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {

@@ -96,6 +96,13 @@ impl Departure {
             (None, None) => Carried::Topology,
         };
         check_possible(&source.name, from, carried, &to.strategy)?;
+        if carried == Carried::Population && source.has_nothing_to_carry()? {
+            let message = format!(
+                "the search of {} has just begun anew and has nothing to carry: carry the champion",
+                source.name
+            );
+            return Err(CarryError::Impossible(message));
+        }
         let mut config = to.clone();
         if let (Kind::Run { config: from, .. }, None, true) = (&source.kind, &to.topology, carried != Carried::Nothing)
         {

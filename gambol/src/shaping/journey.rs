@@ -290,7 +290,12 @@ fn begin(
     // Named as the folders lie beside each other, so that a run may be moved.
     let name = before.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let source = Source::run(name, RunFolder::open(&before.folder)?, &options.catalogue)?;
-    let manner = Manner { carried: planned.carry, forget: planned.forget };
+    // A search that has nothing to carry is no reason to end a run: its champion goes on, as the folder's origin says.
+    let carried = match planned.carry {
+        Some(Carried::Population) if source.has_nothing_to_carry()? => None,
+        carried => carried,
+    };
+    let manner = Manner { carried, forget: planned.forget };
     let departure = Departure::prepare(source, &config, manner, &options.catalogue)?;
     let config = departure.config.clone();
     on_leg(planned, config.origin.as_ref());

@@ -73,7 +73,15 @@ impl Source {
     /// Whether the search of a run has left what it had found.
     pub(super) fn has_begun_anew(&self) -> Result<bool, CarryError> {
         match &self.kind {
-            Kind::Run { folder, config, .. } => config.strategy.visit(HasBegunAnew { folder }),
+            Kind::Run { folder, config, .. } => Ok(config.strategy.visit(ReadRestart { folder })?.has_begun_anew),
+            Kind::Champion(_) => Ok(false),
+        }
+    }
+
+    /// Whether the search of a run has left what it had found, and found nothing since.
+    pub(super) fn has_nothing_to_carry(&self) -> Result<bool, CarryError> {
+        match &self.kind {
+            Kind::Run { folder, config, .. } => Ok(config.strategy.visit(ReadRestart { folder })?.has_nothing_to_carry),
             Kind::Champion(_) => Ok(false),
         }
     }
@@ -114,22 +122,33 @@ pub(super) fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
     channels.iter().map(|channel| channel.name.clone()).collect()
 }
 
-/// Asks the strategy in a checkpoint whether it has begun anew, and whether there is a champion to begin at.
-struct HasBegunAnew<'a> {
+/// What a restart has left of a search.
+#[derive(Default)]
+struct Restart {
+    /// What it had found was left, and there is a champion to begin at.
+    has_begun_anew: bool,
+    has_nothing_to_carry: bool,
+}
+
+/// Asks the strategy in a checkpoint.
+struct ReadRestart<'a> {
     folder: &'a RunFolder,
 }
 
-impl SearchVisitor for HasBegunAnew<'_> {
-    type Output = Result<bool, CarryError>;
+impl SearchVisitor for ReadRestart<'_> {
+    type Output = Result<Restart, CarryError>;
 
     fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
         let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
         let someone = checkpoint.champion.is_some() || !checkpoint.finalists.is_empty();
-        Ok(checkpoint.strategy.has_begun_anew() && someone)
+        Ok(Restart {
+            has_begun_anew: checkpoint.strategy.has_begun_anew() && someone,
+            has_nothing_to_carry: checkpoint.strategy.has_nothing_to_carry(),
+        })
     }
 
     fn foreign(self, _: &str) -> Self::Output {
-        Ok(false)
+        Ok(Restart::default())
     }
 }
 

@@ -375,17 +375,36 @@ fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
 fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
-    // It cannot get any finer, so every generation is followed by a restart.
-    succeed(small_run(&path("first"), 3).args(["--quiet", "--set", "strategy.cma-es.least_deviation=0.5"]));
-    let origin = |out: &str, more: &[&str]| {
+    // It cannot get any finer, so every generation is followed by a restart. The genes of a net without limbs are its weights.
+    let coarse = ["--quiet", "--set", "strategy.cma-es.least_deviation=0.5", "--set", "controller.limbs=null"];
+    succeed(small_run(&path("first"), 3).args(coarse));
+    let from = |out: &str, more: &[&str]| {
         let mut train = gambol("train");
         train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
         train.args(["--generations", "2", "--from"]).arg(path("first")).arg("--out").arg(path(out)).args(more);
-        succeed(&mut train);
-        json(&path(out).join("config.json"))["content"]["origin"]["carried"].clone()
+        train
     };
-    assert_eq!(origin("second", &[]), json!("champion"));
-    assert_eq!(origin("third", &["--carry", "population"]), json!("population"));
+    let carried = |run: &Path| json(&run.join("config.json"))["content"]["origin"]["carried"].clone();
+    succeed(&mut from("second", &[]));
+    assert_eq!(carried(&path("second")), json!("champion"));
+    assert_eq!(start_of(&path("second")), champion_weights(&path("first")));
+    // The distribution is gone: nothing of it can be carried.
+    let message = fail(&mut from("third", &["--carry", "population"]));
+    assert_says(&message, &["the search of ", " has just begun anew and has nothing to carry: carry the champion"]);
+    assert!(!path("third").exists());
+    // A run in stages does not end there.
+    let mut config = three_stages();
+    config["controller"] = json!({ "limbs": null });
+    config["strategy"]["cma-es"]["least_deviation"] = json!(0.5);
+    config["stop"] = json!({ "generations": 4 });
+    config["stages"] = json!([
+        { "name": "run", "promotion": { "generations": 3 } },
+        { "name": "jump", "carry": "population", "changes": { "movement": { "name": "jumping", "steps": 40 } } }
+    ]);
+    succeed(train(&write(folder.path(), &config), &path("stages-of-it")).arg("--quiet"));
+    let leg = |name: &str| path("stages-of-it").join("stages").join(name);
+    assert_eq!(carried(&leg("02-jump")), json!("champion"));
+    assert_eq!(start_of(&leg("02-jump")), champion_weights(&leg("01-run")));
     Ok(())
 }
 
