@@ -3,7 +3,7 @@
 use super::{
     Carried, Curriculum, Leg, Origin, PlannedStage, StageError, Stages,
     carry::{CarryError, Departure, Manner},
-    source::Source,
+    source::{Source, latest_leg},
 };
 use crate::{
     config::RunConfig,
@@ -69,14 +69,15 @@ pub fn train_from(
     config.strategy.visit(Depart { departure, folder, stop: config.stop, promotion: None, options })
 }
 
-/// The configuration with the sensors and the controller of a run or a champion: what a net must hear and drive to go on.
+/// The configuration with the sensors and the controller of a run (of one with stages, of the last) or a champion: what a
+/// net must hear and drive to go on.
 ///
 /// # Errors
 /// If the run or the champion cannot be read.
 pub fn adopt(config: &RunConfig, source: &Path) -> Result<RunConfig, ShapingError> {
     let mut config = config.clone();
     if source.is_dir() {
-        let learned = RunFolder::open(source)?.read_config()?;
+        let learned = latest_leg(RunFolder::open(source)?)?.read_config()?;
         config.sensors = Some(learned.sensors.unwrap_or(learned.creature.sensors));
         config.controller = learned.controller;
     } else {

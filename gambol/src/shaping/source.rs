@@ -1,6 +1,6 @@
 //! What a new search can begin from: a run, or a champion alone.
 
-use super::{carry::CarryError, names};
+use super::{carry::CarryError, legs, names};
 use crate::{
     champion::{Champion, ChannelRecord},
     config::{RunConfig, StrategySettings},
@@ -25,15 +25,15 @@ pub(super) enum Kind {
 }
 
 impl Source {
-    /// A run folder, or a champion file.
+    /// A run folder, or a champion file; of a run with stages, the stage it has come to.
     pub(crate) fn open(path: &Path, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
-        let name = path.display().to_string();
         if !path.is_dir() {
+            let name = path.display().to_string();
             let champion = Champion::read(path).map_err(FolderError::from)?;
             return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
         }
-        let folder = RunFolder::open(path)?;
-        Self::run(name, folder, catalogue)
+        let folder = latest_leg(RunFolder::open(path)?)?;
+        Self::run(folder.path().display().to_string(), folder, catalogue)
     }
 
     /// A run, under a name of its own.
@@ -120,6 +120,17 @@ pub(super) struct ChampionNet {
 
 pub(super) fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
     channels.iter().map(|channel| channel.name.clone()).collect()
+}
+
+/// The folder that a run is to be gone on from: of one with stages, that of the last leg.
+///
+/// # Errors
+/// If a file of a leg cannot be read.
+pub(super) fn latest_leg(folder: RunFolder) -> Result<RunFolder, FolderError> {
+    if folder.checkpoint().is_file() {
+        return Ok(folder);
+    }
+    Ok(legs(&folder)?.last().map_or(folder, |leg| RunFolder::at(&leg.folder)))
 }
 
 /// What a restart has left of a search.

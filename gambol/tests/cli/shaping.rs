@@ -372,6 +372,27 @@ fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
 }
 
 #[test]
+fn a_run_goes_on_from_the_last_stage_of_another() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = short_stages(folder.path());
+    let from = |source: &Path, out: &str| {
+        let mut train = gambol("train");
+        train.args(["biped-1", "running", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
+        train.args(["--generations", "2", "--from"]).arg(source).arg("--out").arg(folder.path().join(out));
+        succeed(&mut train);
+        json(&folder.path().join(out).join("config.json"))["content"].clone()
+    };
+    let last = run_folder.join("stages/03-jump");
+    let config = from(&run_folder, "second");
+    assert_eq!(config["origin"]["source"], json!(text(&last)));
+    // It feels what the last stage had added.
+    assert_eq!(config["sensors"], json(&last.join("config.json"))["content"]["sensors"]);
+    assert_eq!(config, from(&last, "third"));
+    assert_eq!(read(&folder.path().join("second/checkpoint")), read(&folder.path().join("third/checkpoint")));
+    Ok(())
+}
+
+#[test]
 fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
