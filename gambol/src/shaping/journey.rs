@@ -161,17 +161,21 @@ pub fn resume_curriculum(
 /// If a file of a leg cannot be read.
 pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
     let Ok(entries) = fs::read_dir(folder.stages()) else { return Ok(Vec::new()) };
-    let mut folders: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    let numbered = |path: PathBuf| {
+        let (number, name) = path.file_name()?.to_str()?.split_once('-')?;
+        Some((number.parse::<usize>().ok()?, name.to_owned(), path))
+    };
+    let mut folders: Vec<(usize, String, PathBuf)> =
+        entries.flatten().filter_map(|entry| numbered(entry.path())).collect();
     folders.sort();
     let config = folder.read_config()?;
     let mut legs = Vec::new();
-    for path in folders {
-        let name = path.file_name().and_then(|name| name.to_str()).and_then(|name| name.split_once('-'));
+    for (number, name, path) in folders {
         let leg_folder = RunFolder::at(&path);
-        let Some((number, name)) = name.filter(|_| leg_folder.checkpoint().is_file()) else { continue };
-        let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(legs.len());
-        let number = number.parse().unwrap_or(legs.len() + 1);
-        legs.push(leg(&leg_folder, number, stage, name)?);
+        if leg_folder.checkpoint().is_file() {
+            let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(legs.len());
+            legs.push(leg(&leg_folder, number, stage, &name)?);
+        }
     }
     Ok(legs)
 }

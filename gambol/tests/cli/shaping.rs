@@ -249,6 +249,20 @@ fn a_run_killed_before_it_kept_its_champion_keeps_it_when_resumed() -> Outcome {
 }
 
 #[test]
+fn legs_are_in_the_order_of_their_numbers() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = short_stages(folder.path());
+    for (old, new) in [("01-run", "9-run"), ("02-feel", "11-feel"), ("03-jump", "100-jump")] {
+        fs::rename(run_folder.join("stages").join(old), run_folder.join("stages").join(new))?;
+    }
+    fs::create_dir(run_folder.join("stages/notes-of-mine"))?;
+    let legs = gambol::shaping::legs(&gambol::run_folder::RunFolder::open(&run_folder)?)?;
+    let found: Vec<_> = legs.iter().map(|leg| (leg.number, leg.stage, leg.name.as_str())).collect();
+    assert_eq!(found, [(9, 0, "run"), (11, 1, "feel"), (100, 2, "jump")]);
+    Ok(())
+}
+
+#[test]
 fn a_stage_has_a_creature_by_its_name_or_its_file() -> Outcome {
     let folder = tempfile::tempdir()?;
     let mut config = three_stages();
