@@ -267,7 +267,10 @@ fn errors_name_stage_and_field() {
             two(json!({ "name": "b", "changes": { "terrain": "gasp:0.5" } })),
             "stages[1] (\"b\"): changes.terrain: there is no terrain \"gasp\"",
         ),
-        (two(json!({ "name": "b", "changes": { "rehersal": 5 } })), "stages[1] (\"b\"): changes."),
+        (
+            two(json!({ "name": "b", "changes": { "rehersal": 5 } })),
+            "stages[1] (\"b\"): changes.rehersal: unknown field `rehersal`, expected one of `preset`, ",
+        ),
         (
             two(json!({ "name": "b", "changes": { "seed": 5 } })),
             "stages[1] (\"b\"): changes.seed = a change: must be left to the whole run; what ends a stage is its promotion",
@@ -276,7 +279,10 @@ fn errors_name_stage_and_field() {
             two(json!({ "name": "b", "changes": { "trials": { "count": 0 } } })),
             "stages[1] (\"b\"): trials.count = 0: must be from 1 to 1000",
         ),
-        (two(json!({ "name": "b", "add_sensors": ["joint-angles"] })), "stages[1] (\"b\"): "),
+        (
+            two(json!({ "name": "b", "add_sensors": ["joint-angles"] })),
+            "stages[1] (\"b\"): sensors[7]: `joint-angles` is already sensors[2]; list each sensor once",
+        ),
         (
             two(json!({ "name": "b", "changes": { "sensors": ["joint-angles"] } })),
             "stages[1] (\"b\"): \"rotation of torso\", ",
@@ -304,6 +310,9 @@ fn errors_name_stage_and_field() {
         let error = stages(given.clone()).expect_err("it is wrong");
         assert!(error.starts_with(message), "{given}: {error}");
     }
+    let misspelled =
+        stages(two(json!({ "name": "b", "changes": { "rehersal": 5 } }))).expect_err("there is no such field");
+    assert!(misspelled.ends_with("; did you mean `rehearsal`?"), "{misspelled}");
     // A variation and a terrain can be named.
     let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));
     let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));
