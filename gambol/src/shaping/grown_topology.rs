@@ -12,7 +12,8 @@ impl FrozenTopology {
         let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
         let (inputs, outputs) = (names(senses), names(motors));
         let kept = |old: &[String], new: &[String]| old.iter().all(|name| new.contains(name));
-        if !forget && !(kept(&self.inputs, &inputs) && kept(&self.outputs, &outputs)) {
+        let fits = kept(&self.inputs, &inputs) && kept(&self.outputs, &outputs);
+        if !(fits || forget) {
             return self.clone();
         }
         let net = match &self.net {
