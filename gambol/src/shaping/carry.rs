@@ -123,7 +123,9 @@ impl Departure {
         if let Some(frozen) = &config.topology {
             // The body's channels are known once it is built; the net has to wait for them.
             let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, catalogue)?;
-            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs(), manner.forget));
+            // What is lost from the source's is refused below, by name.
+            let forget = manner.forget || to.topology.is_none();
+            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs(), forget));
         }
         let setup = Setup::new(&config, catalogue)?;
         let after = [setup.inputs(), setup.outputs()];
@@ -228,11 +230,18 @@ pub(super) fn check_planned(
     let carried = manner.carried.unwrap_or_else(|| usual(from, to));
     check_possible("the stage before", Some(from), carried, to)?;
     let channels = [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())];
+    let genes = Growth::by_name(&before.weight_names, &after.weight_names);
+    // NEAT's genomes, and the net of a champion that is taken as it is, are not the planned one.
+    let matters = carried != Carried::Topology && !matches!(from, StrategySettings::Neat(_));
     if !manner.forget && carried != Carried::Nothing {
         let mut what = Vec::new();
         for (before, after) in channels {
             let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
             what.extend(before.iter().filter(is_lost).map(|channel| format!("\"{}\"", channel.name)));
+        }
+        let lost = genes.lost().len();
+        if what.is_empty() && lost > 0 && matters {
+            what.push(format!("{lost} of {} weights", genes.old_weight_count()));
         }
         if !what.is_empty() {
             return Err(CarryError::Lost { what, allow: FORGET });
@@ -243,7 +252,6 @@ pub(super) fn check_planned(
     }
     let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
     let [inputs, outputs] = channels.map(|(before, after)| Growth::by_name(&names(before), &names(after)));
-    let genes = Growth::by_name(&before.weight_names, &after.weight_names);
     let passage = Passage { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
     Ok(from.visit(CanGrow { topology: &before.topology, passage })?)
 }

@@ -1,7 +1,7 @@
-use super::Carried;
+use super::{Carried, Leg};
 use crate::config::RunConfig;
-use ne_core::{Decision, Progress, Promotion, Standing};
-use std::{path::PathBuf, sync::Arc};
+use ne_core::Promotion;
+use std::sync::Arc;
 
 /// Says which stage comes next.
 ///
@@ -29,23 +29,4 @@ pub struct PlannedStage {
     pub carry: Option<Carried>,
     /// Whether inputs, outputs and weights may be given up.
     pub forget: bool,
-}
-
-/// A stretch of the way: a stage from its beginning until it was passed, left, or broken off.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
-    /// Which, from 1.
-    pub number: usize,
-    /// The stage's index.
-    pub stage: usize,
-    /// The stage's name.
-    pub name: String,
-    /// Its folder.
-    pub folder: PathBuf,
-    /// How it ended.
-    pub decision: Decision,
-    /// What it used.
-    pub progress: Progress,
-    /// Where its champion stands.
-    pub champion: Option<Standing>,
 }

@@ -3,6 +3,7 @@
 use super::{
     Carried, Curriculum, Leg, Origin, PlannedStage, StageError, Stages,
     carry::{CarryError, Departure, Manner},
+    legs::{keep_champion, leg, total},
     source::{Source, latest_leg},
 };
 use crate::{
@@ -12,8 +13,8 @@ use crate::{
     setup::Setup,
     training::{self, Outcome, TrainError, TrainOptions},
 };
-use ne_core::{Decision, Progress, Promotion, Standing, StopConditions, StopReason};
-use std::{fs, path::Path, path::PathBuf, sync::Arc, time::Instant};
+use ne_core::{Decision, Progress, Promotion, StopConditions, StopReason};
+use std::{fs, path::Path, sync::Arc, time::Instant};
 
 /// How a run with stages is watched.
 pub struct Journey<'a> {
@@ -155,52 +156,11 @@ pub fn resume_curriculum(
     travel(curriculum, &config, folder, lock, journey, options)
 }
 
-/// The legs of a run with stages so far, in order; the last may be under way.
-///
-/// # Errors
-/// If a file of a leg cannot be read.
-pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
-    let Ok(entries) = fs::read_dir(folder.stages()) else { return Ok(Vec::new()) };
-    let numbered = |path: PathBuf| {
-        let (number, name) = path.file_name()?.to_str()?.split_once('-')?;
-        Some((number.parse::<usize>().ok()?, name.to_owned(), path))
-    };
-    let mut folders: Vec<(usize, String, PathBuf)> =
-        entries.flatten().filter_map(|entry| numbered(entry.path())).collect();
-    folders.sort();
-    let config = folder.read_config()?;
-    let mut legs = Vec::new();
-    for (number, name, path) in folders {
-        let leg_folder = RunFolder::at(&path);
-        if leg_folder.checkpoint().is_file() {
-            let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(legs.len());
-            legs.push(leg(&leg_folder, number, stage, &name)?);
-        }
-    }
-    Ok(legs)
-}
-
-/// The folder of the run that this folder is a stage of, if it is one.
-pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
-    let folder = folder.canonicalize().ok()?;
-    let stages = folder.parent().filter(|parent| parent.file_name().is_some_and(|name| name == "stages"))?;
-    let run = RunFolder::open(stages.parent()?).ok()?;
-    let config = run.read_config().ok()?;
-    (!config.stages.is_empty()).then(|| run.path().into())
-}
-
 fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
     match config.stages.is_empty() {
         true => Err(ShapingError::NoStages),
         false => Ok(Stages::new(config, &options.catalogue)?),
     }
-}
-
-fn leg(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<Leg, FolderError> {
-    let standing = folder.read_standing()?;
-    let champion = standing.champion.map(|champion| Standing { grade: champion.grade, fitness: champion.fitness });
-    let (decision, progress) = (standing.decision, standing.progress);
-    Ok(Leg { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
 }
 
 /// Goes through the stages, from the first that is not passed.
@@ -355,17 +315,6 @@ impl SearchVisitor for Depart<'_, '_> {
     }
 }
 
-/// What all legs have used.
-fn total(legs: &[Leg]) -> Progress {
-    let sum = |count: fn(&Progress) -> u64| legs.iter().map(|leg| count(&leg.progress)).sum();
-    Progress {
-        generations: sum(|progress| progress.generations),
-        evaluations: sum(|progress| progress.evaluations),
-        steps: sum(|progress| progress.steps),
-        stagnation: legs.last().map_or(0, |leg| leg.progress.stagnation),
-    }
-}
-
 /// The limits of a leg: what is left of the budgets. A fitness, a grade or stagnation ends the run only in a stage without
 /// a rule of its own.
 fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopConditions {
@@ -389,16 +338,6 @@ fn exhausted(stop: StopConditions) -> Option<StopReason> {
     ]
     .into_iter()
     .find_map(|(left, reason)| (left == Some(0)).then_some(reason))
-}
-
-/// The champion of the latest leg that has one is that of the run; `current` is the leg under way.
-fn keep_champion(run: &RunFolder, legs: &[Leg], current: Option<&RunFolder>) -> Result<(), FolderError> {
-    let earlier = legs.iter().rev().map(|leg| RunFolder::at(&leg.folder).champion());
-    let mut latest = current.map(RunFolder::champion).into_iter().chain(earlier).filter(|path| path.is_file());
-    match latest.next() {
-        Some(path) => Ok(crate::champion::Champion::read(&path)?.write(&run.champion())?),
-        None => Ok(()),
-    }
 }
 
 /// The error of a leg, told of the whole run: its folder, and the generations of all legs; `used` is what those before have

@@ -1,7 +1,7 @@
 //! Shaping: what was learned on one task is carried to the next.
 //!
 //! A run with [`stages`](crate::config::RunConfig::stages) learns one after the other: first to run on the flat, then over
-//! gaps, with eyes, then with half the energy. Its one decision: **every stage is a run folder of its own** inside the run's,
+//! gaps, with eyes, then with less energy. Its one decision: **every stage is a run folder of its own** inside the run's,
 //! which begins where the one before ended. So everything that looks at a run looks at a stage as well, and a stage that was
 //! killed is resumed as any run is. The same passage from one folder to the next is there for single runs: [`train_from`].
 //!
@@ -17,6 +17,7 @@ mod carry;
 mod curriculum;
 mod grown_topology;
 mod journey;
+mod legs;
 mod names;
 mod origin;
 mod settings;
@@ -24,11 +25,11 @@ mod source;
 mod stages;
 
 pub use carry::CarryError;
-pub use curriculum::{Curriculum, Leg, PlannedStage};
+pub use curriculum::{Curriculum, PlannedStage};
 pub use journey::{
-    Journey, ShapingError, adopt, legs, resume_curriculum, resume_stages, run_of_stage, train_curriculum, train_from,
-    train_stages,
+    Journey, ShapingError, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
 };
+pub use legs::{Leg, legs, run_of_stage};
 pub use origin::{Carried, Origin};
 pub use settings::StageSettings;
 pub use stages::{StageError, StageProblem, Stages};

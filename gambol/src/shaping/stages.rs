@@ -155,7 +155,8 @@ fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, St
     if let Some(name) = renamed.filter(|&name| name != before.movement.name)
         && let Some(preset) = preset(&before.preset)
     {
-        let fresh = preset.config(creature, name);
+        let mut fresh = preset.config(creature, name);
+        fresh.movement.objectives.clone_from(&before.movement.objectives);
         let former = preset.config(before.creature.clone(), &before.movement.name);
         if fresh.physics.water.is_some() != former.physics.water.is_some() {
             // Into the water or out of it, and to the engine that has it.

@@ -145,6 +145,20 @@ fn water_comes_with_swimming_and_goes_with_it() {
 }
 
 #[test]
+fn objectives_stay_with_another_movement() {
+    let mut config = config("biped-1");
+    config.movement.objectives = vec![tasks::TermSpec::new("energy", -1.0)];
+    let stages = json!([
+        { "name": "run", "promotion": { "generations": 3 } },
+        { "name": "cruise", "changes": { "movement": { "name": "cruising" } } }
+    ]);
+    config.stages = serde_json::from_value(stages).expect("stages");
+    let stages = Stages::new(&config, &MovementCatalogue::default()).expect("valid");
+    let last = stages.configs().last().expect("two").1;
+    assert_eq!((&*last.movement.name, &last.movement.objectives), ("cruising", &config.movement.objectives));
+}
+
+#[test]
 fn a_stage_has_a_creature_of_its_own_as_a_whole() {
     let worm = creatures::find("apod").expect("shipped");
     let stages = stages(json!([
@@ -286,6 +300,10 @@ fn errors_name_stage_and_field() {
         (
             two(json!({ "name": "b", "changes": { "sensors": ["joint-angles"] } })),
             "stages[1] (\"b\"): \"rotation of torso\", ",
+        ),
+        (
+            two(json!({ "name": "b", "changes": { "controller": { "limbs": null } } })),
+            "stages[1] (\"b\"): 62 of 62 weights: what was learned with it would be lost; keep it, or allow it with ",
         ),
         (
             two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),

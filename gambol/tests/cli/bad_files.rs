@@ -28,10 +28,17 @@ fn a_file_that_cannot_be_read_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;
     let directory = folder.path().join("folder.json");
     fs::create_dir(&directory)?;
-    for (file, reason) in [(folder.path().join("missing.json"), "No such file"), (directory, "directory")] {
-        for mut reader in readers(&file) {
-            assert_says(&fail(&mut reader), &["cannot read", text(&file), reason]);
-        }
+    let missing = folder.path().join("missing.json");
+    for mut reader in readers(&missing) {
+        assert_says(&fail(&mut reader), &["cannot read", text(&missing), "No such file"]);
+    }
+    // A champion may be named by the folder of its run.
+    let [files @ .., verify, replay, play] = readers(&directory);
+    for mut reader in files {
+        assert_says(&fail(&mut reader), &["cannot read", text(&directory), "directory"]);
+    }
+    for mut reader in [verify, replay, play] {
+        assert_says(&fail(&mut reader), &[text(&directory), "is not the folder of a run"]);
     }
     Ok(())
 }

@@ -200,7 +200,7 @@ fn a_file_of_another_version_or_kind_is_told() -> Outcome {
         let message = fail(gambol("verify").arg(&path));
         assert_says(&message, &[text(&path), kind, "expected a \"gambol champion\" file"]);
     }
-    assert_says(&fail(gambol("verify").arg(run)), &["cannot read", text(run), "directory"]);
+    assert_says(&fail(gambol("verify").arg(run)), &[text(&champion), "has version 2"]);
     let missing = run.join("no-such-file");
     assert_says(&fail(gambol("verify").arg(&missing)), &["cannot read", text(&missing)]);
     Ok(())
