@@ -147,7 +147,7 @@ fn water_comes_with_swimming_and_goes_with_it() {
 #[test]
 fn objectives_stay_with_another_movement() {
     let mut config = config("biped-1");
-    config.movement.objectives = vec![tasks::TermSpec::new("energy", -1.0)];
+    config.movement.objectives = vec![tasks::TermSpec::new("running", 1.0), tasks::TermSpec::new("energy", -1.0)];
     let stages = json!([
         { "name": "run", "promotion": { "generations": 3 } },
         { "name": "cruise", "changes": { "movement": { "name": "cruising" } } }
