@@ -104,13 +104,14 @@ fn stage(
 }
 
 fn facts(leg: &Leg, config: &RunConfig, settings: Option<&StageSettings>) -> Vec<Fact> {
+    let rule = settings.and_then(|settings| settings.promotion.as_ref());
     let ended = match leg.decision {
         Decision::Promote => "passed",
         Decision::Demote => "sent back to the stage before",
-        Decision::Stay => "not passed",
+        Decision::Stay if rule.is_some() => "not passed when the run ended",
+        Decision::Stay => "went on until the run ended",
     };
     let mut facts = vec![Fact::new("Movement", &config.movement.name)];
-    let rule = settings.and_then(|settings| settings.promotion.as_ref());
     facts.extend(rule.map(|rule| Fact::new("Passed with", rule)));
     facts.push(Fact::new("Result", ended));
     facts.push(Fact::new("Evaluations", leg.progress.evaluations));

@@ -187,7 +187,10 @@ fn travel(
         let used = total(&legs);
         let stop = limits(config.stop, used, planned.promotion.is_some());
         if let Some(reason) = exhausted(stop) {
-            return finish(folder, reason, used, last, &legs);
+            if is_begun {
+                legs.push(leg(&leg_folder, number, planned.stage, &planned.name)?);
+            }
+            return finish(folder, reason, total(&legs), last, &legs);
         }
         let mut now = stop;
         now.minutes = config.stop.minutes.map(|minutes| (minutes - began.elapsed().as_secs_f64() / 60.0).max(1e-6));

@@ -248,6 +248,23 @@ fn a_run_killed_before_it_kept_its_champion_keeps_it_when_resumed() -> Outcome {
     Ok(())
 }
 
+/// Fewer generations than were done leave nothing to do, and nothing may be undone.
+#[test]
+fn a_run_resumed_with_a_lower_limit_keeps_its_latest_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = folder.path().join("run");
+    let mut config = three_stages();
+    config["stages"] = json!([config["stages"][0], { "name": "jump" }]);
+    config["stages"][0]["promotion"] = json!({ "generations": 2 });
+    config["stop"] = json!({ "generations": 5 });
+    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let champion = read(&run_folder.join("champion.json"));
+    assert_ne!(champion, read(&run_folder.join("stages/01-run/champion.json")));
+    run(gambol("resume").arg(&run_folder).args(["--generations", "1", "--no-report"]));
+    assert_eq!(read(&run_folder.join("champion.json")), champion);
+    Ok(())
+}
+
 #[test]
 fn legs_are_in_the_order_of_their_numbers() -> Outcome {
     let folder = tempfile::tempdir()?;

@@ -10,14 +10,16 @@ function buildGait(run) {
   document.getElementById("gait-intro").textContent = `Measured in rapier over ${tidy(gait.duration_s)} s from the settled start pose, without variation.`;
   buildVerdict(gait);
   terms(document.getElementById("gait-facts"), gaitFacts(gait));
-  buildTable("gait-legs", ["Leg", "Footfalls", "Stands", "Slip", "Longest pause"], gait.legs.map(leg => [
+  // A swimmer has no ground to stand on.
+  const legs = gait.legs.some(leg => leg.footfalls > 0 || leg.duty_factor > 0) ? gait.legs : [];
+  if (legs.length) buildTable("gait-legs", ["Leg", "Footfalls", "Stands", "Slip", "Longest pause"], legs.map(leg => [
     leg.foot, fixed(leg.footfalls, 0), percent(leg.duty_factor), slipOf(leg),
     withUnit(Math.max(leg.longest_without_touchdown_s, leg.longest_without_liftoff_s), "s")]));
   buildTable("gait-joints", ["Joint", "Range", "Swings at", "By", "Turns back"], gait.joints.map(joint => [
     joint.actuated ? joint.name : `${joint.name} (passive)`, `${fixed(joint.range_deg, 0)}°`,
     withUnit(joint.dominant_frequency_hz, "Hz"), `±\u00a0${fixed(joint.dominant_amplitude_deg, 0)}°`,
     withUnit(joint.reversals_per_s, "/s")]));
-  new FootfallDiagram(gait, document.getElementById("gait-footfalls"));
+  if (legs.length) new FootfallDiagram(gait, document.getElementById("gait-footfalls"));
 }
 
 function buildVerdict(gait) {

@@ -52,7 +52,8 @@ function buildChampion(run, model) {
   const clock = loop.addClock(new Clock(replay.duration));
   document.getElementById("replay").hidden = false;
   loop.addView(new ReplayView(run, model, replay, contacts, clock));
-  if (contacts && replay.duration > 0) {
+  const touches = part => contacts.some(mask => inMask(mask, part.index));
+  if (contacts && replay.duration > 0 && model.parts.some(touches)) {
     document.getElementById("footfalls").hidden = false;
     loop.addView(new FootfallView(model, replay, contacts, clock));
   }
