@@ -214,6 +214,9 @@ impl Setup {
             let error = SettingError::new("actuation.angle.gain", gain, format!("from {low} to {high}"));
             return Err(error.within("controller").into());
         }
+        if config.movement.name == "swimming" && config.physics.water.is_none() {
+            return Err(SettingError::new("physics.water", "null", "water, for whoever is to swim").into());
+        }
         let parts = config.episode_parts();
         let (episode, task) = parts.build_both(config.engine, catalogue)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());

@@ -41,13 +41,14 @@ fn a_swimmer_is_trained_in_water_and_in_rapier_and_its_champion_verified() -> Ou
 fn what_is_wrong_with_water_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
-    let refusals: [(&[&str], &str); 5] = [
+    let refusals: [(&[&str], &str); 6] = [
         (
             &["--engine", "lanes"],
             "engine: lanes cannot simulate this creature: it is in water (physics.water); train it with --engine rapier",
         ),
         (&["--set", "physics.water.drag=11"], "physics.water.drag = 11: must be from 0 to 10"),
         (&["--set", "physics.water.density=0"], "physics.water.density = 0: must be from 0.01 to 100000"),
+        (&["--set", "physics.water=null"], "physics.water = null: must be water, for whoever is to swim"),
         (&["--set", "physics.water.depth=3"], "unknown field `depth`"),
         (&["--terrain", "gaps"], "physics.water = water: must be null on ground that is not flat: water has no ground"),
     ];
