@@ -29,7 +29,7 @@ Examples:
   gambol train biped-1 running --strategy neat
   gambol train biped-1 running --variation none --engine rapier
   gambol train biped-1 running --strategy ga --topology-from runs/biped-1-running/champion.json
-  gambol train tetrapod-2 running --strategy neat --companion longer-legs.json
+  gambol train tetrapod-2 running --companion examples/creatures/tetrapod-2-longer-legs.json
   gambol train apod running --set strategy.cma-es.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
   gambol train tetrapod-1 running --strategy nsga2 \\

@@ -1,4 +1,4 @@
-//! A frozen topology for a body that senses or moves more than when it was found.
+//! A frozen topology for a body that senses or moves something else than the one it was found in.
 
 use crate::config::FrozenTopology;
 use creatures::Channel;
