@@ -77,7 +77,25 @@ pub struct Judgement {
     /// Index of the highest flight that makes a usable jump.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub best_flight: Option<usize>,
+    /// In how many near worlds it is usable; `None` if it was judged alone, as a bare trajectory is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub near_worlds: Option<NearWorlds>,
 }
+
+/// In how many worlds that are almost the one it is judged in a gait is usable.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct NearWorlds {
+    /// So many.
+    pub usable: usize,
+    /// Of so many.
+    pub worlds: usize,
+}
+
+/// In how many near worlds a gait is tried.
+pub const NEAR_WORLDS: usize = 8;
+
+/// In how many of them it must be usable: a gait that fails in more is a lucky trajectory.
+pub const NEAR_WORLDS_REQUIRED: usize = 7;
 
 impl Judgement {
     pub(super) fn of(kind: Kind, report: &GaitReport, trajectory: &Trajectory<'_>) -> Self {
@@ -96,7 +114,17 @@ impl Judgement {
             },
         }
         reasons.extend(report.cheats.iter().cloned().map(Reason::Cheat));
-        Self { usable: reasons.is_empty(), reasons, best_flight }
+        Self { usable: reasons.is_empty(), reasons, best_flight, near_worlds: None }
+    }
+
+    /// The same, of a gait that was also tried in near worlds. One that is usable in fewer than 7 of 8 is not usable.
+    #[must_use]
+    pub fn with_near_worlds(mut self, near: NearWorlds) -> Self {
+        let required = (near.worlds * NEAR_WORLDS_REQUIRED).div_ceil(NEAR_WORLDS);
+        if near.usable < required {
+            self.reasons.push(Reason::Brittle { usable: near.usable, worlds: near.worlds, required });
+        }
+        Self { usable: self.reasons.is_empty(), near_worlds: Some(near), ..self }
     }
 }
 

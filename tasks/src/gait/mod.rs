@@ -51,7 +51,7 @@ pub use contact::Interval;
 pub use error::GaitError;
 pub use flight::{Aloft, Flight};
 pub use joint::JointUse;
-pub use judgement::{Judgement, Kind};
+pub use judgement::{Judgement, Kind, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds};
 pub use leg::{LegJoint, LegUse};
 pub use reason::Reason;
 pub use report::GaitReport;

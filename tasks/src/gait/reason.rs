@@ -35,6 +35,8 @@ pub enum Reason {
     NoPushOff { time: f64, foot: String },
     /// The legs push off too far apart, s.
     UnevenPushOff { time: f64, spread: f64, allowed: f64 },
+    /// It is usable in too few of the worlds that are almost the one it is judged in.
+    Brittle { usable: usize, worlds: usize, required: usize },
     /// The audit flagged a cheat.
     Cheat(Cheat),
 }
@@ -57,6 +59,7 @@ impl Reason {
             Self::LowFlight { .. } => "low-flight",
             Self::NoPushOff { .. } => "no-push-off",
             Self::UnevenPushOff { .. } => "uneven-push-off",
+            Self::Brittle { .. } => "brittle",
             Self::Cheat(cheat) => cheat.kind.name(),
         }
     }
@@ -104,6 +107,9 @@ impl fmt::Display for Reason {
             Self::NoPushOff { time, foot } => write!(f, "jump at {time:.1} s: {foot} did not push off"),
             Self::UnevenPushOff { time, spread, allowed } => {
                 write!(f, "jump at {time:.1} s: the legs pushed off {spread:.2} s apart, at most {allowed} s allowed")
+            }
+            Self::Brittle { usable, worlds, required } => {
+                write!(f, "usable in {usable} of {worlds} near worlds, at least {required} required")
             }
             Self::Cheat(cheat) => write!(f, "{cheat}"),
         }
