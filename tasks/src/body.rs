@@ -73,6 +73,12 @@ impl Body {
         self.legs.iter().filter_map(|leg| leg.last().copied())
     }
 
+    /// All parts that are no feet, in order; all parts of a body without legs.
+    pub fn parts_without_feet(&self) -> Vec<usize> {
+        let feet: Vec<usize> = self.feet().collect();
+        (0..self.parts.len()).filter(|part| !feet.contains(part)).collect()
+    }
+
     /// The hinges that the controller moves.
     pub fn actuated(&self) -> impl Iterator<Item = &BodyHinge> {
         self.hinges.iter().filter(|hinge| hinge.motor.is_some())

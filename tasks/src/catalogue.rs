@@ -1,7 +1,7 @@
 use crate::{
-    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Headway, Honest, Hopping,
-    Idleness, Jumping, Leap, LongJump, Movement, Objectives, Rollovers, Running, Standing, Sum, Swimming, TimeAloft,
-    Upright, Vibration, Walking,
+    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Honest, Hopping,
+    Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rollovers, Running, Slip, Standing, Sum,
+    Sway, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -179,7 +179,20 @@ impl Default for MovementCatalogue {
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");
         catalogue.add::<TimeAloft>(None, "time without any part on the ground");
         catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
-        catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 1.5 s; how many were not");
+        catalogue.add_with_settings(
+            None,
+            "ends the episode when the torso tilts, sinks or anything but feet touches the ground; 1 if so; settings: tilt, \
+             degrees (40), height (0.65)",
+            Posture::new,
+        );
+        catalogue.add::<Sway>(None, "standard deviation of the torso's angle beyond 8°; weigh it negatively");
+        catalogue.add::<Slip>(None, "how far feet slide, beyond 0.2 m a metre; weigh it negatively");
+        catalogue.add_with_settings(
+            None,
+            "way beyond what a wanted speed gives; weigh it negatively; settings: speed, body lengths/s (2)",
+            Haste::new,
+        );
+        catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 0.9 s; how many were not");
         catalogue.add_with_settings(
             None,
             "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",
@@ -189,7 +202,8 @@ impl Default for MovementCatalogue {
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
             .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");
-        catalogue.add::<Leap>(None, "height of the torso above its start in a flight that all legs began together");
+        catalogue.add::<Leap>(None, "rise of the centre of mass in a flight that all legs began together");
+        catalogue.add::<Landing>(None, "time after the first leap that the body stands, or leaps on");
         catalogue
     }
 }

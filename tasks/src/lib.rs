@@ -55,9 +55,9 @@ pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
     Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
-    GettingUpSettings, Headway, HeadwaySettings, Honest, Hopping, Idleness, Jumping, Leap, LongJump, Movement,
-    MovementClone, Objectives, Rollovers, Running, Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright,
-    Verdict, Vibration, Walking, WalkingSettings,
+    GettingUpSettings, Haste, HasteSettings, Headway, HeadwaySettings, Honest, Hopping, Idleness, Jumping, Landing,
+    Leap, LongJump, Movement, MovementClone, Objectives, Posture, PostureSettings, Rollovers, Running, Slip, Standing,
+    StandingSettings, Sum, Sway, Swimming, TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trials};

@@ -26,6 +26,9 @@ pub struct Flight {
     /// How far the torso was above its start at the peak, m; negative if it stayed below.
     #[serde(rename = "rise_m")]
     pub rise: f64,
+    /// How far the centre of mass was above its start at the peak, m; negative if it stayed below.
+    #[serde(rename = "centre_rise_m", default)]
+    pub centre_rise: f64,
     /// When each leg pushed off: the last time its foot lost contact before the flight, s. In order of the body's legs;
     /// `None` for a foot that never touched the ground before, and for all in a flight the episode begins with.
     #[serde(rename = "push_offs_s")]
@@ -71,6 +74,8 @@ fn flight(trajectory: &Trajectory<'_>, feet: &[Vec<RangeInclusive<usize>>], rang
     Flight {
         interval: Interval::of(trajectory, &range),
         rise: range.clone().map(|step| trajectory.rise(step)).fold(f64::NEG_INFINITY, f64::max),
+        centre_rise: range.clone().map(|step| trajectory.centre_height(step)).fold(f64::NEG_INFINITY, f64::max)
+            - trajectory.centre_height(0),
         push_offs: feet.iter().map(push_off).collect(),
     }
 }

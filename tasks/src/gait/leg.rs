@@ -24,6 +24,10 @@ pub struct LegUse {
     /// The longest time between two liftoffs, start and end of the episode counting as such, s.
     #[serde(rename = "longest_without_liftoff_s")]
     pub longest_without_liftoff: f64,
+    /// How far the foot's lowest point rises between a liftoff and the next touchdown: the median of all swings, m; `None`
+    /// for a foot that never swings.
+    #[serde(rename = "clearance_m", default)]
+    pub clearance: Option<f64>,
     /// The range of motion its joints use.
     pub joints: Vec<LegJoint>,
     /// How far the foot's point on the ground slid, forwards and backwards added up, m.
@@ -70,11 +74,25 @@ impl LegUse {
                     range: joint::range(trajectory.hinge_angles(index)),
                 })
                 .collect(),
+            clearance: clearance(trajectory, foot, &ranges),
             slip,
             slip_per_distance: Some(slip / distance).filter(|slip| distance > 0.0 && slip.is_finite()),
             stances,
         }
     }
+}
+
+/// The median rise of a foot between its stances, m.
+fn clearance(trajectory: &Trajectory<'_>, foot: usize, stances: &[RangeInclusive<usize>]) -> Option<f64> {
+    let height =
+        |step: usize| f64::from(trajectory.body().parts[foot].lowest_point(&trajectory.snapshots()[step].parts[foot]));
+    let swing = |pair: &[RangeInclusive<usize>]| {
+        let (liftoff, touchdown) = (*pair[0].end(), *pair[1].start());
+        (liftoff..=touchdown).map(height).fold(f64::NEG_INFINITY, f64::max) - height(liftoff)
+    };
+    let mut swings: Vec<f64> = stances.windows(2).map(swing).collect();
+    swings.sort_by(f64::total_cmp);
+    swings.get(swings.len() / 2).copied()
 }
 
 /// How far the point of the foot that is on the ground slides in a stance, m. A round foot that rolls does not slide:

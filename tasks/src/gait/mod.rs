@@ -33,6 +33,7 @@ mod flight;
 mod joint;
 mod judgement;
 mod leg;
+mod other_contact;
 mod reason;
 mod report;
 mod rhythm;
@@ -53,6 +54,7 @@ pub use flight::{Aloft, Flight};
 pub use joint::JointUse;
 pub use judgement::{Judgement, Kind, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds};
 pub use leg::{LegJoint, LegUse};
+pub use other_contact::OtherContact;
 pub use reason::Reason;
 pub use report::GaitReport;
 pub use rhythm::Rhythm;
@@ -61,6 +63,8 @@ pub use trajectory::Trajectory;
 pub use travel::Travel;
 
 /// How long an episode of running is to be judged, s.
-pub const RUNNING_SECONDS: f64 = 20.0;
+pub const RUNNING_SECONDS: f64 = 60.0;
+/// How long an episode of swimming is to be judged, s.
+pub const SWIMMING_SECONDS: f64 = 20.0;
 /// How long an episode of jumping is to be judged, s.
 pub const JUMPING_SECONDS: f64 = 5.0;

@@ -15,6 +15,18 @@ pub enum Reason {
     NoProgress { quarter: usize, second_half: bool, progress: f64 },
     /// The torso tilts too far, degrees.
     Tilted { tilt: f64, allowed: f64, time: f64 },
+    /// The torso sways too much over the second half, degrees of standard deviation.
+    Swaying { deviation: f64, allowed: f64 },
+    /// The torso gets too low, as a share of its start height.
+    Crouching { height: f64, required: f64, time: f64 },
+    /// Parts that are no feet touch the ground for too large a share of the time; the one that does most is named.
+    OtherContact { part: String, share: f64, allowed: f64 },
+    /// A foot hardly rises between liftoff and touchdown, m.
+    LowStep { foot: String, clearance: f64, required: f64 },
+    /// Feet slide over the ground, as a mean over all of them, m for each m of way.
+    Slipping { slip: f64, allowed: f64 },
+    /// Strides do not repeat themselves, 0 to 1.
+    Irregular { regularity: f64, required: f64 },
     /// A foot does not come down for too long, s.
     NoTouchdown { foot: String, seconds: f64, allowed: f64 },
     /// A foot does not leave the ground for too long, s.
@@ -35,6 +47,11 @@ pub enum Reason {
     NoPushOff { time: f64, foot: String },
     /// The legs push off too far apart, s.
     UnevenPushOff { time: f64, spread: f64, allowed: f64 },
+    /// A part that is no foot touches the ground after the jump.
+    LandedOn { part: String, time: f64 },
+    /// It neither stands again in the last second nor jumps on: degrees, m from the start height, body lengths/s; and the
+    /// most of each that is allowed.
+    NotStanding { tilt: f64, height: f64, speed: f64, allowed: [f64; 3] },
     /// It is usable in too few of the worlds that are almost the one it is judged in.
     Brittle { usable: usize, worlds: usize, required: usize },
     /// The audit flagged a cheat.
@@ -49,6 +66,12 @@ impl Reason {
             Self::Slow { .. } => "slow",
             Self::NoProgress { .. } => "no-progress",
             Self::Tilted { .. } => "tilted",
+            Self::Swaying { .. } => "swaying",
+            Self::Crouching { .. } => "crouching",
+            Self::OtherContact { .. } => "other-contact",
+            Self::LowStep { .. } => "low-step",
+            Self::Slipping { .. } => "slipping",
+            Self::Irregular { .. } => "irregular",
             Self::NoTouchdown { .. } => "no-touchdown",
             Self::NoLiftoff { .. } => "no-liftoff",
             Self::JointUnused { .. } => "joint-unused",
@@ -59,6 +82,8 @@ impl Reason {
             Self::LowFlight { .. } => "low-flight",
             Self::NoPushOff { .. } => "no-push-off",
             Self::UnevenPushOff { .. } => "uneven-push-off",
+            Self::LandedOn { .. } => "landed-on",
+            Self::NotStanding { .. } => "not-standing",
             Self::Brittle { .. } => "brittle",
             Self::Cheat(cheat) => cheat.kind.name(),
         }
@@ -81,6 +106,32 @@ impl fmt::Display for Reason {
             Self::Tilted { tilt, allowed, time } => {
                 write!(f, "torso: tilted by {tilt:.0}° at {time:.1} s, at most {allowed:.0}° allowed")
             }
+            Self::Swaying { deviation, allowed } => {
+                write!(f, "torso: sways by {deviation:.1}° (standard deviation), at most {allowed:.0}° allowed")
+            }
+            Self::Crouching { height, required, time } => {
+                write!(f, "torso: at {height:.2} of its start height at {time:.1} s, at least {required} required")
+            }
+            Self::OtherContact { part, share, allowed } => {
+                let (share, allowed) = (100.0 * share, 100.0 * allowed);
+                write!(
+                    f,
+                    "parts that are no feet touch the ground {share:.1} % of the time, {part} most; at most {allowed:.0} % \
+                     allowed"
+                )
+            }
+            Self::LowStep { foot, clearance, required } => {
+                write!(f, "{foot}: rises by {clearance:.3} m in a step, at least {required:.3} m required")
+            }
+            Self::Slipping { slip, allowed } => {
+                write!(f, "feet slip by {slip:.2} m for each metre, at most {allowed} m allowed")
+            }
+            Self::Irregular { regularity, required } => {
+                write!(
+                    f,
+                    "strides repeat themselves with a regularity of {regularity:.2}, at least {required} required"
+                )
+            }
             Self::NoTouchdown { foot, seconds, allowed } => {
                 write!(f, "{foot}: no touchdown for {seconds:.1} s, at most {allowed:.0} s allowed")
             }
@@ -102,11 +153,21 @@ impl fmt::Display for Reason {
                 write!(f, "jump at {time:.1} s: {seconds:.2} s off the ground, at least {required} s required")
             }
             Self::LowFlight { time, rise, required } => {
-                write!(f, "jump at {time:.1} s: torso rose {rise:.2} m, at least {required:.2} m required")
+                write!(f, "jump at {time:.1} s: centre of mass rose {rise:.2} m, at least {required:.2} m required")
             }
             Self::NoPushOff { time, foot } => write!(f, "jump at {time:.1} s: {foot} did not push off"),
             Self::UnevenPushOff { time, spread, allowed } => {
                 write!(f, "jump at {time:.1} s: the legs pushed off {spread:.2} s apart, at most {allowed} s allowed")
+            }
+            Self::LandedOn { part, time } => {
+                write!(f, "{part}: touches the ground at {time:.1} s, after the jump; only feet may")
+            }
+            Self::NotStanding { tilt, height, speed, allowed: [most_tilt, most_height, most_speed] } => {
+                write!(
+                    f,
+                    "last second: neither stands nor jumps on: tilted by {tilt:.0}° (at most {most_tilt:.0}°), {height:.2} m off \
+                     its start height (at most {most_height:.2} m), {speed:.2} body lengths/s (at most {most_speed})"
+                )
             }
             Self::Brittle { usable, worlds, required } => {
                 write!(f, "usable in {usable} of {worlds} near worlds, at least {required} required")

@@ -1,6 +1,6 @@
 use super::{
-    Aloft, Cheat, GaitError, JointUse, Judgement, Kind, LegUse, Rhythm, Trajectory, Travel, Uprightness, audit,
-    spectrum::Spectrum,
+    Aloft, Cheat, GaitError, JointUse, Judgement, Kind, LegUse, OtherContact, Rhythm, Trajectory, Travel, Uprightness,
+    audit, spectrum::Spectrum,
 };
 use crate::{Body, Snapshot};
 use serde::{Deserialize, Serialize};
@@ -23,6 +23,9 @@ pub struct GaitReport {
     pub aloft: Aloft,
     /// Each actuated leg, in the body's order.
     pub legs: Vec<LegUse>,
+    /// What touches the ground besides feet; `None` if nothing does, and for a legless body.
+    #[serde(default)]
+    pub other_contact: Option<OtherContact>,
     /// Each joint, in the body's order.
     pub joints: Vec<JointUse>,
     /// How regular it is.
@@ -75,6 +78,7 @@ impl GaitReport {
                 .iter()
                 .filter_map(|leg| leg.last().map(|&foot| LegUse::measure(trajectory, leg, foot)))
                 .collect(),
+            other_contact: OtherContact::measure(trajectory),
             joints: hinges
                 .map(|(index, hinge)| JointUse::measure(trajectory, index, hinge, &window, &spectrum))
                 .collect(),

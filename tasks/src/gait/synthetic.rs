@@ -9,6 +9,8 @@ pub(super) const TIME_STEP: f64 = 0.02;
 /// Steps of the walker's stride, and how many of them each foot stands.
 pub(super) const STRIDE: usize = 25;
 pub(super) const STANCE: usize = 15;
+/// From hip to sole, m.
+const LEG: f64 = 0.6;
 
 /// Where the script wants everything after a step.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,6 +24,8 @@ pub(super) struct Pose {
     pub(super) touching: [bool; 3],
     /// How far the left hip has come apart, m.
     pub(super) gap: f64,
+    /// How far each leg is drawn up, m.
+    pub(super) lift: [f64; 2],
     /// The motors' work so far, J.
     pub(super) work: f64,
 }
@@ -29,16 +33,33 @@ pub(super) struct Pose {
 impl Pose {
     /// Standing still on both legs.
     pub(super) fn standing() -> Self {
-        Self { x: 0.0, y: 0.8, tilt: 0.0, hips: [0.0; 2], touching: [false, true, true], gap: 0.0, work: 0.0 }
+        Self {
+            x: 0.0,
+            y: 0.8,
+            tilt: 0.0,
+            hips: [0.0; 2],
+            touching: [false, true, true],
+            gap: 0.0,
+            lift: [0.0; 2],
+            work: 0.0,
+        }
     }
 
-    /// Walking at 1 m/s, which is 1 body length/s, the legs half a stride apart, the motors giving 60 W.
+    /// Walking at 1 m/s, which is 1 body length/s, the legs half a stride apart, the motors giving 60 W. A foot that stands
+    /// stays where it is.
     pub(super) fn walking(step: usize) -> Self {
         let time = step as f64 * TIME_STEP;
         let steps = [step, step + STRIDE / 2];
-        let swing = |step: usize| 0.5 * libm::sin(TAU * step as f64 / STRIDE as f64);
         let [left, right] = steps.map(|step| step % STRIDE < STANCE);
-        Self { x: time, hips: steps.map(swing), touching: [false, left, right], work: 60.0 * time, ..Self::standing() }
+        let work = 60.0 * time;
+        Self {
+            x: time,
+            hips: steps.map(hip),
+            touching: [false, left, right],
+            lift: steps.map(lift),
+            work,
+            ..Self::standing()
+        }
     }
 
     /// Crouching for a second, then jumping 0.46 m high.
@@ -54,6 +75,25 @@ impl Pose {
             ..Self::standing()
         }
     }
+}
+
+/// A hip that keeps its foot in place for the steps of a stance, and swings it forward in the others, rad.
+fn hip(step: usize) -> f64 {
+    let phase = step % STRIDE;
+    let reach = 0.5 * (STANCE - 1) as f64 * TIME_STEP / LEG;
+    let share = if phase < STANCE {
+        1.0 - 2.0 * phase as f64 / (STANCE - 1) as f64
+    } else {
+        -libm::cos(TAU * 0.5 * (phase + 1 - STANCE) as f64 / (STRIDE - STANCE + 1) as f64)
+    };
+    libm::asin(reach * share)
+}
+
+/// How far a leg that swings is drawn up, m.
+fn lift(step: usize) -> f64 {
+    let phase = step % STRIDE;
+    let swing = phase.saturating_sub(STANCE - 1) as f64 / (STRIDE - STANCE + 1) as f64;
+    0.045 * libm::sin(TAU * 0.5 * swing)
 }
 
 /// Torso 0.6 × 0.3 m, 10 kg; two legs of 0.6 × 0.1 m, 1 kg, that hang on its centre line at its bottom.
@@ -109,7 +149,7 @@ fn snapshot(step: usize, pose: &Pose) -> Snapshot {
     let leg = |index: usize, gap: f64| {
         let angle = pose.tilt + pose.hips[index];
         let hip = [pose.x + 0.15 * libm::sin(pose.tilt), pose.y - 0.15 * libm::cos(pose.tilt)];
-        let centre = [hip[0] + 0.3 * libm::sin(angle) + gap, hip[1] - 0.3 * libm::cos(angle)];
+        let centre = [hip[0] + 0.3 * libm::sin(angle) + gap, hip[1] - 0.3 * libm::cos(angle) + pose.lift[index]];
         state(centre[0], centre[1], angle, pose.touching[index + 1])
     };
     Snapshot {

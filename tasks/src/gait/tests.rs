@@ -1,7 +1,7 @@
 //! Scripted gaits with known answers, and trajectories of any kind.
 
 use super::{
-    CheatKind, GaitError, GaitReport, Kind, Reason, Trajectory,
+    CheatKind, GaitError, GaitReport, Kind, NearWorlds, Reason, Trajectory,
     synthetic::{Pose, STANCE, STRIDE, TIME_STEP, body, film},
 };
 use crate::{Body, PartState, Snapshot};
@@ -22,31 +22,33 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn a_walker_is_measured_and_usable() {
-    let report = report(20.0, Kind::Running, Pose::walking);
+    let report = report(60.0, Kind::Running, Pose::walking);
     assert_eq!(reasons(&report), Vec::<String>::new());
     assert!(report.verdict.as_ref().is_some_and(|verdict| verdict.usable));
-    near(report.travel.distance, 20.0, 1e-5);
+    near(report.travel.distance, 60.0, 1e-4);
     near(report.travel.speed, 1.0, 1e-6);
     near(report.travel.second_half_relative_speed, 1.0, 1e-6);
-    report.travel.quarters.iter().for_each(|&progress| near(progress, 5.0, 1e-5));
+    report.travel.quarters.iter().for_each(|&progress| near(progress, 15.0, 1e-4));
     // 60 W at 1 m/s and 12 kg.
     near(report.travel.cost_of_transport.expect("work is known"), 60.0 / (12.0 * 9.81), 1e-5);
     near(report.torso.largest_tilt, 0.0, 1e-9);
     for leg in &report.legs {
         near(leg.duty_factor, STANCE as f64 / STRIDE as f64, 0.01);
         near(leg.longest_without_touchdown, STRIDE as f64 * TIME_STEP, 1e-6);
-        near(leg.joints[0].range, 1.0, 0.01);
-        assert!((39..=40).contains(&leg.footfalls), "{}", leg.footfalls);
+        near(leg.joints[0].range, 2.0 * libm::asin(0.14 / 0.6), 0.01);
+        assert!(leg.clearance.is_some_and(|clearance| clearance > 0.02 && clearance < 0.045), "{:?}", leg.clearance);
+        assert!(leg.slip_per_distance.is_some_and(|slip| slip < 0.15), "{:?}", leg.slip_per_distance);
+        assert!((119..=120).contains(&leg.footfalls), "{}", leg.footfalls);
         near(leg.stances[1].seconds(), STANCE as f64 * TIME_STEP, 1e-6);
     }
     for joint in &report.joints {
         near(joint.dominant_frequency, 2.0, 0.01);
         near(joint.reversals, 4.0, 0.11);
-        near(joint.range, 1.0_f64.to_degrees(), 0.5);
+        near(joint.range, 2.0 * libm::asin(0.14 / 0.6).to_degrees(), 0.5);
     }
     near(report.rhythm.stride_time.expect("a rhythm"), 0.5, 1e-6);
     assert!(report.rhythm.strength > 0.99);
-    near(report.rhythm.strides, 20.0, 1e-6);
+    near(report.rhythm.strides, 60.0, 1e-6);
     near(report.rhythm.progress_per_stride.expect("a rhythm"), 0.5, 1e-6);
 }
 
@@ -66,11 +68,11 @@ fn a_jumper_is_measured_and_usable() {
 fn legs_that_push_off_far_apart_do_not_jump_together() {
     let late = |step: usize| {
         let mut pose = Pose::jumping(step);
-        pose.touching[1] &= step < 30;
+        pose.touching[1] &= !(30..=80).contains(&step);
         pose
     };
     let report = report(5.0, Kind::Jumping, late);
-    assert_eq!(reasons(&report), ["jump at 1.0 s: the legs pushed off 0.42 s apart, at most 0.3 s allowed"]);
+    assert_eq!(reasons(&report), ["jump at 1.0 s: the legs pushed off 0.42 s apart, at most 0.15 s allowed"]);
 }
 
 #[test]
@@ -83,7 +85,7 @@ fn a_hop_in_one_flight_and_height_in_another_are_no_jump() {
         pose
     };
     let report = report(5.0, Kind::Jumping, script);
-    assert_eq!(reasons(&report), ["jump at 3.0 s: torso rose 0.00 m, at least 0.24 m required"]);
+    assert_eq!(reasons(&report), ["jump at 3.0 s: centre of mass rose 0.00 m, at least 0.24 m required"]);
 }
 
 #[test]
@@ -96,13 +98,13 @@ fn one_who_stays_on_the_ground_does_not_jump() {
 fn a_leg_that_never_comes_down_is_named() {
     let hopping = |step: usize| {
         let mut pose = Pose::walking(step);
-        pose.touching[1] &= step < 740;
+        pose.touching[1] &= step < 2900;
         pose
     };
-    let report = report(20.0, Kind::Running, hopping);
+    let report = report(60.0, Kind::Running, hopping);
     let expected = [
-        "left leg: no touchdown for 5.5 s, at most 3 s allowed",
-        "left leg: did not leave the ground for 5.2 s, at most 3 s allowed",
+        "left leg: no touchdown for 2.0 s, at most 1 s allowed",
+        "left leg: did not leave the ground for 1.7 s, at most 1 s allowed",
     ];
     assert_eq!(reasons(&report), expected);
 }
@@ -114,23 +116,182 @@ fn a_dragged_foot_that_chatters_does_not_walk() {
         pose.touching[1] = !step.is_multiple_of(10);
         pose
     };
-    let report = report(20.0, Kind::Running, dragging);
+    let report = report(60.0, Kind::Running, dragging);
     assert!(reasons(&report).iter().any(|reason| reason.starts_with("left leg: no touchdown for")));
 }
 
 #[test]
 fn tilt_counts_whole_turns() {
-    let somersaults = |step: usize| Pose { tilt: -TAU * step as f64 / 500.0, ..Pose::walking(step) };
-    let report = report(20.0, Kind::Running, somersaults);
+    let somersaults = |step: usize| Pose { tilt: -TAU * step as f64 / 1500.0, ..Pose::walking(step) };
+    let report = report(60.0, Kind::Running, somersaults);
     near(report.torso.largest_tilt, 720.0, 1e-3);
     near(report.torso.rollovers, 2.0, 0.0);
-    assert!(reasons(&report).contains(&"torso: tilted by 720° at 20.0 s, at most 90° allowed".to_string()));
+    assert!(reasons(&report).contains(&"torso: tilted by 720° at 60.0 s, at most 45° allowed".to_string()));
+}
+
+/// A walk in which one thing is changed, and what is said of it.
+fn walk(change: impl Fn(usize, &mut Pose)) -> Vec<String> {
+    let script = |step: usize| {
+        let mut pose = Pose::walking(step);
+        change(step, &mut pose);
+        pose
+    };
+    reasons(&report(60.0, Kind::Running, script))
+}
+
+const NOTHING: Vec<String> = Vec::new();
+
+#[test]
+fn a_torso_may_lean_by_45_degrees_and_sway_by_12() {
+    let lean = |degrees: f64| walk(move |step, pose| pose.tilt = degrees.to_radians() * (step as f64 / 50.0).min(1.0));
+    assert_eq!(lean(-44.5), NOTHING);
+    assert_eq!(lean(-45.5), ["torso: tilted by 46° at 1.0 s, at most 45° allowed"]);
+    // A sine of this amplitude has a standard deviation of its 0.707.
+    let sway = |degrees: f64| {
+        walk(move |step, pose| pose.tilt = degrees.to_radians() * libm::sin(TAU * step as f64 / STRIDE as f64))
+    };
+    assert_eq!(sway(16.5), NOTHING);
+    assert_eq!(sway(17.5), ["torso: sways by 12.4° (standard deviation), at most 12° allowed"]);
+}
+
+#[test]
+fn a_torso_may_sink_to_0_6_of_its_start_height() {
+    let sink = |height: f64| walk(move |step, pose| pose.y = if step == 700 { 0.8 * height } else { 0.8 });
+    assert_eq!(sink(0.61), NOTHING);
+    assert_eq!(sink(0.59), ["torso: at 0.59 of its start height at 14.0 s, at least 0.6 required"]);
+}
+
+#[test]
+fn nothing_but_feet_touches_the_ground_for_more_than_1_percent_of_the_time() {
+    let touch = |steps: usize| walk(move |step, pose| pose.touching[0] = (100..100 + steps).contains(&step));
+    assert_eq!(touch(29), NOTHING);
+    assert_eq!(
+        touch(33),
+        ["parts that are no feet touch the ground 1.1 % of the time, torso most; at most 1 % allowed"]
+    );
+}
+
+#[test]
+fn feet_rise_by_2_percent_of_the_body_length() {
+    let lifted = |share: f64| walk(move |_, pose| pose.lift[1] *= share);
+    assert_eq!(lifted(0.9), NOTHING);
+    let said = lifted(0.3);
+    assert!(said.len() == 1 && said[0].starts_with("right leg: rises by 0.0"), "{said:?}");
+    assert!(said[0].ends_with("in a step, at least 0.020 m required"), "{said:?}");
+}
+
+#[test]
+fn feet_may_slip_by_0_3_m_a_metre() {
+    // Standing feet are carried along by a share of the way.
+    let skating = |share: f64| {
+        walk(move |step, pose| {
+            let way = (0.6 * libm::sin(pose.hips[0]), 0.6 * libm::sin(pose.hips[1]));
+            pose.hips = [way.0, way.1].map(|way| libm::asin(way * (1.0 - share) / 0.6));
+            let _ = step;
+        })
+    };
+    assert_eq!(skating(0.2), NOTHING);
+    let said = skating(0.7);
+    assert!(said.len() == 1 && said[0].starts_with("feet slip by 0."), "{said:?}");
+    assert!(said[0].ends_with("m for each metre, at most 0.3 m allowed"), "{said:?}");
+}
+
+#[test]
+fn strides_repeat_themselves() {
+    // Every stride takes another time to swing, and another reach.
+    let stumbling = |much: f64| {
+        walk(move |step, pose| {
+            let stride = (step / STRIDE) as u64;
+            let chance = (stride.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / f64::from(1 << 24) - 0.5;
+            pose.hips = pose.hips.map(|hip| hip + much * chance);
+        })
+    };
+    assert_eq!(stumbling(0.1), NOTHING);
+    let said = stumbling(1.0);
+    assert!(
+        said.iter().any(|reason| reason.starts_with("strides repeat themselves with a regularity of 0.")),
+        "{said:?}"
+    );
+}
+
+/// A jump in which one thing is changed from its take-off on, and what is said of it.
+fn jump(change: impl Fn(f64, &mut Pose)) -> Vec<String> {
+    let script = |step: usize| {
+        let mut pose = Pose::jumping(step);
+        change(step as f64 * TIME_STEP, &mut pose);
+        pose
+    };
+    reasons(&report(5.0, Kind::Jumping, script))
+}
+
+#[test]
+fn a_jump_lands_on_its_feet() {
+    let knee = |from: f64| jump(move |time, pose| pose.touching[0] = (from..from + 0.03).contains(&time));
+    assert_eq!(knee(0.5), NOTHING, "before the jump it may kneel");
+    assert_eq!(knee(2.0), ["torso: touches the ground at 2.0 s, after the jump; only feet may"]);
+    let tilted = |degrees: f64| {
+        jump(move |time, pose| pose.tilt = if (1.1..1.4).contains(&time) { degrees.to_radians() } else { 0.0 })
+    };
+    assert_eq!(tilted(44.0), NOTHING);
+    assert_eq!(tilted(46.0), ["torso: tilted by 46° at 1.1 s, at most 45° allowed"]);
+}
+
+#[test]
+fn a_jump_ends_standing_or_goes_on() {
+    let end = |tilt: f64, y: f64, speed: f64| {
+        jump(move |time, pose| {
+            if time > 3.5 {
+                (pose.tilt, pose.y, pose.x) = (tilt.to_radians(), pose.y + y, speed * (time - 3.5));
+            }
+        })
+    };
+    assert_eq!(end(19.0, 0.0, 0.0), NOTHING);
+    assert_eq!(end(0.0, -0.11, 0.19), NOTHING);
+    for said in [end(21.0, 0.0, 0.0), end(0.0, -0.13, 0.0), end(0.0, 0.0, 0.21)] {
+        assert!(
+            said.len() == 1 && said[0].starts_with("last second: neither stands nor jumps on: tilted by"),
+            "{said:?}"
+        );
+    }
+    // A jump every 1.2 s: in the air or crouching in the last second.
+    let on = |step: usize| {
+        let again = Pose::jumping(50 + step % 60);
+        Pose { touching: if step < 5 { [false, true, true] } else { again.touching }, ..again }
+    };
+    assert_eq!(reasons(&report(5.0, Kind::Jumping, on)), NOTHING);
+}
+
+#[test]
+fn a_jump_takes_0_2_s_and_lifts_the_centre_of_mass() {
+    let flight = |seconds: f64| {
+        jump(move |time, pose| {
+            let aloft = time > 1.01 && time < 1.01 + seconds;
+            pose.touching = [false, !aloft, !aloft];
+        })
+    };
+    assert_eq!(flight(0.21), NOTHING);
+    let said = flight(0.15);
+    assert!(
+        said[0].starts_with("jump at 1.0 s: 0.1") && said[0].ends_with("s off the ground, at least 0.2 s required"),
+        "{said:?}"
+    );
+}
+
+#[test]
+fn a_gait_that_is_brittle_in_near_worlds_is_not_usable() {
+    let verdict = report(60.0, Kind::Running, Pose::walking).verdict.expect("judged");
+    assert_eq!(verdict.near_worlds, None, "a bare trajectory is judged alone");
+    let near = |usable| verdict.clone().with_near_worlds(NearWorlds { usable, worlds: 8 });
+    assert!(near(7).usable && near(7).near_worlds == Some(NearWorlds { usable: 7, worlds: 8 }));
+    assert!(!near(6).usable);
+    assert_eq!(near(6).reasons[0].to_string(), "usable in 6 of 8 near worlds, at least 7 required");
 }
 
 #[test]
 fn a_pause_of_a_quarter_is_no_running() {
-    let pausing = |step: usize| Pose { x: 0.02 * step.min(500).max(step.max(750) - 250) as f64, ..Pose::walking(step) };
-    let reasons = reasons(&report(20.0, Kind::Running, pausing));
+    let pausing =
+        |step: usize| Pose { x: 0.02 * step.min(1500).max(step.max(2250) - 750) as f64, ..Pose::walking(step) };
+    let reasons = reasons(&report(60.0, Kind::Running, pausing));
     assert!(
         reasons.contains(&"quarter 3 of the episode: 0.00 m, some way forward required".to_string()),
         "{reasons:?}"
@@ -141,10 +302,10 @@ fn a_pause_of_a_quarter_is_no_running() {
 fn short_and_slow_is_said() {
     let slow = |step: usize| Pose { x: 0.004 * step as f64, ..Pose::walking(step) };
     let expected = [
-        "the episode lasted 10.0 s, shorter than the 20 s to be judged",
+        "the episode lasted 10.0 s, shorter than the 60 s to be judged",
         "second half: 0.20 body lengths/s, at least 0.5 required",
     ];
-    assert_eq!(reasons(&report(10.0, Kind::Running, slow)), expected);
+    assert_eq!(reasons(&report(10.0, Kind::Running, slow))[..2], expected);
 }
 
 #[test]
@@ -153,14 +314,14 @@ fn a_fast_joint_is_not_usable() {
         let swing = 0.1 * libm::sin(TAU * 6.0 * step as f64 * TIME_STEP);
         Pose { hips: [swing, Pose::walking(step).hips[1]], ..Pose::walking(step) }
     };
-    let report = report(20.0, Kind::Running, buzzing);
-    assert_eq!(reasons(&report), ["left leg: its joint swings at 6.0 Hz, at most 5 Hz allowed"]);
+    let report = report(60.0, Kind::Running, buzzing);
+    assert!(reasons(&report).contains(&"left leg: its joint swings at 6.0 Hz, at most 4 Hz allowed".to_string()));
 }
 
 #[test]
 fn a_legless_body_must_move_every_joint() {
     let body = Body { legless: true, ..body() };
-    let lazy = film(20.0, |step| Pose { hips: [Pose::walking(step).hips[0], 0.0], ..Pose::walking(step) });
+    let lazy = film(60.0, |step| Pose { hips: [Pose::walking(step).hips[0], 0.0], ..Pose::walking(step) });
     let report = GaitReport::measure(&body, &lazy, Some(Kind::Running)).expect("a script can be measured");
     assert_eq!(reasons(&report), ["right leg: its joint moves by 0° in the second half, at least 20° required"]);
 }
@@ -185,7 +346,7 @@ fn a_standing_foot_that_is_dragged_slips_and_one_that_turns_on_its_toe_does_not(
 
 #[test]
 fn positions_alone_give_no_cost() {
-    let walk = film(20.0, Pose::walking);
+    let walk = film(60.0, Pose::walking);
     let body = body();
     let trajectory = Trajectory::from_positions(&body, &walk).expect("positions");
     let report = GaitReport::of(&trajectory, Some(Kind::Running));
@@ -196,7 +357,7 @@ fn positions_alone_give_no_cost() {
 #[test]
 fn a_cheat_speaks_against_a_gait() {
     let torn = |step: usize| Pose { gap: if step > 500 { 0.2 } else { 0.0 }, ..Pose::walking(step) };
-    let report = report(20.0, Kind::Running, torn);
+    let report = report(60.0, Kind::Running, torn);
     let cheats: Vec<_> = report.cheats.iter().map(|cheat| cheat.kind).collect();
     assert_eq!(cheats, [CheatKind::JointSeparation]);
     assert!(report.verdict.is_some_and(|verdict| matches!(&verdict.reasons[..], [Reason::Cheat(_)])));
@@ -222,7 +383,7 @@ fn a_swimmer_needs_neither_ground_nor_footfalls_but_has_to_get_ahead() {
     let swum = report(20.0, Kind::Swimming, swimming);
     assert_eq!(reasons(&swum), Vec::<String>::new());
     assert!((swum.travel.second_half_relative_speed - 1.0).abs() < 0.1, "{}", swum.travel.second_half_relative_speed);
-    assert!(reasons(&report(20.0, Kind::Running, swimming)).len() > 3, "it is no run");
+    assert!(reasons(&report(60.0, Kind::Running, swimming)).len() > 3, "it is no run");
     let slow = |step: usize| Pose { x: 0.3 * Pose::walking(step).x, ..swimming(step) };
     let said = reasons(&report(20.0, Kind::Swimming, slow));
     assert!(said.len() == 1 && said[0].contains("body lengths/s, at least 0.5 required"), "{said:?}");
@@ -239,19 +400,19 @@ fn a_swimmer_needs_neither_ground_nor_footfalls_but_has_to_get_ahead() {
 #[test]
 fn a_walker_backwards_is_judged_as_one_forwards() {
     let backwards = |step: usize| Pose { x: -Pose::walking(step).x, ..Pose::walking(step) };
-    let report_of_a_run = report(20.0, Kind::Running, Pose::walking);
-    let report_of_a_retreat = report(20.0, Kind::Backwards, backwards);
+    let report_of_a_run = report(60.0, Kind::Running, Pose::walking);
+    let report_of_a_retreat = report(60.0, Kind::Backwards, backwards);
     assert_eq!(reasons(&report_of_a_retreat), Vec::<String>::new());
     assert_eq!(report_of_a_retreat.travel, report_of_a_run.travel);
     assert_eq!(report_of_a_retreat.kind, Some(Kind::Backwards));
     // Forwards is the wrong way, and so is backwards for a run.
-    for wrong in [report(20.0, Kind::Backwards, Pose::walking), report(20.0, Kind::Running, backwards)] {
+    for wrong in [report(60.0, Kind::Backwards, Pose::walking), report(60.0, Kind::Running, backwards)] {
         let reasons = reasons(&wrong);
-        assert!(reasons[0].starts_with("second half: -1.00 body lengths/s") && reasons.len() == 9, "{reasons:?}");
+        assert!(reasons[0].starts_with("second half: -1.00 body lengths/s") && reasons.len() >= 9, "{reasons:?}");
     }
     // A slide is one in either direction.
     let sliding = |step: usize| Pose { touching: [false, true, true], ..backwards(step) };
-    let cheats = report(20.0, Kind::Backwards, sliding).cheats;
+    let cheats = report(60.0, Kind::Backwards, sliding).cheats;
     assert_eq!(cheats.iter().map(|cheat| cheat.kind.name()).collect::<Vec<_>>(), ["friction-ratchet"]);
 }
 

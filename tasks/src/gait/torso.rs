@@ -14,6 +14,15 @@ pub struct Uprightness {
     /// How often it got upside down in one direction, further than ever before, as
     /// [`Rollovers`](crate::Rollovers) counts.
     pub rollovers: f64,
+    /// The standard deviation of its angle over the second half, degrees.
+    #[serde(rename = "deviation_deg", default)]
+    pub deviation: f64,
+    /// How low its centre ever got, over its start height.
+    #[serde(rename = "lowest_over_start_height", default)]
+    pub lowest: f64,
+    /// When that was, s.
+    #[serde(rename = "lowest_at_s", default)]
+    pub lowest_at: f64,
 }
 
 impl Uprightness {
@@ -24,10 +33,27 @@ impl Uprightness {
                 (furthest, step) = (tilt.abs(), index);
             }
         }
+        let (start, mut lowest, mut lowest_step) = (trajectory.start_height(), f64::INFINITY, 0);
+        for step in 0..=trajectory.steps() {
+            let height = trajectory.height(step) / start;
+            if height < lowest {
+                (lowest, lowest_step) = (height, step);
+            }
+        }
         Self {
+            deviation: deviation(&trajectory.tilts()[trajectory.at(0.5)..]).to_degrees(),
+            lowest,
+            lowest_at: trajectory.time(lowest_step),
             largest_tilt: furthest.to_degrees(),
             largest_tilt_at: trajectory.time(step),
             rollovers: libm::floor((furthest + PI) / TAU),
         }
     }
+}
+
+/// The standard deviation of at least one value.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len() as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values.iter().map(|value| (value - mean) * (value - mean)).sum::<f64>() / count).sqrt()
 }

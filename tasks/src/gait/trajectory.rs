@@ -144,6 +144,17 @@ impl<'a> Trajectory<'a> {
         parts.map(|(part, state)| f64::from(part.mass) * f64::from(state.x)).sum::<f64>() / self.mass()
     }
 
+    /// The height of the torso's centre, m.
+    pub(super) fn height(&self, step: usize) -> f64 {
+        self.snapshots[step].torso().y.into()
+    }
+
+    /// The height of the centre of mass, m.
+    pub(super) fn centre_height(&self, step: usize) -> f64 {
+        let parts = self.body.parts.iter().zip(&self.snapshots[step].parts);
+        parts.map(|(part, state)| f64::from(part.mass) * f64::from(state.y)).sum::<f64>() / self.mass()
+    }
+
     /// How far the torso is above where it started, m.
     pub(super) fn rise(&self, step: usize) -> f64 {
         f64::from(self.snapshots[step].torso().y) - f64::from(self.snapshots[0].torso().y)

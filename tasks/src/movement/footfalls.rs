@@ -1,16 +1,18 @@
 use super::{Movement, Verdict};
 use crate::{Body, PartState, Snapshot};
 
-/// Ends the episode when a leg is not used: when its foot has not come down, or has not left the ground, for 1.5 s. Its
+/// Ends the episode when a leg is not used: when its foot has not come down, or has not left the ground, for 0.9 s. Its
 /// value is the number of legs that had stopped.
 ///
-/// A foot counts as off the ground once it is 3 cm above ground that is flat at height 0, or on uneven ground 3 cm above
+/// A foot counts as off the ground once it is 3 cm, or 2.5 % of the body length if that is more, above ground that is flat at height 0, or on uneven ground as high above
 /// where it last stood: feet that shiver or drag do not count as stepping, and feet that are lifted do not stumble over
 /// every bump. Creatures without legs are left alone.
 #[derive(Clone, Debug, Default)]
 pub struct Footfalls {
     legs: Vec<Leg>,
     uneven_ground: bool,
+    /// m.
+    clearance: f32,
     time: f32,
 }
 
@@ -27,9 +29,11 @@ struct Leg {
 }
 
 /// s.
-const PATIENCE: f32 = 1.5;
+const PATIENCE: f32 = 0.9;
 /// m.
 const CLEARANCE: f32 = 0.03;
+/// Body lengths.
+const RELATIVE_CLEARANCE: f32 = 0.025;
 
 impl Movement for Footfalls {
     fn name(&self) -> &str {
@@ -47,6 +51,7 @@ impl Movement for Footfalls {
             radius: body.parts[foot].radius,
             ..Leg::default()
         };
+        self.clearance = CLEARANCE.max(RELATIVE_CLEARANCE * body.body_length);
         self.uneven_ground = body.uneven_ground;
         self.legs = if body.legless { Vec::new() } else { body.feet().map(leg).collect() };
     }
@@ -71,7 +76,7 @@ impl Movement for Footfalls {
             if part.touching && !leg.down {
                 leg.down = true;
                 leg.last_down = now.time;
-            } else if !part.touching && leg.down && leg.lowest_point(part) > leg.ground + CLEARANCE {
+            } else if !part.touching && leg.down && leg.lowest_point(part) > leg.ground + self.clearance {
                 leg.down = false;
                 leg.last_up = now.time;
             }

@@ -1,12 +1,13 @@
 use super::{Movement, Verdict};
 use crate::{Body, Snapshot};
 
-/// How high the torso rises above its start in a true leap, m: in a flight of at least 0.18 s that all legs began together,
-/// each losing the ground within 0.25 s of the others. 0 without one.
+/// How high the centre of mass rises above its start in a true leap, m: in a flight of at least 0.22 s that all legs began
+/// together, each losing the ground within 0.12 s of the others. 0 without one.
 ///
 /// [`Jumping`](super::Jumping) also counts a torso that is lifted by a body that only stretches.
 #[derive(Clone, Debug, Default)]
 pub struct Leap {
+    masses: Vec<f32>,
     feet: Vec<usize>,
     start: f32,
     down: Vec<bool>,
@@ -18,9 +19,17 @@ pub struct Leap {
 }
 
 /// s.
-const TOGETHER: f32 = 0.25;
+const TOGETHER: f32 = 0.12;
 /// A flight shorter than this is a stumble, s.
-const SHORTEST: f32 = 0.18;
+const SHORTEST: f32 = 0.22;
+
+impl Leap {
+    /// How far the flight under way has risen, m, if it began as a leap and lasts long enough to be one.
+    pub(super) fn under_way(&self, now: &Snapshot) -> Option<f32> {
+        let (since, together) = self.flight?;
+        (together && now.time - since >= SHORTEST).then_some(self.rise)
+    }
+}
 
 impl Movement for Leap {
     fn name(&self) -> &str {
@@ -32,13 +41,14 @@ impl Movement for Leap {
     }
 
     fn meet(&mut self, body: &Body) {
+        self.masses = body.parts.iter().map(|part| part.mass).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
         self.down = vec![true; self.feet.len()];
         self.left = vec![0.0; self.feet.len()];
     }
 
     fn begin(&mut self, start: &Snapshot) {
-        (self.start, self.flight, self.rise, self.best) = (start.torso().y, None, 0.0, 0.0);
+        (self.start, self.flight, self.rise, self.best) = (centre_height(&self.masses, start), None, 0.0, 0.0);
         for (index, &foot) in self.feet.iter().enumerate() {
             self.down[index] = start.parts[foot].touching;
             self.left[index] = start.time - 10.0;
@@ -61,7 +71,7 @@ impl Movement for Leap {
         let first = self.left.iter().copied().fold(f32::INFINITY, f32::min);
         let (since, together) =
             *self.flight.get_or_insert((now.time, now.time - first <= TOGETHER || self.feet.is_empty()));
-        self.rise = self.rise.max(now.torso().y - self.start);
+        self.rise = self.rise.max(centre_height(&self.masses, now) - self.start);
         if together && now.time - since >= SHORTEST {
             self.best = self.best.max(self.rise);
         }
@@ -71,4 +81,13 @@ impl Movement for Leap {
     fn value(&self) -> f64 {
         self.best.into()
     }
+}
+
+/// The height of the centre of mass, m; of the torso where masses are not known.
+fn centre_height(masses: &[f32], snapshot: &Snapshot) -> f32 {
+    let total: f32 = masses.iter().sum();
+    if masses.len() != snapshot.parts.len() || total <= 0.0 {
+        return snapshot.torso().y;
+    }
+    masses.iter().zip(&snapshot.parts).map(|(mass, part)| mass * part.y).sum::<f32>() / total
 }

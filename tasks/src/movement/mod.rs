@@ -9,18 +9,23 @@ mod fall_ends;
 mod flights;
 mod footfalls;
 mod getting_up;
+mod haste;
 mod headway;
 mod honest;
 mod hopping;
 mod idleness;
 mod jumping;
+mod landing;
 mod leap;
 mod long_jump;
 mod objectives;
+mod posture;
 mod rollovers;
 mod running;
+mod slip;
 mod standing;
 mod sum;
+mod sway;
 mod swimming;
 mod time_aloft;
 mod upright;
@@ -36,18 +41,23 @@ pub use {
     fall_ends::FallEnds,
     footfalls::Footfalls,
     getting_up::{GettingUp, GettingUpSettings},
+    haste::{Haste, HasteSettings},
     headway::{Headway, HeadwaySettings},
     honest::Honest,
     hopping::Hopping,
     idleness::Idleness,
     jumping::Jumping,
+    landing::Landing,
     leap::Leap,
     long_jump::LongJump,
     objectives::Objectives,
+    posture::{Posture, PostureSettings},
     rollovers::Rollovers,
     running::Running,
+    slip::Slip,
     standing::{Standing, StandingSettings},
     sum::Sum,
+    sway::Sway,
     swimming::Swimming,
     time_aloft::TimeAloft,
     upright::Upright,

@@ -1,0 +1,84 @@
+use super::{Leap, Movement, Verdict, upright::Turn};
+use crate::{Body, Snapshot};
+
+/// What comes after a jump: the time since the first [leap](Leap) of at least 0.35 start heights, and 6 cm, in which the
+/// body stands as it stood at the start (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has
+/// leapt no more than 1.2 s ago, s.
+///
+/// A term that ends the episode when the body falls is what makes it land on its feet: see [`Posture`](super::Posture).
+#[derive(Clone, Debug, Default)]
+pub struct Landing {
+    leap: Leap,
+    body_length: f32,
+    start_height: f32,
+    turn: Turn,
+    start: f32,
+    time: f32,
+    /// When the last leap was high enough for the last time.
+    leapt: Option<f32>,
+    good: f32,
+}
+
+/// Start heights.
+const RISE: f32 = 0.35;
+/// m.
+const LEAST_RISE: f32 = 0.06;
+/// s.
+const LEAPS_ON: f32 = 1.2;
+/// rad.
+const TILT: f32 = 0.26;
+/// Start heights.
+const HEIGHT: f32 = 0.12;
+/// Body lengths a second.
+const SPEED: f32 = 0.2;
+
+impl Movement for Landing {
+    fn name(&self) -> &str {
+        "landing"
+    }
+
+    fn unit(&self) -> &str {
+        "s"
+    }
+
+    fn meet(&mut self, body: &Body) {
+        self.leap.meet(body);
+        (self.body_length, self.start_height) = (body.body_length, body.start_height);
+    }
+
+    fn begin(&mut self, start: &Snapshot) {
+        self.leap.begin(start);
+        self.turn = Turn::from(start.torso());
+        (self.start, self.time) = (start.torso().y, start.time);
+        (self.leapt, self.good) = (None, 0.0);
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        self.leap.observe(now);
+        self.turn.follow(now.torso());
+        let seconds = now.time - self.time;
+        self.time = now.time;
+        if self.leap.under_way(now).is_some_and(|rise| rise >= (RISE * self.start_height).max(LEAST_RISE)) {
+            self.leapt = Some(now.time);
+        }
+        if let Some(leapt) = self.leapt
+            && (now.time - leapt <= LEAPS_ON || self.stands(now))
+        {
+            self.good += seconds;
+        }
+        Verdict::GoOn
+    }
+
+    fn value(&self) -> f64 {
+        self.good.into()
+    }
+}
+
+impl Landing {
+    fn stands(&self, now: &Snapshot) -> bool {
+        let torso = now.torso();
+        self.turn.angle.abs() < TILT
+            && (torso.y - self.start).abs() < HEIGHT * self.start_height
+            && libm::hypotf(torso.vx, torso.vy) < SPEED * self.body_length
+    }
+}
