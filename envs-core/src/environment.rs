@@ -1,6 +1,6 @@
 use crate::{
-    Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, RestPose, Settled, Variation,
-    anatomy::body_of, body::Body, settled::advance,
+    Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, PushSchedule, RestPose, Settled,
+    Variation, anatomy::body_of, body::Body, settled::advance,
 };
 use creatures::{Actuation, Blueprint, Motors, Senses, Sensor, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
@@ -49,6 +49,7 @@ struct State<E> {
     engine: E,
     rest: Arc<RestPose>,
     gaps: Arc<[[f32; 2]]>,
+    pushes: PushSchedule,
     snapshot: Snapshot,
     /// Seconds a step of this trial lasts.
     time_step: f32,
@@ -184,8 +185,8 @@ impl<E: Engine> CreatureEnvironment<E> {
     }
 
     /// The same environment in one world alone: every trial has these conditions, on this ground, and nothing varies.
-    /// The settings are then those of that world's trials, its time step in them, and so are the masses of
-    /// [`body`](Environment::body).
+    /// The settings are then those of that world's trials, its time step and gravity in them, and so are the masses and the
+    /// gravity of [`body`](Environment::body).
     ///
     /// # Errors
     /// If a condition is out of range, the ground is not valid, the engine cannot build it, or the creature does not
@@ -377,13 +378,17 @@ fn pull(settings: &PhysicsSettings, blueprint: &Blueprint, mass_factor: f32) -> 
 impl<E: Engine> State<E> {
     /// The beginning of a trial.
     fn new(settled: Settled<E>, motors: usize) -> Self {
-        let Settled { engine, rest, gaps, snapshot, time_step } = settled;
-        Self { engine, rest, gaps, snapshot, time_step, steps: 0, speeds: vec![0.0; motors], wanted: vec![0.0; motors] }
+        let Settled { engine, rest, gaps, pushes, snapshot, time_step } = settled;
+        let still = vec![0.0; motors];
+        Self { engine, rest, gaps, pushes, snapshot, time_step, steps: 0, speeds: still.clone(), wanted: still }
     }
 
     /// One step, with everything that is measured after it.
     fn advance(&mut self, plan: &Plan<E>) -> Result<(), Failure> {
         let clock = self.steps as f32 * self.time_step;
+        while let Some(velocity) = self.pushes.take(clock) {
+            self.engine.nudge(0, [velocity, 0.0], 0.0);
+        }
         advance(&mut self.engine, &mut self.snapshot.parts, plan.settings.unstable_speed, clock)?;
         self.steps += 1;
         self.snapshot.time = self.steps as f32 * self.time_step;

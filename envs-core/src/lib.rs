@@ -2,7 +2,7 @@
 //!
 //! An engine knows bodies, hinges and contacts. What makes a [`tasks::Environment`] of them is the same for every
 //! engine, and stands here: [`CreatureEnvironment`] lets a [`Blueprint`](creatures::Blueprint) settle, varies the world
-//! from trial to trial, reads the sensors, drives the motors and measures. An engine implements [`Engine`], six small
+//! from trial to trial, reads the sensors, drives the motors and measures. An engine implements [`Engine`], seven small
 //! functions, and nothing else. So two engines can differ in how bodies move, and in nothing that was not meant.
 //!
 //! ```text
@@ -45,10 +45,12 @@
 mod anatomy;
 mod body;
 mod bumps;
+mod conditions;
 mod engine;
 mod environment;
 mod error;
 mod ground;
+mod push;
 mod settings;
 mod settled;
 mod terrain;
@@ -58,12 +60,14 @@ mod water;
 pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose, next_gap};
 pub use bumps::bumps;
+pub use conditions::Conditions;
 pub use engine::Engine;
 pub use environment::{ActuatedHinge, CreatureEnvironment};
 pub use error::EnvironmentError;
 pub use ground::{Ground, GroundShape};
+pub use push::{Push, PushSchedule};
 pub use settings::PhysicsSettings;
 pub use settled::Settled;
 pub use terrain::{Landscape, Obstacle};
-pub use variation::{Conditions, Variation};
+pub use variation::Variation;
 pub use water::{Hull, PartVelocity, Water};

@@ -29,6 +29,14 @@ pub struct PhysicsSettings {
     pub joint_frequency: f32,
     /// Damping ratio of joints, from 0.01 to 100; default 1 (critical).
     pub joint_damping_ratio: f32,
+    /// Natural frequency of contacts with the ground, Hz, from 1 to 1e7; default 60, as rapier has it. Softer ground lets feet
+    /// sink in. Contacts between parts have half of it.
+    #[serde(skip_serializing_if = "is_default_contact_frequency")]
+    pub contact_frequency: f32,
+    /// Damping ratio of contacts, from 0.01 to 100; default 10, as rapier has it: what is in the ground is pushed out slowly
+    /// and does not bounce.
+    #[serde(skip_serializing_if = "is_default_contact_damping_ratio")]
+    pub contact_damping_ratio: f32,
     /// The fastest a violated constraint is corrected, m/s and rad/s, from 0.1 to 1000; default 20. With rapier's 3 a
     /// strong motor turns a leg right through its joint limit.
     pub corrective_speed: f32,
@@ -46,6 +54,22 @@ pub struct PhysicsSettings {
     pub water: Option<Water>,
 }
 
+/// Hz.
+const CONTACT_FREQUENCY: f32 = 60.0;
+const CONTACT_DAMPING_RATIO: f32 = 10.0;
+
+// Files written before these settings were there stay what they were to the byte. The signatures are serde's.
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_default_contact_frequency(value: &f32) -> bool {
+    *value == CONTACT_FREQUENCY
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_default_contact_damping_ratio(value: &f32) -> bool {
+    *value == CONTACT_DAMPING_RATIO
+}
+
 impl Default for PhysicsSettings {
     fn default() -> Self {
         Self {
@@ -58,6 +82,8 @@ impl Default for PhysicsSettings {
             prediction_distance: 0.1,
             joint_frequency: 60.0,
             joint_damping_ratio: 1.0,
+            contact_frequency: CONTACT_FREQUENCY,
+            contact_damping_ratio: CONTACT_DAMPING_RATIO,
             corrective_speed: 20.0,
             motor_gain: 20.0,
             settle_time: 1.0,
@@ -83,6 +109,8 @@ impl PhysicsSettings {
             ("prediction_distance", self.prediction_distance, 0.001, 1.0),
             ("joint_frequency", self.joint_frequency, 1.0, 1e7),
             ("joint_damping_ratio", self.joint_damping_ratio, 0.01, 100.0),
+            ("contact_frequency", self.contact_frequency, 1.0, 1e7),
+            ("contact_damping_ratio", self.contact_damping_ratio, 0.01, 100.0),
             ("corrective_speed", self.corrective_speed, 0.1, 1000.0),
             ("motor_gain", self.motor_gain, 0.01, 1e6),
             ("settle_time", self.settle_time, 0.0, 60.0),

@@ -1,10 +1,10 @@
-use crate::{Conditions, Engine, Landscape, PhysicsSettings, RestPose};
+use crate::{Conditions, Engine, Landscape, PhysicsSettings, PushSchedule, RestPose};
 use creatures::Blueprint;
 use ne_core::Failure;
 use std::sync::Arc;
 use tasks::{PartState, Snapshot};
 
-/// A creature at rest in its start pose, the clock at zero: what every trial begins with.
+/// A creature at rest in its start pose (but for the torso's spin, if the conditions give it one), the clock at zero: what every trial begins with.
 #[derive(Clone)]
 pub struct Settled<E> {
     /// The engine after settling, its motors asked for speed 0.
@@ -13,6 +13,8 @@ pub struct Settled<E> {
     pub rest: Arc<RestPose>,
     /// The gaps of the ground: from and to, m, from left to right.
     pub gaps: Arc<[[f32; 2]]>,
+    /// When the torso is pushed in this trial.
+    pub pushes: PushSchedule,
     /// Where every part is; time and motor work are 0.
     pub snapshot: Snapshot,
     /// Seconds a step of this trial lasts.
@@ -48,14 +50,19 @@ impl<E: Engine> Settled<E> {
             still = if parts.iter().all(rests) { still + 1 } else { 0 };
             steps += 1.0;
         }
-        let snapshot = Snapshot { parts, ..Snapshot::default() };
+        let mut snapshot = Snapshot { parts, ..Snapshot::default() };
         if settle_time > 0.0 && snapshot.aloft() {
             let what = format!("it is still in the air after settling for {settle_time} s");
             return Err(Failure::Unstable { what });
         }
         let rest = Arc::new(RestPose::new(blueprint, &snapshot));
+        if conditions.torso_spin != 0.0 {
+            engine.nudge(0, [0.0, 0.0], conditions.torso_spin);
+            engine.look(&mut snapshot.parts);
+        }
         let gaps = landscape.gaps().collect();
-        Ok(Self { engine, rest, gaps, snapshot, time_step: settings.time_step })
+        let pushes = PushSchedule::new(&conditions.pushes, blueprint);
+        Ok(Self { engine, rest, gaps, pushes, snapshot, time_step: settings.time_step })
     }
 }
 

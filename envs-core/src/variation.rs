@@ -1,4 +1,4 @@
-use crate::{GroundShape, PhysicsSettings, bumps};
+use crate::{Conditions, GroundShape, Push, bumps};
 use ne_core::{Purpose, Seed, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -6,12 +6,29 @@ use serde::{Deserialize, Deserializer, Serialize};
 const TRIAL_VARIATION: Purpose = Purpose::new("trial variation");
 const TRIAL_BUMPS: Purpose = Purpose::new("trial bumps");
 const TRIAL_TERRAIN: Purpose = Purpose::new("trial terrain");
+const TRIAL_PHYSICS: Purpose = Purpose::new("trial physics");
+const TRIAL_PUSHES: Purpose = Purpose::new("trial pushes");
 
 /// Body lengths.
 const BUMPS_REACH: f32 = 20.0;
 
-/// How much the world differs from trial to trial, so that a gait cannot lean on one exact world. Friction, mass and torque
-/// are shares: 0.2 draws a factor uniformly from 0.8 to 1.2. From 0 to 0.9; default 0, no variation.
+/// The least and the greatest factor allowed where two are given.
+const FACTORS: [f32; 2] = [0.1, 100.0];
+
+/// From one push to the next, s.
+const PUSH_PAUSES: [f32; 2] = [2.0, 4.0];
+/// No push comes later, s.
+const LAST_PUSH: f32 = 120.0;
+
+/// How much the world differs from trial to trial, so that a gait cannot lean on one exact world.
+///
+/// Friction, mass, torque and gravity are shares: 0.2 draws a factor uniformly from 0.8 to 1.2. From 0 to 0.9; default 0, no
+/// variation. Motor gain, frequencies and damping are the least and the greatest factor, drawn log-uniformly: from 0.1 to
+/// 100; default 1 and 1, no variation; a file may have a share in their place.
+///
+/// Friction, mass, torque, start pose and pushes are what a real body meets. Time step, solver iterations, motor gain and the
+/// frequencies and damping of joints and contacts are what two physics engines differ in when they simulate the same body:
+/// a gait that bears them is a gait of the body, and not of one solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Variation {
@@ -36,74 +53,52 @@ pub struct Variation {
     /// all have that of the terrain's own seed.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub terrain: bool,
-}
-
-/// The world of one trial, against that of the settings.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Conditions {
-    /// Factor on the ground's friction coefficient.
-    pub friction: f32,
-    /// Factor on the density of every part.
-    pub mass: f32,
-    /// Factor on the top torque of every motor.
-    pub torque: f32,
-    /// Factor on the time step.
-    pub time_step: f32,
-    /// How far each actuated joint's motor is to turn it before the clock starts, rad, in order of
-    /// [`Blueprint::actuated`](creatures::Blueprint::actuated).
-    pub turns: Vec<f32>,
-}
-
-impl Conditions {
-    /// The world as the settings have it, for a creature with so many actuated joints.
-    pub fn nominal(motors: usize) -> Self {
-        Self { friction: 1.0, mass: 1.0, torque: 1.0, time_step: 1.0, turns: vec![0.0; motors] }
-    }
-
-    /// Checks that every number is finite, every factor above 0 (that on friction may be 0), and that there is a turn
-    /// for each of so many actuated joints.
-    ///
-    /// # Errors
-    /// Names the field and what it must be.
-    pub fn validate(&self, motors: usize) -> Result<(), SettingError> {
-        let factors = [("mass", self.mass), ("torque", self.torque), ("time_step", self.time_step)];
-        for (field, factor) in factors {
-            if !(factor.is_finite() && factor > 0.0) {
-                return Err(SettingError::new(field, factor, "finite and above 0"));
-            }
-        }
-        if !(self.friction.is_finite() && self.friction >= 0.0) {
-            return Err(SettingError::new("friction", self.friction, "finite and at least 0"));
-        }
-        if self.turns.len() != motors {
-            let found = format!("{} turns", self.turns.len());
-            return Err(SettingError::new("turns", found, format!("{motors}, one for each actuated joint")));
-        }
-        match self.turns.iter().find(|turn| !turn.is_finite()) {
-            Some(turn) => Err(SettingError::new("turns", turn, "finite")),
-            None => Ok(()),
-        }
-    }
-
-    /// The settings of this trial: those given, with its time step.
-    pub(crate) fn settings(&self, settings: &PhysicsSettings) -> PhysicsSettings {
-        PhysicsSettings { time_step: settings.time_step * self.time_step, ..*settings }
-    }
+    /// Of gravity.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub gravity: f32,
+    /// On [`PhysicsSettings::motor_gain`](crate::PhysicsSettings::motor_gain): how hard a motor holds the speed asked for,
+    /// within its torque.
+    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    pub motor_gain: [f32; 2],
+    /// The fewest and the most [solver iterations](crate::PhysicsSettings::solver_iterations), all equally likely; from 1 to
+    /// 32. Default `null`: as the settings have it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solver_iterations: Option<[u32; 2]>,
+    /// On [`PhysicsSettings::joint_frequency`](crate::PhysicsSettings::joint_frequency): how stiff hinges and their limits
+    /// are.
+    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    pub joint_frequency: [f32; 2],
+    /// On [`PhysicsSettings::contact_frequency`](crate::PhysicsSettings::contact_frequency): how stiff the ground is.
+    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    pub contact_frequency: [f32; 2],
+    /// On [`PhysicsSettings::contact_damping_ratio`](crate::PhysicsSettings::contact_damping_ratio): how slowly the ground
+    /// pushes out what is in it.
+    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    pub contact_damping: [f32; 2],
+    /// The torso begins to turn with up to this much when the clock starts, rad/s, either way. From 0 to 5; default 0.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub torso_spin: f32,
+    /// The strongest push against the torso, m/s of the whole body; from 0 to 5, default 0, none. A push is from half to all
+    /// of it, either way along the ground, and comes 2 to 4 s after the one before, all uniformly drawn, for 120 s.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub pushes: f32,
 }
 
 impl Default for Variation {
     /// None.
     fn default() -> Self {
-        Self {
-            friction: 0.0,
-            mass: 0.0,
-            torque: 0.0,
-            time_step: [1.0, 1.0],
-            start_pose: 0.0,
-            bumps: 0.0,
-            terrain: false,
-        }
+        Self::NONE
     }
+}
+
+// The signature is serde's.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_zero(value: &f32) -> bool {
+    *value == 0.0
+}
+
+fn is_one(factors: &[f32; 2]) -> bool {
+    *factors == [1.0, 1.0]
 }
 
 /// Two factors, or the share they are off 1.
@@ -121,20 +116,30 @@ fn factors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f32; 2], D::Er
 }
 
 impl Variation {
+    const NONE: Self = Self {
+        friction: 0.0,
+        mass: 0.0,
+        torque: 0.0,
+        time_step: [1.0, 1.0],
+        start_pose: 0.0,
+        bumps: 0.0,
+        terrain: false,
+        gravity: 0.0,
+        motor_gain: [1.0, 1.0],
+        solver_iterations: None,
+        joint_frequency: [1.0, 1.0],
+        contact_frequency: [1.0, 1.0],
+        contact_damping: [1.0, 1.0],
+        torso_spin: 0.0,
+        pushes: 0.0,
+    };
+
     /// The world of a training run: a gait evolved in one exact world is brittle.
     ///
     /// Friction ± 30 %, mass and torque ± 10 %, steps between 0.42 and 1.25 times as long (1/120 to 1/40 s in place of
     /// 1/50), and every actuated joint turned by up to 0.05 rad (3°).
     pub const fn light() -> Self {
-        Self {
-            friction: 0.3,
-            mass: 0.1,
-            torque: 0.1,
-            time_step: [0.42, 1.25],
-            start_pose: 0.05,
-            bumps: 0.0,
-            terrain: false,
-        }
+        Self { friction: 0.3, mass: 0.1, torque: 0.1, time_step: [0.42, 1.25], start_pose: 0.05, ..Self::NONE }
     }
 
     /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.33 and 1.5 times as long,
@@ -147,8 +152,44 @@ impl Variation {
             time_step: [0.33, 1.5],
             start_pose: 0.1,
             bumps: 0.02,
-            terrain: false,
+            ..Self::NONE
         }
+    }
+
+    /// Worlds so near to that of the settings that a gait must not notice: friction, gravity and mass ± 1 %, steps between
+    /// 0.99 and 1.01 times as long, every actuated joint turned by up to 1°, the torso turning by up to 0.05 rad/s.
+    pub const fn near() -> Self {
+        Self {
+            friction: 0.01,
+            gravity: 0.01,
+            mass: 0.01,
+            time_step: [0.99, 1.01],
+            start_pose: 0.017_453_3,
+            torso_spin: 0.05,
+            ..Self::NONE
+        }
+    }
+
+    /// What physics engines differ in, and nothing of the body: 1 to 8 solver iterations; joints of 30 Hz to 1 kHz (0.5 to
+    /// 16.7 times the default's 60 Hz); contacts with 0.5 to 4 times the frequency and 0.5 to 2 times the damping; motors
+    /// with 0.5 to 50 times the gain; gravity ± 5 %; steps between 0.2083 and 1.25 times as long (1/240 to 1/40 s in place
+    /// of 1/50).
+    pub const fn physics() -> Self {
+        Self {
+            solver_iterations: Some([1, 8]),
+            joint_frequency: [0.5, 16.7],
+            contact_frequency: [0.5, 4.0],
+            contact_damping: [0.5, 2.0],
+            motor_gain: [0.5, 50.0],
+            gravity: 0.05,
+            time_step: [0.2083, 1.25],
+            ..Self::NONE
+        }
+    }
+
+    /// The world of the settings with pushes of up to 0.3 m/s.
+    pub const fn pushed() -> Self {
+        Self { pushes: 0.3, ..Self::NONE }
     }
 
     /// Whether every trial has the same world.
@@ -166,6 +207,9 @@ impl Variation {
             ("mass", self.mass, 0.9),
             ("torque", self.torque, 0.9),
             ("start_pose", self.start_pose, 1.0),
+            ("gravity", self.gravity, 0.9),
+            ("torso_spin", self.torso_spin, 5.0),
+            ("pushes", self.pushes, 5.0),
         ];
         for (field, value, high) in ranges {
             if !(0.0..=high).contains(&value) {
@@ -180,7 +224,26 @@ impl Variation {
             let allowed = "a factor from 0.1 to 1 and one from 1 to 2";
             return Err(SettingError::new("time_step", format!("[{least}, {greatest}]"), allowed));
         }
-        Ok(())
+        let factors = [
+            ("motor_gain", self.motor_gain),
+            ("joint_frequency", self.joint_frequency),
+            ("contact_frequency", self.contact_frequency),
+            ("contact_damping", self.contact_damping),
+        ];
+        let [low, high] = FACTORS;
+        for (field, [least, greatest]) in factors {
+            if !(low <= least && least <= greatest && greatest <= high) {
+                let allowed = format!("two factors from {low} to {high}, the least first");
+                return Err(SettingError::new(field, format!("[{least}, {greatest}]"), allowed));
+            }
+        }
+        match self.solver_iterations {
+            Some([fewest, most]) if !(1 <= fewest && fewest <= most && most <= 32) => {
+                let allowed = "two numbers from 1 to 32, the fewest first";
+                Err(SettingError::new("solver_iterations", format!("[{fewest}, {most}]"), allowed))
+            }
+            _ => Ok(()),
+        }
     }
 
     /// The world of the trial with this seed, for a creature with so many actuated joints.
@@ -188,13 +251,50 @@ impl Variation {
         let mut stream = seed.stream(TRIAL_VARIATION);
         // From −1 to 1. The order of the draws is part of every recorded run.
         let mut draw = || 2.0 * stream.random::<f32>() - 1.0;
+        let (friction, mass, torque) =
+            (1.0 + self.friction * draw(), 1.0 + self.mass * draw(), 1.0 + self.torque * draw());
+        let time_step = between(self.time_step, 0.5 * (1.0 + draw()));
+        let turns = (0..motors).map(|_| self.start_pose * draw()).collect();
+        // What came later is drawn from a stream of its own, so that what is above stays what it was.
+        let mut stream = seed.stream(TRIAL_PHYSICS);
+        let mut draw = || stream.random::<f32>();
         Conditions {
-            friction: 1.0 + self.friction * draw(),
-            mass: 1.0 + self.mass * draw(),
-            torque: 1.0 + self.torque * draw(),
-            time_step: self.time_step_at(0.5 * (1.0 + draw())),
-            turns: (0..motors).map(|_| self.start_pose * draw()).collect(),
+            friction,
+            mass,
+            torque,
+            time_step,
+            turns,
+            gravity: 1.0 + self.gravity * (2.0 * draw() - 1.0),
+            motor_gain: between(self.motor_gain, draw()),
+            joint_frequency: between(self.joint_frequency, draw()),
+            contact_frequency: between(self.contact_frequency, draw()),
+            contact_damping: between(self.contact_damping, draw()),
+            torso_spin: self.torso_spin * (2.0 * draw() - 1.0),
+            solver_iterations: self.solver_iterations.map(|[fewest, most]| {
+                let count = most - fewest + 1;
+                // The product may round up to the count.
+                (fewest + (count as f32 * draw()) as u32).min(most)
+            }),
+            pushes: self.draw_pushes(seed),
         }
+    }
+
+    fn draw_pushes(&self, seed: Seed) -> Vec<Push> {
+        if self.pushes == 0.0 {
+            return Vec::new();
+        }
+        let mut stream = seed.stream(TRIAL_PUSHES);
+        let mut draw = || stream.random::<f32>();
+        let [shortest, longest] = PUSH_PAUSES;
+        let next = |time: f32, place: f32| time + shortest + (longest - shortest) * place;
+        let (mut pushes, mut time) = (Vec::new(), next(0.0, draw()));
+        while time <= LAST_PUSH {
+            let size = self.pushes * (0.5 + 0.5 * draw());
+            let velocity = if draw() < 0.5 { -size } else { size };
+            pushes.push(Push { time, velocity });
+            time = next(time, draw());
+        }
+        pushes
     }
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
@@ -210,10 +310,10 @@ impl Variation {
     pub(crate) fn draw_terrain(&self, seed: Seed) -> Option<u64> {
         self.terrain.then(|| seed.stream(TRIAL_TERRAIN).random())
     }
+}
 
-    /// The factor on the time step, from the least at 0 to the greatest at 1.
-    fn time_step_at(&self, place: f32) -> f32 {
-        let [least, greatest] = self.time_step.map(libm::logf);
-        libm::expf(least + (greatest - least) * place)
-    }
+/// The factor from the least at 0 to the greatest at 1, log-uniformly.
+fn between(factors: [f32; 2], place: f32) -> f32 {
+    let [least, greatest] = factors.map(libm::logf);
+    libm::expf(least + (greatest - least) * place)
 }

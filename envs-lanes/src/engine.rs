@@ -36,12 +36,16 @@ impl Engine for LaneEngine {
         conditions: &Conditions,
     ) -> Result<Self, EnvironmentError> {
         let mut world = LaneWorld::new(blueprint, settings, ground)?;
-        world.reset(0, settings.time_step, conditions);
+        world.reset(0, conditions);
         Ok(Self { world })
     }
 
     fn set_motor_speed(&mut self, hinge: usize, speed: f32) {
         self.world.set_motor_speed(0, hinge, speed);
+    }
+
+    fn nudge(&mut self, part: usize, velocity: [f32; 2], spin: f32) {
+        self.world.nudge(0, part, velocity, spin);
     }
 
     fn step(&mut self) -> bool {

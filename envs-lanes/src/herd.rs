@@ -8,7 +8,7 @@ use crate::{
     solver::LaneWorld,
 };
 use creatures::{Actuation, Motors};
-use envs_core::{ActuatedHinge, Settled};
+use envs_core::{ActuatedHinge, PushSchedule, Settled};
 use ne_core::Failure;
 use ne_net::{Network, Topology};
 use std::sync::Arc;
@@ -36,6 +36,9 @@ pub(crate) struct Herd<const W: usize> {
     time: Lanes<W>,
     rest_height: Lanes<W>,
     gaps: [Arc<[[f32; 2]]>; W],
+    pushes: [PushSchedule; W],
+    /// When each lane is pushed next, s from the start of its trial.
+    next_push: Lanes<W>,
     /// Of the last step: the power of all motors, W.
     power: Lanes<W>,
     /// Of the last step: the fastest part's larger velocity component, m/s; NaN where a number is not finite.
@@ -71,6 +74,8 @@ impl<const W: usize> Herd<W> {
             time: Lanes::ZERO,
             rest_height: Lanes::ZERO,
             gaps: std::array::from_fn(|_| settled.gaps.clone()),
+            pushes: std::array::from_fn(|_| settled.pushes.clone()),
+            next_push: Lanes::splat(f32::INFINITY),
             power: Lanes::ZERO,
             fastest: Lanes::ZERO,
         }
@@ -84,6 +89,8 @@ impl<const W: usize> Herd<W> {
         self.time.0[lane] = 0.0;
         self.rest_height.0[lane] = settled.rest.height();
         self.gaps[lane] = settled.gaps.clone();
+        self.pushes[lane] = settled.pushes.clone();
+        self.next_push.0[lane] = settled.pushes.next_time();
         if let Some(net) = &mut self.net {
             net.forget(lane);
         }
@@ -137,10 +144,23 @@ impl<const W: usize> Herd<W> {
 
     /// The same, with an eye on the clock.
     pub(crate) fn step_timed(&mut self, stopwatch: Option<&mut Laps>) {
+        if self.next_push.at_most(self.time).any() {
+            self.push();
+        }
         self.instructions.run(Step(self, stopwatch));
         for ((steps, time), time_step) in self.steps.iter_mut().zip(&mut self.time.0).zip(self.time_step.0) {
             *steps += 1;
             *time = *steps as f32 * time_step;
+        }
+    }
+
+    /// Pushes the torsos of all lanes whose time has come.
+    fn push(&mut self) {
+        for lane in 0..W {
+            while let Some(velocity) = self.pushes[lane].take(self.time.0[lane]) {
+                self.world.nudge(lane, 0, [velocity, 0.0], 0.0);
+            }
+            self.next_push.0[lane] = self.pushes[lane].next_time();
         }
     }
 

@@ -190,6 +190,13 @@ impl Engine for RapierWorld {
         }
     }
 
+    fn nudge(&mut self, part: usize, [x, y]: [f32; 2], spin: f32) {
+        let body = &mut self.physics.bodies[self.bodies[part]];
+        let (velocity, turning) = (body.linvel() + Vector::new(x, y), body.angvel() + spin);
+        body.set_linvel(velocity, false);
+        body.set_angvel(turning, false);
+    }
+
     /// `false` if rapier met a body that is not finite and disabled it.
     fn step(&mut self) -> bool {
         self.drag();
@@ -237,7 +244,11 @@ impl Engine for RapierWorld {
     }
 }
 
+/// How much softer rapier's contacts between two moving bodies are than those with fixed ground, in frequency.
+const MOVING_CONTACTS: f32 = 0.5;
+
 fn integration_parameters(settings: &PhysicsSettings) -> IntegrationParameters {
+    let contacts = |frequency| SpringCoefficients::new(frequency, settings.contact_damping_ratio);
     IntegrationParameters {
         dt: settings.time_step,
         num_solver_iterations: settings.solver_iterations as usize,
@@ -245,6 +256,8 @@ fn integration_parameters(settings: &PhysicsSettings) -> IntegrationParameters {
         max_ccd_substeps: settings.continuous_collision_substeps as usize,
         normalized_prediction_distance: settings.prediction_distance,
         normalized_max_corrective_velocity: settings.corrective_speed,
+        contact_softness: contacts(settings.contact_frequency * MOVING_CONTACTS),
+        static_contact_softness: contacts(settings.contact_frequency),
         // A recycled contact keeps its lever arms over several steps, though the foot has moved. On a half-space rapier
         // recycles none, because its extent is infinite; so boxes are ground like any other.
         contact_recycling: false,

@@ -1,6 +1,8 @@
 use crate::puppet::Puppet;
 use creatures::Blueprint;
-use envs_core::{Conditions, CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Variation};
+use envs_core::{
+    Conditions, CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Push, Variation,
+};
 use ne_core::Seed;
 use tasks::{Environment, conformance::check_environment};
 
@@ -123,6 +125,73 @@ fn a_world_given_whole_is_that_of_every_trial() {
 }
 
 #[test]
+fn conditions_are_in_the_settings_of_their_world() {
+    let environment = varied(Variation::default());
+    let conditions = Conditions {
+        time_step: 0.5,
+        gravity: 0.25,
+        motor_gain: 4.0,
+        joint_frequency: 2.0,
+        contact_frequency: 0.5,
+        contact_damping: 0.5,
+        solver_iterations: Some(7),
+        ..Conditions::nominal(environment.outputs())
+    };
+    let world = environment.under(&conditions, Ground::flat()).expect("settles");
+    let expected = PhysicsSettings {
+        time_step: 0.01,
+        gravity: 9.81 * 0.25,
+        motor_gain: 80.0,
+        joint_frequency: 120.0,
+        contact_frequency: 30.0,
+        contact_damping_ratio: 5.0,
+        solver_iterations: 7,
+        ..PhysicsSettings::default()
+    };
+    assert_eq!(*world.settings(), expected);
+    let body = world.body().expect("a creature");
+    assert_eq!(body.gravity, 9.81 * 0.25, "who judges the weight of a body must know what pulls it");
+}
+
+#[test]
+fn the_torso_spins_as_the_clock_starts() {
+    let environment = varied(Variation::default());
+    let conditions = Conditions { torso_spin: -0.25, ..Conditions::nominal(environment.outputs()) };
+    let world = environment.under(&conditions, Ground::flat()).expect("settles");
+    let spins: Vec<f32> = world.snapshot().parts.iter().map(|part| part.spin).collect();
+    assert_eq!(spins[0], -0.25);
+    assert!(spins[1..].iter().all(|&spin| spin == 0.0), "{spins:?}");
+    assert_eq!(world.snapshot().time, 0.0);
+}
+
+/// Nothing slows a puppet down, so that pushes add up.
+#[test]
+fn a_push_changes_the_torsos_velocity_before_the_first_step_that_begins_at_its_time() {
+    let environment = varied(Variation::default());
+    let push = |time, velocity| Push { time, velocity };
+    let pushes = vec![push(0.05, -0.5), push(0.0, 1.0), push(0.05, 0.25), push(0.09, 2.0), push(9.0, 1.0)];
+    let conditions = Conditions { pushes, ..Conditions::nominal(environment.outputs()) };
+    let mut world = environment.under(&conditions, Ground::flat()).expect("settles");
+    let body = world.body().expect("a creature");
+    let share = body.mass() / body.parts[0].mass;
+    assert!(share > 1.0, "a torso that is all of the body would not show");
+    for _ in 0..2 {
+        world.reset(Seed::of_run(1)).expect("settles");
+        let mut moved = Vec::new();
+        for _ in 0..8 {
+            world.step().expect("stable");
+            let parts = &world.snapshot().parts;
+            assert!(parts[1..].iter().all(|part| part.vx == 0.0) && parts[0].vy == 0.0);
+            moved.push(parts[0].vx / share);
+        }
+        // Steps begin at 0, 0.02, 0.04, 0.06, 0.08 and 0.1 s.
+        let expected = [1.0, 1.0, 1.0, 0.75, 0.75, 2.75, 2.75, 2.75];
+        let same = moved.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-5);
+        assert!(same, "{moved:?}, not {expected:?}");
+    }
+}
+
+#[test]
 fn a_world_that_makes_no_sense_is_refused() {
     let environment = varied(Variation::default());
     let nominal = Conditions::nominal(environment.outputs());
@@ -134,6 +203,37 @@ fn a_world_that_makes_no_sense_is_refused() {
         (Conditions { torque: f32::NAN, ..nominal.clone() }, "conditions.torque = NaN: must be finite and above 0"),
         (Conditions { friction: -1.0, ..nominal.clone() }, "conditions.friction = -1: must be finite and at least 0"),
         (Conditions { time_step: 4.0, ..nominal.clone() }, "physics.time_step = 0.08: must be from 0.001 to 0.05"),
+        (Conditions { gravity: -1.0, ..nominal.clone() }, "conditions.gravity = -1: must be finite and at least 0"),
+        (Conditions { motor_gain: 0.0, ..nominal.clone() }, "conditions.motor_gain = 0: must be finite and above 0"),
+        (
+            Conditions { joint_frequency: f32::INFINITY, ..nominal.clone() },
+            "conditions.joint_frequency = inf: must be finite and above 0",
+        ),
+        (
+            Conditions { contact_frequency: -1.0, ..nominal.clone() },
+            "conditions.contact_frequency = -1: must be finite and above 0",
+        ),
+        (
+            Conditions { contact_damping: 0.0, ..nominal.clone() },
+            "conditions.contact_damping = 0: must be finite and above 0",
+        ),
+        (
+            Conditions { contact_damping: 11.0, ..nominal.clone() },
+            "physics.contact_damping_ratio = 110: must be from 0.01 to 100",
+        ),
+        (
+            Conditions { solver_iterations: Some(33), ..nominal.clone() },
+            "physics.solver_iterations = 33: must be from 1 to 32",
+        ),
+        (Conditions { torso_spin: f32::NAN, ..nominal.clone() }, "conditions.torso_spin = NaN: must be finite"),
+        (
+            Conditions { pushes: vec![Push { time: -1.0, velocity: 0.1 }], ..nominal.clone() },
+            "conditions.pushes.time = -1: must be finite and at least 0",
+        ),
+        (
+            Conditions { pushes: vec![Push { time: 1.0, velocity: 101.0 }], ..nominal.clone() },
+            "conditions.pushes.velocity = 101: must be from -100 to 100",
+        ),
         (
             Conditions { turns: vec![], ..nominal.clone() },
             "conditions.turns = 0 turns: must be 8, one for each actuated joint",

@@ -3,6 +3,7 @@
 mod environment;
 mod ground;
 mod puppet;
+mod settings;
 mod terrain;
 mod variation;
 mod water;

@@ -4,7 +4,8 @@ use creatures::{Blueprint, Hinge};
 use envs_core::{Conditions, Engine, EnvironmentError, Ground, PhysicsSettings};
 use tasks::PartState;
 
-/// A creature on strings: its parts stay where they are, and each hinge turns exactly as fast as its motor is asked to.
+/// A creature on strings: its parts stay where they are, whatever their velocity, which nudges alone change; and each hinge
+/// turns exactly as fast as its motor is asked to.
 #[derive(Clone)]
 pub(crate) struct Puppet {
     parts: Vec<PartState>,
@@ -49,6 +50,11 @@ impl Engine for Puppet {
     fn set_motor_speed(&mut self, hinge: usize, speed: f32) {
         let (asked, times) = &mut self.motors[hinge];
         (*asked, *times) = (speed, *times + 1);
+    }
+
+    fn nudge(&mut self, part: usize, [x, y]: [f32; 2], spin: f32) {
+        let part = &mut self.parts[part];
+        (part.vx, part.vy, part.spin) = (part.vx + x, part.vy + y, part.spin + spin);
     }
 
     fn step(&mut self) -> bool {

@@ -121,6 +121,16 @@ impl<const W: usize> Mask<W> {
         chosen
     }
 
+    /// The same of two masks.
+    #[inline(always)]
+    pub(crate) fn select_mask(self, yes: Self, no: Self) -> Self {
+        let mut chosen = no;
+        for ((bits, yes), own) in chosen.0.iter_mut().zip(yes.0).zip(self.0) {
+            *bits = (yes & own) | (*bits & !own);
+        }
+        chosen
+    }
+
     #[inline(always)]
     pub(crate) fn and(mut self, other: Self) -> Self {
         for (bits, other) in self.0.iter_mut().zip(other.0) {

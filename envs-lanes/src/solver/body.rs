@@ -1,4 +1,4 @@
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Mask};
 
 /// The same part of `W` creatures.
 #[derive(Clone, Debug)]
@@ -49,6 +49,17 @@ impl<const W: usize> Body<W> {
         self.inverse_mass.0[lane] = from.inverse_mass.0[0];
         self.inverse_inertia.0[lane] = from.inverse_inertia.0[0];
         self.fall.0[lane] = from.fall.0[0];
+    }
+
+    /// Takes over where some of the lanes are and how they move.
+    pub(super) fn copy_motion(&mut self, lanes: Mask<W>, from: &Self) {
+        self.x = lanes.select(from.x, self.x);
+        self.y = lanes.select(from.y, self.y);
+        self.cos = lanes.select(from.cos, self.cos);
+        self.sin = lanes.select(from.sin, self.sin);
+        self.velocity_x = lanes.select(from.velocity_x, self.velocity_x);
+        self.velocity_y = lanes.select(from.velocity_y, self.velocity_y);
+        self.spin = lanes.select(from.spin, self.spin);
     }
 
     /// Where a vector of the body's own frame points in the world.

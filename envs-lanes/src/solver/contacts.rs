@@ -115,4 +115,20 @@ impl<const W: usize> Contacts<W> {
             }
         }
     }
+
+    /// Keeps what some of the lanes press on the ground with, for [`put_back`](Self::put_back) in the same step.
+    pub(super) fn keep(&mut self, lanes: Mask<W>) {
+        match self {
+            Self::Level(contacts) => contacts.iter_mut().for_each(|contact| contact.rows.keep(lanes)),
+            Self::Uneven(contacts) => contacts.iter_mut().for_each(|contact| contact.keep(lanes)),
+        }
+    }
+
+    /// Has these lanes press on the ground with what was kept of them.
+    pub(super) fn put_back(&mut self, lanes: Mask<W>) {
+        match self {
+            Self::Level(contacts) => contacts.iter_mut().for_each(|contact| contact.rows.put_back(lanes)),
+            Self::Uneven(contacts) => contacts.iter_mut().for_each(|contact| contact.put_back(lanes)),
+        }
+    }
 }

@@ -1,5 +1,5 @@
 use super::{body::Body, pace::Pace};
-use crate::lanes::{Lanes, angle_of};
+use crate::lanes::{Lanes, Mask, angle_of};
 use creatures::{Blueprint, Hinge};
 use std::f32::consts::PI;
 
@@ -230,6 +230,13 @@ impl<const W: usize> Joint<W> {
     #[inline(always)]
     pub(super) fn wanted_speed(&mut self) -> Option<&mut Lanes<W>> {
         self.motor.as_mut().map(|motor| &mut motor.wanted)
+    }
+
+    /// Sets what the motor gave in the last substep, in some of the lanes, N·m·s.
+    pub(super) fn set_motor_impulse(&mut self, lanes: Mask<W>, impulse: Lanes<W>) {
+        if let Some(motor) = &mut self.motor {
+            motor.impulse = lanes.select(impulse, motor.impulse);
+        }
     }
 
     /// The impulse the motor gave in the last substep, N·m·s.

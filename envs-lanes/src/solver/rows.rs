@@ -19,6 +19,15 @@ pub(super) struct Rows<N, const W: usize> {
     pair: Mask<W>,
     pair_any: bool,
     pair_terms: PairTerms<W>,
+    kept: Kept<W>,
+}
+
+/// What the points pressed with when the step was over in lanes with fewer substeps than others.
+#[derive(Clone, Copy, Debug)]
+struct Kept<const W: usize> {
+    /// Normal and friction impulse of each point.
+    impulses: [[Lanes<W>; 2]; 2],
+    pressing: Mask<W>,
 }
 
 /// A point that may touch the ground.
@@ -108,6 +117,7 @@ impl<N: Normal<W>, const W: usize> Rows<N, W> {
             pair: Mask::NONE,
             pair_any: false,
             pair_terms,
+            kept: Kept { impulses: [[zero; 2]; 2], pressing: Mask::NONE },
         }
     }
 
@@ -129,6 +139,24 @@ impl<N: Normal<W>, const W: usize> Rows<N, W> {
             point.friction_impulse.0[lane] = from.friction_impulse.0[0];
         }
         self.pressing.set_lane(lane, from.pressing.lane(0));
+    }
+
+    /// Keeps what these lanes press with now, for [`put_back`](Self::put_back) in the same step.
+    pub(super) fn keep(&mut self, lanes: Mask<W>) {
+        for (point, [normal, friction]) in self.points.iter().zip(&mut self.kept.impulses) {
+            *normal = lanes.select(point.normal_impulse, *normal);
+            *friction = lanes.select(point.friction_impulse, *friction);
+        }
+        self.kept.pressing = lanes.select_mask(self.pressing, self.kept.pressing);
+    }
+
+    /// Has these lanes press with what was kept of them.
+    pub(super) fn put_back(&mut self, lanes: Mask<W>) {
+        for (point, [normal, friction]) in self.points.iter_mut().zip(&self.kept.impulses) {
+            point.normal_impulse = lanes.select(*normal, point.normal_impulse);
+            point.friction_impulse = lanes.select(*friction, point.friction_impulse);
+        }
+        self.pressing = lanes.select_mask(self.kept.pressing, self.pressing);
     }
 
     /// Nobody is near: nothing is pressed on.

@@ -19,11 +19,11 @@ impl Softness {
         Self { correction_rate, compliance }
     }
 
-    /// Contacts with fixed ground. rapier blends its settings for moving and for fixed partners, here all fixed; the
-    /// blend rounds.
-    pub(super) fn of_ground_contacts(substep: f32) -> GroundSoftness {
-        let moving = Self::new(30.0, 10.0, substep);
-        let fixed = Self::new(60.0, 10.0, substep);
+    /// Contacts with fixed ground of this frequency, Hz. rapier blends its settings for moving partners, which have half of
+    /// it, and for fixed ones, here all fixed; the blend rounds.
+    pub(super) fn of_ground_contacts(frequency: f32, damping_ratio: f32, substep: f32) -> GroundSoftness {
+        let moving = Self::new(frequency * 0.5, damping_ratio, substep);
+        let fixed = Self::new(frequency, damping_ratio, substep);
         let factor = |softness: Self| 1.0 / (1.0 + softness.compliance);
         GroundSoftness {
             correction_rate: moving.correction_rate + (fixed.correction_rate - moving.correction_rate),

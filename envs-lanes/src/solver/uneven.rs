@@ -189,6 +189,14 @@ impl<const W: usize> UnevenContact<W> {
         }
     }
 
+    pub(super) fn keep(&mut self, lanes: Mask<W>) {
+        self.rows.iter_mut().for_each(|rows| rows.keep(lanes));
+    }
+
+    pub(super) fn put_back(&mut self, lanes: Mask<W>) {
+        self.rows.iter_mut().for_each(|rows| rows.put_back(lanes));
+    }
+
     /// Brings the impulses of the last step from the rows to the points they belong to.
     fn remember(&mut self) {
         for (lane, Lane { footings, .. }) in self.lanes.iter_mut().enumerate() {

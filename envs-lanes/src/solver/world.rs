@@ -24,11 +24,21 @@ pub(crate) struct LaneWorld<const W: usize> {
     joints: Vec<Joint<W>>,
     contacts: Contacts<W>,
     pace: Pace<W>,
+    kept: Kept<W>,
     /// For each hinge of the blueprint, its place among the joints.
     joint_of: Vec<usize>,
 }
 
-/// What all lanes share.
+/// What lanes with fewer substeps than others were like when their step was over: until all are done, they go on with the
+/// others, to no effect.
+#[derive(Clone, Debug)]
+struct Kept<const W: usize> {
+    bodies: Vec<Body<W>>,
+    /// Of the motor of each joint.
+    motor_impulses: Vec<Lanes<W>>,
+}
+
+/// What all lanes share, but for what a lane's own trial has in its place.
 #[derive(Debug)]
 struct Plan {
     blueprint: Blueprint,
@@ -73,16 +83,20 @@ impl<const W: usize> LaneWorld<W> {
             joints: order.iter().map(|&hinge| Joint::new(blueprint, &blueprint.hinges()[hinge])).collect(),
             contacts: Contacts::new(blueprint, ground),
             pace: Pace::new(settings),
+            kept: Kept {
+                bodies: vec![Body::at_rest(); blueprint.parts().len()],
+                motor_impulses: vec![Lanes::ZERO; order.len()],
+            },
             joint_of,
             plan,
         }
     }
 
     /// Puts a creature in its start pose into a lane.
-    pub(crate) fn reset(&mut self, lane: usize, time_step: f32, conditions: &Conditions) {
+    pub(crate) fn reset(&mut self, lane: usize, conditions: &Conditions) {
         let Plan { blueprint, settings, .. } = &*self.plan;
-        let substep = time_step / settings.solver_iterations as f32;
-        self.pace.set_lane(lane, time_step, settings);
+        self.pace.set_lane(lane, settings);
+        let substep = self.pace.substep.0[lane];
         for (index, (part, body)) in blueprint.parts().iter().zip(&mut self.bodies).enumerate() {
             let mass = InverseMass::of(part, conditions.mass);
             let weight = -settings.gravity * (1.0 / mass.linear);
@@ -186,6 +200,14 @@ impl<const W: usize> LaneWorld<W> {
         }
     }
 
+    /// Adds to the velocity of a lane's part, m/s, and to its spin, rad/s.
+    pub(crate) fn nudge(&mut self, lane: usize, part: usize, [x, y]: [f32; 2], spin: f32) {
+        let body = &mut self.bodies[part];
+        body.velocity_x.0[lane] += x;
+        body.velocity_y.0[lane] += y;
+        body.spin.0[lane] += spin;
+    }
+
     /// Writes where the parts of a lane are.
     pub(crate) fn look(&self, lane: usize, parts: &mut [PartState]) {
         for (index, (part, body)) in parts.iter_mut().zip(&self.bodies).enumerate() {
@@ -205,39 +227,81 @@ impl<const W: usize> LaneWorld<W> {
     /// One time step of all lanes.
     #[inline(always)]
     pub(crate) fn step(&mut self, mut stopwatch: Option<&mut Laps>) {
-        let Self { plan, bodies, joints, contacts, pace, .. } = self;
+        let Self { plan, bodies, contacts, pace, .. } = self;
         contacts.find(bodies, plan.settings.prediction_distance, pace);
         lap(&mut stopwatch, Part::FindContacts);
-        for _ in 0..plan.settings.solver_iterations {
-            for body in bodies.iter_mut() {
-                body.velocity_y += body.fall;
+        for done in 1..=self.pace.most_substeps {
+            self.substep(&mut stopwatch);
+            if self.pace.uneven && done < self.pace.most_substeps {
+                self.keep(self.pace.with_substeps(done));
             }
-            lap(&mut stopwatch, Part::Fall);
-            for joint in joints.iter_mut() {
-                joint.prepare(bodies, pace);
-            }
-            lap(&mut stopwatch, Part::PrepareJoints);
-            contacts.prepare(bodies, pace);
-            lap(&mut stopwatch, Part::PrepareContacts);
-            for _ in 0..plan.settings.internal_iterations {
-                for joint in joints.iter_mut() {
-                    joint.solve::<false>(bodies);
-                }
-                lap(&mut stopwatch, Part::SolveJoints);
-                contacts.solve(bodies);
-                lap(&mut stopwatch, Part::SolveContacts);
-            }
-            for body in bodies.iter_mut() {
-                body.advance(pace.substep, pace.top_spin);
-            }
-            lap(&mut stopwatch, Part::Move);
-            for joint in joints.iter_mut() {
-                joint.solve::<true>(bodies);
-            }
-            lap(&mut stopwatch, Part::RelaxJoints);
-            contacts.relax(bodies, pace);
-            lap(&mut stopwatch, Part::RelaxContacts);
         }
+        if self.pace.uneven {
+            self.put_back(self.pace.with_fewer_substeps());
+        }
+    }
+
+    /// One substep of all lanes.
+    #[inline(always)]
+    fn substep(&mut self, stopwatch: &mut Option<&mut Laps>) {
+        let Self { plan, bodies, joints, contacts, pace, .. } = self;
+        for body in bodies.iter_mut() {
+            body.velocity_y += body.fall;
+        }
+        lap(stopwatch, Part::Fall);
+        for joint in joints.iter_mut() {
+            joint.prepare(bodies, pace);
+        }
+        lap(stopwatch, Part::PrepareJoints);
+        contacts.prepare(bodies, pace);
+        lap(stopwatch, Part::PrepareContacts);
+        for _ in 0..plan.settings.internal_iterations {
+            for joint in joints.iter_mut() {
+                joint.solve::<false>(bodies);
+            }
+            lap(stopwatch, Part::SolveJoints);
+            contacts.solve(bodies);
+            lap(stopwatch, Part::SolveContacts);
+        }
+        for body in bodies.iter_mut() {
+            body.advance(pace.substep, pace.top_spin);
+        }
+        lap(stopwatch, Part::Move);
+        for joint in joints.iter_mut() {
+            joint.solve::<true>(bodies);
+        }
+        lap(stopwatch, Part::RelaxJoints);
+        contacts.relax(bodies, pace);
+        lap(stopwatch, Part::RelaxContacts);
+    }
+
+    // Not inlined: lanes seldom differ in their substeps.
+
+    /// Keeps what these lanes, whose step is over, are like.
+    #[inline(never)]
+    fn keep(&mut self, done: Mask<W>) {
+        if !done.any() {
+            return;
+        }
+        for (kept, body) in self.kept.bodies.iter_mut().zip(&self.bodies) {
+            kept.copy_motion(done, body);
+        }
+        for (kept, joint) in self.kept.motor_impulses.iter_mut().zip(&self.joints) {
+            *kept = done.select(joint.motor_impulse(), *kept);
+        }
+        self.contacts.keep(done);
+    }
+
+    /// Makes these lanes what they were when their step was over.
+    #[inline(never)]
+    fn put_back(&mut self, lanes: Mask<W>) {
+        for (body, kept) in self.bodies.iter_mut().zip(&self.kept.bodies) {
+            body.copy_motion(lanes, kept);
+        }
+        for (joint, &kept) in self.joints.iter_mut().zip(&self.kept.motor_impulses) {
+            joint.set_motor_impulse(lanes, kept);
+        }
+        self.contacts.put_back(lanes);
     }
 }
 

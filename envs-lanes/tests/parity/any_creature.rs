@@ -161,7 +161,7 @@ pub(crate) fn any_settings() -> impl Strategy<Value = PhysicsSettings> {
     let drawn = (
         (0.002..0.05_f32, 0.0..30.0_f32, 0.0..3.0_f32),
         (1..7_u32, 1..7_u32, 0.001..0.6_f32),
-        (0.0..7.0_f32, 0.01..10.0_f32, 0.1..100.0_f32),
+        (0.0..7.0_f32, 0.01..10.0_f32, 0.1..100.0_f32, 0.5..4.0_f32, 0.1..50.0_f32),
         (-2.0..5.0_f32, prop::sample::select(vec![0.0_f32, 1.0]), prop::sample::select(vec![5.0_f32, 100.0, 400.0])),
     );
     let drawn = drawn.prop_map(|(world, iterations, joints, others)| PhysicsSettings {
@@ -175,6 +175,8 @@ pub(crate) fn any_settings() -> impl Strategy<Value = PhysicsSettings> {
         joint_frequency: libm::powf(10.0, joints.0),
         joint_damping_ratio: joints.1,
         corrective_speed: joints.2,
+        contact_frequency: libm::powf(10.0, joints.3),
+        contact_damping_ratio: joints.4,
         motor_gain: libm::powf(10.0, others.0),
         settle_time: others.1,
         unstable_speed: others.2,
@@ -198,10 +200,22 @@ pub(crate) fn any_variation() -> impl Strategy<Value = Variation> {
         torque,
         time_step: [1.0 - time_step, 1.0 + time_step],
         start_pose,
-        bumps: 0.0,
-        terrain: false,
+        ..Variation::default()
     });
-    let known = [Variation::light(), Variation::strong()].map(Just);
-    let [light, strong] = known;
-    prop_oneof![2 => Just(Variation::default()), 1 => light, 1 => strong, 1 => drawn]
+    let extreme = Variation {
+        time_step: [0.2083, 2.0],
+        start_pose: 0.1,
+        gravity: 0.9,
+        motor_gain: [0.1, 100.0],
+        solver_iterations: Some([1, 32]),
+        joint_frequency: [0.1, 100.0],
+        contact_frequency: [0.1, 100.0],
+        contact_damping: [0.1, 100.0],
+        torso_spin: 5.0,
+        pushes: 5.0,
+        ..Variation::default()
+    };
+    let known = [Variation::light(), Variation::strong(), Variation::physics(), extreme].map(Just);
+    let [light, strong, physics, extreme] = known;
+    prop_oneof![2 => Just(Variation::default()), 1 => light, 1 => strong, 1 => physics, 1 => extreme, 1 => drawn]
 }
