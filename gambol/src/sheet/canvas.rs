@@ -1,6 +1,6 @@
 //! An opaque image to draw on.
 
-use super::SheetError;
+use super::{SheetError, palette};
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8, Rect,
     Stroke, StrokeDash, Transform,
@@ -51,7 +51,8 @@ impl Canvas {
     }
 
     pub(super) fn into_png(self) -> Result<Vec<u8>, SheetError> {
-        self.pixmap.encode_png().map_err(|error| SheetError::Image(error.to_string()))
+        let pixels = self.pixmap.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
+        palette::encode(self.pixmap.width(), &pixels.collect::<Vec<Ink>>())
     }
 
     /// Puts another image on this one.

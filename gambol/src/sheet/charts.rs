@@ -12,9 +12,9 @@ use super::{
 /// Left of the charts, for names and numbers, px.
 const LABELS: f32 = 176.0;
 /// Between the two panels, px.
-const BETWEEN: f32 = 28.0;
+const BETWEEN: f32 = 60.0;
 /// A line of text, px.
-const LINE: f32 = 26.0;
+const LINE: f32 = 30.0;
 /// A row of the footfall diagram, px.
 const ROW: f32 = 22.0;
 /// The height of a plot, px.

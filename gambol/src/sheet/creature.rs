@@ -5,8 +5,15 @@ use creatures::{Blueprint, Colour, Form, Shape};
 use tasks::{PartState, Snapshot};
 use tiny_skia::{Path, PathBuilder, Rect, Transform};
 
-/// The line around a part that touches the ground, px.
-const CONTACT_WIDTH: f32 = 4.0;
+/// The line around a part that touches the ground, px: thinner around a thin part.
+const CONTACT_WIDTHS: [f32; 2] = [1.5, 4.0];
+/// The same, as a share of how thin the part is.
+const CONTACT_SHARE: f32 = 0.25;
+/// Half the bar below a contact, px, and as a share of the part's reach.
+const BARS: [f32; 2] = [5.0, 14.0];
+const BAR_SHARE: f32 = 0.3;
+/// Corners so close in height are equally low, m.
+const LEVEL: f32 = 1e-3;
 /// How far a control point of a Bézier curve is from the end of a quarter of a circle, in radii.
 const QUARTER: f32 = 0.552_284_8;
 
@@ -66,16 +73,17 @@ impl Model {
         let creature = blueprint.creature();
         let figure = |part: usize| {
             let drawn = &creature.parts[part];
-            let corners = drawn.look.decorations.iter().flat_map(|decoration| enclosing(&decoration.form));
-            let (radius, reach) = (drawn.look.corner_radius, drawn.shape.half_extents(1.0, 0.0));
+            let decorations: Vec<Painted> = drawn.look.decorations.iter().filter_map(painted).collect();
+            let corners = decorations.iter().flat_map(Painted::corners);
+            let (radius, [x, y]) = (drawn.look.corner_radius, drawn.shape.half_extents(1.0, 0.0));
             Figure {
                 part,
                 shape: drawn.shape,
                 outline: outline(drawn.shape, radius),
                 ink: ink(&drawn.look.colour),
                 opacity: drawn.look.opacity,
-                decorations: drawn.look.decorations.iter().filter_map(painted).collect(),
-                corners: corners.chain(around([0.0, 0.0], reach)).collect(),
+                corners: corners.chain([[-x, -y], [x, -y], [x, y], [-x, y]]).collect(),
+                decorations,
             }
         };
         Self { parts: creature.drawing_order().into_iter().map(figure).collect() }
@@ -101,7 +109,7 @@ impl Model {
         sum / self.parts.iter().map(area).sum::<f64>()
     }
 
-    /// Draws a pose, parts that touch the ground outlined on top of all others.
+    /// Draws a pose; parts that touch the ground are outlined on top of all others, with a bar below.
     pub(super) fn draw(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
         for figure in &self.parts {
             figure.draw(canvas, view.of_part(&pose.parts[figure.part]));
@@ -109,21 +117,16 @@ impl Model {
         for figure in &self.parts {
             let state = &pose.parts[figure.part];
             if let (true, Some(outline)) = (state.touching, &figure.outline) {
-                let width = CONTACT_WIDTH / view.scale as f32;
-                canvas.outline(outline, view.of_part(state), width, CONTACT, 1.0);
+                let scale = view.scale as f32;
+                let [thinnest, thickest] = CONTACT_WIDTHS;
+                let [wide, high] = figure.shape.half_extents(1.0, 0.0);
+                let width = (CONTACT_SHARE * 2.0 * wide.min(high) * scale).clamp(thinnest, thickest);
+                canvas.outline(outline, view.of_part(state), width / scale, CONTACT, 1.0);
+                let [x, y] = view.point(lowest(figure.shape, state));
+                let half = (BAR_SHARE * figure.shape.bounding_radius() * scale).clamp(BARS[0], BARS[1]);
+                canvas.line(&[[x - half, y + 4.0], [x + half, y + 4.0]], thickest, CONTACT);
             }
         }
-    }
-
-    /// From where to where each part that touches the ground reaches, m: left, bottom and right.
-    pub(super) fn contacts(&self, pose: &Snapshot) -> Vec<[f32; 3]> {
-        let touching = self.parts.iter().filter(|figure| pose.parts[figure.part].touching);
-        let reach = |figure: &Figure| {
-            let state = &pose.parts[figure.part];
-            let [wide, high] = figure.shape.half_extents(state.cos, state.sin);
-            [state.x - wide, state.y - high, state.x + wide]
-        };
-        touching.map(reach).collect()
     }
 }
 
@@ -140,6 +143,17 @@ impl Figure {
                 canvas.outline(&decoration.path, place, width, ink, self.opacity);
             }
         }
+    }
+}
+
+impl Painted {
+    /// The corners of the box around it, m, in the part's frame.
+    fn corners(&self) -> [[f32; 2]; 4] {
+        let (bounds, width) = (self.path.bounds(), self.stroke.map_or(0.0, |(_, width)| 0.5 * width));
+        let (left, right) = (bounds.left() - width, bounds.right() + width);
+        // In the part's frame y is up.
+        let (low, high) = (bounds.top() - width, bounds.bottom() + width);
+        [[left, low], [right, low], [right, high], [left, high]]
     }
 }
 
@@ -202,21 +216,18 @@ fn rounded([width, height]: [f32; 2], radius: f32) -> Option<Path> {
     path.finish()
 }
 
-/// Points that enclose a decoration.
-fn enclosing(form: &Form) -> Vec<[f32; 2]> {
-    match form {
-        Form::Ellipse { centre, radii, .. } => {
-            let reach = radii[0].max(radii[1]);
-            around(*centre, [reach, reach]).to_vec()
+/// The lowest point of a shape in the world, m; of a level side its middle.
+fn lowest(shape: Shape, state: &PartState) -> [f32; 2] {
+    let (corners, radius) = match shape {
+        Shape::Box { width, height } => {
+            let (x, y) = (0.5 * width, 0.5 * height);
+            (vec![[-x, -y], [x, -y], [x, y], [-x, y]], 0.0)
         }
-        Form::Rectangle { centre, size, .. } => {
-            let reach = 0.5 * libm::hypotf(size[0], size[1]);
-            around(*centre, [reach, reach]).to_vec()
-        }
-        Form::Polygon { points } | Form::Line { points } => points.clone(),
-    }
-}
-
-fn around([x, y]: [f32; 2], [wide, high]: [f32; 2]) -> [[f32; 2]; 4] {
-    [[x - wide, y - high], [x + wide, y - high], [x + wide, y + high], [x - wide, y + high]]
+        Shape::Circle { radius } => (vec![[0.0, 0.0]], radius),
+        Shape::Capsule { length, radius } => (vec![[0.0, -0.5 * length], [0.0, 0.5 * length]], radius),
+    };
+    let placed = corners.iter().map(|[x, y]| [state.cos * x - state.sin * y, state.sin * x + state.cos * y]);
+    let bottom = placed.clone().map(|[_, y]| y).fold(f32::INFINITY, f32::min);
+    let low: Vec<f32> = placed.filter(|[_, y]| *y <= bottom + LEVEL).map(|[x, _]| x).collect();
+    [state.x + low.iter().sum::<f32>() / low.len().max(1) as f32, state.y + bottom - radius]
 }

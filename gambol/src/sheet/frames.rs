@@ -113,7 +113,6 @@ impl<'a> Frames<'a> {
         }
         self.draw_marks(&mut canvas, &view);
         self.model.draw(&mut canvas, &view, pose);
-        self.draw_contacts(&mut canvas, &view, pose);
         self.draw_labels(&mut canvas, frame, step, pose);
         Ok(canvas)
     }
@@ -157,15 +156,6 @@ impl<'a> Frames<'a> {
             if (half..canvas.width() - half).contains(&x(place)) {
                 canvas.text(&text, Style::Label, [x(place), height - 21.0], Anchor::Middle, QUIET);
             }
-        }
-    }
-
-    fn draw_contacts(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
-        for [left, bottom, right] in self.model.contacts(pose) {
-            let ([left, y], [right, _]) = (view.point([left, bottom]), view.point([right, bottom]));
-            let middle = 0.5 * (left + right);
-            let half = (0.5 * (right - left)).clamp(6.0, 20.0);
-            canvas.line(&[[middle - half, y + 4.0], [middle + half, y + 4.0]], 4.0, CONTACT);
         }
     }
 

@@ -12,6 +12,7 @@ mod footfalls;
 mod frames;
 mod heading;
 mod moments;
+mod palette;
 #[cfg(test)]
 mod tests;
 mod text;
