@@ -20,6 +20,7 @@
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
 //! | [`gait`] | a champion's gait, measured and judged: whether it is usable |
+//! | [`sheet`] | a gait as one image: a contact sheet with charts |
 //! | [`robust`] | what is left of it in worlds that are not quite the same |
 //! | [`report`] | the HTML page |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
@@ -71,6 +72,7 @@ pub mod run_folder;
 pub mod search;
 pub mod setup;
 pub mod shaping;
+pub mod sheet;
 pub mod source;
 pub mod suggest;
 pub mod training;

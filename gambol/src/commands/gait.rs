@@ -1,13 +1,15 @@
 use super::{NOT_USABLE, Outcome, gait_text};
 use clap::Args;
 use creatures::Blueprint;
+use envs_core::Ground;
 use gambol::{
     champion::Champion,
     gait,
     run_folder::RunFolder,
-    source,
+    sheet, source,
     trajectory::{CsvTrajectory, read_csv},
 };
+use ne_core::archive;
 use std::{
     error::Error,
     fs,
@@ -24,8 +26,11 @@ use tasks::{
 Examples:
   gambol gait runs/biped-1-running
   gambol gait champion.json --json
+  gambol gait runs/biped-1-running --sheet sheet.png
   gambol replay champion.json --seconds 20 --trajectory gait.csv
   gambol gait gait.csv --creature biped-1 --movement running
+
+The contact sheet is one image: twelve frames over a stride or a jump, footfalls, pitch and height of the torso, the verdict.
 
 A champion is replayed in rapier, for as long as its movement is judged: 20 s of running and what is judged like it, 5 s
 of jumps, 20 s of what is not judged. A trajectory is
@@ -43,6 +48,12 @@ pub(crate) struct Gait {
     /// As what a trajectory is judged [default: it is measured alone]
     #[arg(long, value_parser = Kind::JUDGED)]
     movement: Option<String>,
+    /// Draw a contact sheet of the gait, a PNG image
+    #[arg(long, value_name = "FILE")]
+    sheet: Option<PathBuf>,
+    /// Overwrite the contact sheet if it exists
+    #[arg(long, requires = "sheet")]
+    force: bool,
     /// Print the report as JSON
     #[arg(long)]
     json: bool,
@@ -52,13 +63,17 @@ pub(crate) struct Gait {
 struct Measured {
     gait: gait::Gait,
     name: String,
+    /// Its contact sheet, if asked for.
+    sheet: Option<Vec<u8>>,
 }
 
 impl Gait {
     pub(crate) fn run(self) -> Outcome {
+        self.check_sheet()?;
+        let with_sheet = self.sheet.is_some();
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
-        let Measured { gait, name } = match &self.creature {
-            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref())?,
+        let Measured { gait, name, sheet } = match &self.creature {
+            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet)?,
             None if is_csv => {
                 let path = self.gait.display();
                 return Err(format!("{path} does not say whose trajectory it is: give --creature NAME or FILE").into());
@@ -66,15 +81,34 @@ impl Gait {
             None if self.movement.is_some() => {
                 return Err("--movement is for trajectories: a champion says itself what it has learned".into());
             }
-            None => of_champion(&champion_file(&self.gait)?)?,
+            None => of_champion(&champion_file(&self.gait)?, with_sheet)?,
         };
+        if let (Some(path), Some(sheet)) = (&self.sheet, &sheet) {
+            archive::write_whole(path, sheet).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+        }
         if self.json {
             say!("{}", serde_json::to_string(&gait)?)?;
         } else {
             say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles).trim_end())?;
+            if let Some(path) = &self.sheet {
+                say!("\ncontact sheet: {}", path.display())?;
+            }
         }
         let usable = gait.report.verdict.is_none_or(|verdict| verdict.usable);
         Ok(if usable { ExitCode::SUCCESS } else { ExitCode::from(NOT_USABLE) })
+    }
+
+    /// Nothing may be overwritten unasked, and never what is measured.
+    fn check_sheet(&self) -> Result<(), Box<dyn Error>> {
+        let Some(sheet) = self.sheet.as_ref().filter(|sheet| sheet.exists()) else { return Ok(()) };
+        if !self.force {
+            return Err(format!("{} exists; say --force to overwrite it", sheet.display()).into());
+        }
+        let measured = champion_file(&self.gait)?;
+        if sheet.canonicalize().ok().is_some_and(|sheet| Some(sheet) == measured.canonicalize().ok()) {
+            return Err(format!("{} is what is to be measured", sheet.display()).into());
+        }
+        Ok(())
     }
 }
 
@@ -83,14 +117,20 @@ pub(super) fn champion_file(path: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(if path.is_dir() { RunFolder::open(path)?.champion() } else { path.into() })
 }
 
-fn of_champion(path: &Path) -> Result<Measured, Box<dyn Error>> {
+fn of_champion(path: &Path, with_sheet: bool) -> Result<Measured, Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    let gait = gait::measure(&champion, &MovementCatalogue::default())
-        .map_err(|error| format!("{}: {error}", path.display()))?;
-    Ok(Measured { gait, name: format!("{} {}", champion.creature.name, champion.movement.name) })
+    let catalogue = MovementCatalogue::default();
+    let gait = gait::measure(&champion, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let sheet = with_sheet.then(|| sheet::of_champion(&champion, &gait.report, &catalogue)).transpose()?;
+    Ok(Measured { gait, name: format!("{} {}", champion.creature.name, champion.movement.name), sheet })
 }
 
-fn of_trajectory(path: &Path, creature: &str, movement: Option<&str>) -> Result<Measured, Box<dyn Error>> {
+fn of_trajectory(
+    path: &Path,
+    creature: &str,
+    movement: Option<&str>,
+    with_sheet: bool,
+) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
     let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let names: Vec<String> = blueprint.parts().iter().map(|part| part.name.clone()).collect();
@@ -99,9 +139,17 @@ fn of_trajectory(path: &Path, creature: &str, movement: Option<&str>) -> Result<
     let trajectory =
         Trajectory::from_positions(&body, &read.snapshots).map_err(|error| located(path, &read, &error))?;
     let report = GaitReport::of(&trajectory, movement.and_then(Kind::of));
+    let subject = sheet::Subject {
+        blueprint: &blueprint,
+        movement,
+        ground: &Ground::flat(),
+        snapshots: &read.snapshots,
+        report: &report,
+    };
+    let sheet = with_sheet.then(|| sheet::draw(&subject)).transpose()?;
     let movement = movement.map_or_else(String::new, |movement| format!(" {movement}"));
     let gait = gait::Gait { report, obstacles: Vec::new() };
-    Ok(Measured { gait, name: format!("{}{movement}", blueprint.name()) })
+    Ok(Measured { gait, name: format!("{}{movement}", blueprint.name()), sheet })
 }
 
 /// The error with the file and, if it is about a step, its line.

@@ -1,6 +1,7 @@
 //! The champion's gait for the page.
 
 use crate::{gait::Gait, obstacles::ObstaclesPassed};
+use base64::{Engine, engine::general_purpose::STANDARD};
 use serde::Serialize;
 use tasks::gait::{GaitReport, Kind};
 
@@ -17,10 +18,13 @@ pub(super) struct GaitData {
     flagged: Vec<String>,
     /// From when to when speed and rhythm are measured, s.
     window_s: [f64; 2],
+    /// The contact sheet, as the address of an image.
+    sheet: String,
 }
 
-impl From<Gait> for GaitData {
-    fn from(Gait { report, obstacles }: Gait) -> Self {
+impl GaitData {
+    /// `sheet`: its contact sheet, a PNG image.
+    pub(super) fn new(Gait { report, obstacles }: Gait, sheet: &[u8]) -> Self {
         let told = |ObstaclesPassed { kind, passed, of }: &ObstaclesPassed| {
             [kind.passed().to_owned(), format!("{passed} of {of}")]
         };
@@ -31,6 +35,7 @@ impl From<Gait> for GaitData {
             against: reasons.map(ToString::to_string).collect(),
             flagged: report.cheats.iter().map(ToString::to_string).collect(),
             window_s: [from, report.duration],
+            sheet: format!("data:image/png;base64,{}", STANDARD.encode(sheet)),
             report,
         }
     }

@@ -43,7 +43,7 @@ impl GroundData {
 }
 
 /// The corners of a shape, m; the height of one that has none.
-fn corners(shape: &GroundShape) -> Result<Vec<[f32; 2]>, f32> {
+pub(crate) fn corners(shape: &GroundShape) -> Result<Vec<[f32; 2]>, f32> {
     let turned = |[x, y]: [f32; 2], [width, height]: [f32; 2], angle: f32| {
         let (sin, cos) = libm::sincosf(angle);
         let corner = |[right, up]: [f32; 2]| {

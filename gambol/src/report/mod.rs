@@ -4,7 +4,7 @@
 mod data;
 mod front;
 mod gait;
-mod ground;
+pub(crate) mod ground;
 mod history;
 mod network;
 mod page;
@@ -18,6 +18,7 @@ use crate::{
     gait::Stage,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     setup::SetupError,
+    sheet::{self, SheetError},
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
@@ -38,6 +39,9 @@ pub enum ReportError {
     /// The champion's task cannot be built.
     #[error(transparent)]
     Setup(#[from] SetupError),
+    /// The contact sheet of the champion's gait cannot be drawn.
+    #[error(transparent)]
+    Sheet(#[from] SheetError),
     /// The page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
@@ -208,7 +212,9 @@ fn champion_film(champion: &Champion, catalogue: &MovementCatalogue) -> Result<d
 
 fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
-    Ok(stage.measure(&champion.network).map(GaitData::from))
+    let Some(gait) = stage.measure(&champion.network) else { return Ok(None) };
+    let sheet = sheet::of_champion(champion, &gait.report, catalogue)?;
+    Ok(Some(GaitData::new(gait, &sheet)))
 }
 
 fn front_data(folder: &RunFolder, stills: &Stills<'_>) -> Result<Option<FrontData>, ReportError> {

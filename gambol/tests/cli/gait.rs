@@ -176,3 +176,60 @@ fn what_does_not_go_together_is_an_error() -> Outcome {
     assert_says(&ended.stderr, &["running, jumping"]);
     Ok(())
 }
+
+/// The file is a PNG image as wide as a sheet.
+#[track_caller]
+fn assert_is_sheet(path: &Path) -> Vec<u8> {
+    let image = fs::read(path).expect("a sheet");
+    assert!(image.starts_with(b"\x89PNG\r\n\x1a\n"), "no PNG image");
+    assert_eq!(image[16..20], 1440_u32.to_be_bytes());
+    image
+}
+
+#[test]
+fn a_sheet_shows_a_champion_a_run_and_a_trajectory() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = trained(folder.path(), "jumping");
+    let sheet = |name: &str| folder.path().join(name);
+    let ended = run(gambol("gait").arg(&path).arg("--sheet").arg(sheet("run.png")));
+    assert_eq!(ended.code, NOT_USABLE, "{}", ended.stderr);
+    assert_says(&ended.stdout, &["biped-1 jumping: not usable", "\ncontact sheet: ", text(&sheet("run.png"))]);
+    let ended = run(gambol("gait").arg(path.join("champion.json")).arg("--json").arg("--sheet").arg(sheet("file.png")));
+    assert_eq!(ended.code, NOT_USABLE, "{}", ended.stderr);
+    assert!(json(&ended.stdout).is_object());
+    assert_eq!(assert_is_sheet(&sheet("run.png")), assert_is_sheet(&sheet("file.png")));
+    let (csv, _) = trajectory(&path, "5")?;
+    for (name, movement) in [("judged.png", &["--movement", "jumping"][..]), ("measured.png", &[])] {
+        let ended = of_trajectory(&csv, &[movement, &["--sheet", text(&sheet(name))]].concat());
+        assert_says(&ended.stdout, &["contact sheet: "]);
+        assert_is_sheet(&sheet(name));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_sheet_overwrites_nothing_unasked_and_names_a_file_it_cannot_write() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = trained(folder.path(), "running");
+    let champion = path.join("champion.json");
+    let before = fs::read(&champion)?;
+    let gait = |sheet: &Path, more: &[&str]| {
+        let mut gait = gambol("gait");
+        gait.arg(&path).arg("--sheet").arg(sheet).args(more);
+        gait
+    };
+    let mine = folder.path().join("mine.png");
+    fs::write(&mine, "precious")?;
+    assert_says(&fail(&mut gait(&mine, &[])), &[text(&mine), "exists; say --force"]);
+    assert_eq!(fs::read_to_string(&mine)?, "precious");
+    assert_eq!(run(&mut gait(&mine, &["--force"])).code, NOT_USABLE);
+    assert_is_sheet(&mine);
+    assert_says(&fail(&mut gait(&champion, &["--force"])), &[text(&champion), "is what is to be measured"]);
+    assert_eq!(fs::read(&champion)?, before);
+    let nowhere = folder.path().join("none").join("sheet.png");
+    assert_says(&fail(&mut gait(&nowhere, &[])), &["cannot write", text(&nowhere)]);
+    let ended = run(gambol("gait").arg(&path).arg("--force"));
+    assert_eq!(ended.code, Some(2));
+    assert_says(&ended.stderr, &["--sheet"]);
+    Ok(())
+}

@@ -41,6 +41,9 @@ fn a_report_stands_alone_and_holds_the_run() -> Outcome {
     assert_eq!((&gait["kind"], &gait["verdict"]["usable"]), (&"running".into(), &false.into()));
     assert_eq!(gait["window_s"], serde_json::json!([10.0, gait["duration_s"]]));
     assert_eq!(gait["legs"].as_array().map(Vec::len), Some(2));
+    let sheet = gait["sheet"].as_str().expect("a contact sheet");
+    assert!(sheet.starts_with("data:image/png;base64,iVBORw0KGgo"), "{}", &sheet[..60]);
+    assert!(sheet.len() < 200_000, "{} bytes", sheet.len());
     let reasons = |list: &Value| list.as_array().map(Vec::len);
     assert_eq!(reasons(&gait["against"]), reasons(&gait["verdict"]["reasons"]));
     assert!(data["strip"].as_array().is_some_and(|strip| !strip.is_empty()));

@@ -10,6 +10,7 @@ function buildGait(run) {
   document.getElementById("gait-intro").textContent = `Measured in rapier over ${tidy(gait.duration_s)} s from the settled start pose, without variation.`;
   buildVerdict(gait);
   terms(document.getElementById("gait-facts"), gaitFacts(gait));
+  buildSheet(gait.sheet);
   // A swimmer has no ground to stand on.
   const legs = gait.legs.some(leg => leg.footfalls > 0 || leg.duty_factor > 0) ? gait.legs : [];
   if (legs.length) buildTable("gait-legs", ["Leg", "Footfalls", "Stands", "Slip", "Longest pause"], legs.map(leg => [
@@ -20,6 +21,16 @@ function buildGait(run) {
     withUnit(joint.dominant_frequency_hz, "Hz"), `±\u00a0${fixed(joint.dominant_amplitude_deg, 0)}°`,
     withUnit(joint.reversals_per_s, "/s")]));
   if (legs.length) new FootfallDiagram(gait, document.getElementById("gait-footfalls"));
+}
+
+// The contact sheet fits the page; a click shows it in full size, and the next one fits it again.
+function buildSheet(sheet) {
+  if (!sheet) return;
+  const figure = document.getElementById("gait-sheet");
+  figure.hidden = false;
+  figure.querySelector("img").src = sheet;
+  const button = figure.querySelector("button");
+  button.addEventListener("click", () => button.setAttribute("aria-pressed", String(figure.classList.toggle("full"))));
 }
 
 function buildVerdict(gait) {
