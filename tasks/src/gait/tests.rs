@@ -103,8 +103,8 @@ fn a_leg_that_never_comes_down_is_named() {
     };
     let report = report(60.0, Kind::Running, hopping);
     let expected = [
-        "left leg: no touchdown for 2.0 s, at most 1 s allowed",
-        "left leg: did not leave the ground for 1.7 s, at most 1 s allowed",
+        "left leg: no touchdown for 2.5 s, at most 1 s allowed",
+        "left leg: did not leave the ground for 2.2 s, at most 1 s allowed",
     ];
     assert_eq!(reasons(&report), expected);
 }
@@ -134,6 +134,8 @@ fn walk(change: impl Fn(usize, &mut Pose)) -> Vec<String> {
     let script = |step: usize| {
         let mut pose = Pose::walking(step);
         change(step, &mut pose);
+        // Legs swing as before, however the torso leans.
+        pose.hips = pose.hips.map(|hip| hip - pose.tilt);
         pose
     };
     reasons(&report(60.0, Kind::Running, script))
@@ -156,9 +158,15 @@ fn a_torso_may_lean_by_45_degrees_and_sway_by_12() {
 
 #[test]
 fn a_torso_may_sink_to_0_6_of_its_start_height() {
-    let sink = |height: f64| walk(move |step, pose| pose.y = if step == 700 { 0.8 * height } else { 0.8 });
-    assert_eq!(sink(0.61), NOTHING);
-    assert_eq!(sink(0.59), ["torso: at 0.59 of its start height at 14.0 s, at least 0.6 required"]);
+    // Down and up again within 4 s. The puppet's legs cannot bend, so that other things are said as well.
+    let sink = |height: f64| {
+        walk(move |step, pose| {
+            pose.y = 0.8 - 0.8 * (1.0 - height) * (1.0 - (step as f64 - 700.0).abs() / 100.0).max(0.0)
+        })
+    };
+    let crouching = "torso: at 0.59 of its start height at 14.0 s, at least 0.6 required".to_string();
+    assert!(sink(0.59).contains(&crouching), "{:?}", sink(0.59));
+    assert!(!sink(0.61).iter().any(|reason| reason.contains("start height")), "{:?}", sink(0.61));
 }
 
 #[test]
@@ -206,12 +214,9 @@ fn strides_repeat_themselves() {
             pose.hips = pose.hips.map(|hip| hip + much * chance);
         })
     };
-    assert_eq!(stumbling(0.1), NOTHING);
-    let said = stumbling(1.0);
-    assert!(
-        said.iter().any(|reason| reason.starts_with("strides repeat themselves with a regularity of 0.")),
-        "{said:?}"
-    );
+    let irregular = |reason: &String| reason.starts_with("strides repeat themselves with a regularity of 0.");
+    assert!(!stumbling(0.1).iter().any(irregular), "{:?}", stumbling(0.1));
+    assert!(stumbling(1.0).iter().any(irregular), "{:?}", stumbling(1.0));
 }
 
 /// A jump in which one thing is changed from its take-off on, and what is said of it.
@@ -230,19 +235,22 @@ fn a_jump_lands_on_its_feet() {
     assert_eq!(knee(0.5), NOTHING, "before the jump it may kneel");
     assert_eq!(knee(2.0), ["torso: touches the ground at 2.0 s, after the jump; only feet may"]);
     let tilted = |degrees: f64| {
-        jump(move |time, pose| pose.tilt = if (1.1..1.4).contains(&time) { degrees.to_radians() } else { 0.0 })
+        let swing = |time: f64| libm::sin(0.5 * TAU * ((time - 1.0) / 0.6).clamp(0.0, 1.0));
+        jump(move |time, pose| pose.tilt = degrees.to_radians() * swing(time))
     };
     assert_eq!(tilted(44.0), NOTHING);
-    assert_eq!(tilted(46.0), ["torso: tilted by 46° at 1.1 s, at most 45° allowed"]);
+    assert_eq!(tilted(46.0), ["torso: tilted by 46° at 1.3 s, at most 45° allowed"]);
 }
 
 #[test]
 fn a_jump_ends_standing_or_goes_on() {
     let end = |tilt: f64, y: f64, speed: f64| {
         jump(move |time, pose| {
-            if time > 3.5 {
-                (pose.tilt, pose.y, pose.x) = (tilt.to_radians(), pose.y + y, speed * (time - 3.5));
-            }
+            let share = ((time - 3.0) / 0.5).clamp(0.0, 1.0);
+            (pose.tilt, pose.y, pose.x) =
+                (share * tilt.to_radians(), pose.y + share * y, speed * (time - 3.5).max(0.0));
+            // Legs are drawn up a little, lest they sink in.
+            pose.lift = [-share * 0.4 * y; 2];
         })
     };
     assert_eq!(end(19.0, 0.0, 0.0), NOTHING);
@@ -256,7 +264,8 @@ fn a_jump_ends_standing_or_goes_on() {
     // A jump every 1.2 s: in the air or crouching in the last second.
     let on = |step: usize| {
         let again = Pose::jumping(50 + step % 60);
-        Pose { touching: if step < 5 { [false, true, true] } else { again.touching }, ..again }
+        let work = 100.0 * (1 + (step + 5) / 60) as f64;
+        Pose { touching: if step < 5 { [false, true, true] } else { again.touching }, work, ..again }
     };
     assert_eq!(reasons(&report(5.0, Kind::Jumping, on)), NOTHING);
 }
@@ -399,7 +408,10 @@ fn a_swimmer_needs_neither_ground_nor_footfalls_but_has_to_get_ahead() {
 
 #[test]
 fn a_walker_backwards_is_judged_as_one_forwards() {
-    let backwards = |step: usize| Pose { x: -Pose::walking(step).x, ..Pose::walking(step) };
+    let backwards = |step: usize| {
+        let walking = Pose::walking(step);
+        Pose { x: -walking.x, hips: walking.hips.map(|hip| -hip), ..walking }
+    };
     let report_of_a_run = report(60.0, Kind::Running, Pose::walking);
     let report_of_a_retreat = report(60.0, Kind::Backwards, backwards);
     assert_eq!(reasons(&report_of_a_retreat), Vec::<String>::new());
