@@ -7,6 +7,7 @@
 //! | `scenes` | single effects whose physics is known: fall, slide, motor, limit, rest |
 //! | `gauges`, `soundness` | how far joints, limits and the ground give way |
 //! | `evaluations`, `batches`, `contract` | whole evaluations, in any batch, on any thread |
+//! | `recordings` | controllers in worlds of their own, shown moment by moment |
 //! | `failures`, `refusals` | what goes wrong, and what lanes cannot do |
 //! | `control` | rapier against rapier, started 0.2 µm higher: how large a difference of nothing becomes |
 //!
@@ -20,6 +21,7 @@ mod control;
 mod evaluations;
 mod failures;
 mod gauges;
+mod recordings;
 mod refusals;
 mod scenes;
 mod soundness;
