@@ -20,6 +20,7 @@
 //! | [`trajectory`] | recording what a champion does; CSV |
 //! | [`dot`] | a champion's net as a drawing |
 //! | [`gait`] | a champion's gait, measured and judged: whether it is usable |
+//! | [`worlds`] | worlds in which gaits are judged, many at once |
 //! | [`robust`] | what is left of it in worlds that are not quite the same |
 //! | [`report`] | the HTML page |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
@@ -59,6 +60,7 @@ mod jury;
 pub mod lesson;
 mod limbs;
 mod lines;
+mod near;
 mod nominal;
 pub mod obstacles;
 mod perturbation;
@@ -76,6 +78,7 @@ pub mod suggest;
 pub mod training;
 mod training_task;
 pub mod trajectory;
+pub mod worlds;
 pub mod yardsticks;
 
 pub use setup::Setup;
