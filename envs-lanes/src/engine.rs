@@ -22,6 +22,11 @@ impl LaneEngine {
         &self.world
     }
 
+    /// Whether another creature's world is of the same kind: only then can one herd have both.
+    pub(crate) fn is_like(&self, other: &Self) -> bool {
+        self.world.is_level() == other.world.is_level()
+    }
+
     /// Worlds of the same kind for more creatures, with nobody in them yet.
     pub(crate) fn widened<const W: usize>(&self) -> LaneWorld<W> {
         self.world.widened()

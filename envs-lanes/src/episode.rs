@@ -1,4 +1,4 @@
-use crate::{engine::LaneEngine, engine::LaneEnvironment, herd::Herd, instructions::Instructions};
+use crate::{LANES, engine::LaneEngine, engine::LaneEnvironment, herd::Herd, instructions::Instructions};
 use envs_core::Settled;
 use ne_core::{Evaluation, Failure, Phenotype, Seed, SettingError, Task};
 use ne_net::{DenseNet, GraphNet, Network, Topology};
@@ -19,9 +19,6 @@ pub struct LaneEpisode {
     trials: Trials,
     instructions: Instructions,
 }
-
-/// Creatures side by side: a register of AVX-512, and several of those of smaller processors, which have time for it.
-pub(crate) const LANES: usize = 16;
 
 /// So many individuals that in most of a batch all lanes are busy.
 const BATCH: usize = 256;
@@ -121,8 +118,6 @@ struct Stage<'a, 'b> {
     waiting: std::vec::IntoIter<usize>,
     herd: Option<Herd<LANES>>,
     seats: Vec<Option<Seat>>,
-    inputs: Vec<f32>,
-    outputs: Vec<f32>,
 }
 
 /// An individual in a lane.
@@ -131,8 +126,6 @@ struct Seat {
     tally: Tally,
     movement: Box<dyn Movement>,
     snapshot: Snapshot,
-    /// An output in this step that is no finite number: it ends the trial.
-    unusable_output: Option<usize>,
 }
 
 impl<'a, 'b> Stage<'a, 'b> {
@@ -152,8 +145,6 @@ impl<'a, 'b> Stage<'a, 'b> {
             waiting: waiting.into_iter(),
             herd,
             seats: (0..LANES).map(|_| None).collect(),
-            inputs: vec![0.0; episode.inputs()],
-            outputs: vec![0.0; episode.outputs()],
         }
     }
 
@@ -163,10 +154,7 @@ impl<'a, 'b> Stage<'a, 'b> {
             self.seat_next(lane, &mut tell);
         }
         while self.seats.iter().any(Option::is_some) {
-            self.think();
-            if let Some(herd) = &mut self.herd {
-                herd.step();
-            }
+            self.step();
             for lane in 0..LANES {
                 if let Some(outcome) = self.judge(lane) {
                     self.end_trial(lane, outcome, &mut tell);
@@ -175,38 +163,20 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
     }
 
-    /// Everyone senses and decides.
-    fn think(&mut self) {
-        let Some(herd) = &mut self.herd else { return };
-        herd.sense();
-        if !herd.thinks() {
-            for (lane, seat) in self.seats.iter().enumerate() {
-                let Some(seat) = seat else { continue };
-                herd.inputs(lane, &mut self.inputs);
-                self.phenotypes[seat.individual].activate(&self.inputs, &mut self.outputs);
-                herd.set_outputs(lane, &self.outputs);
+    fn step(&mut self) {
+        let Self { herd: Some(herd), seats, phenotypes, .. } = self else { return };
+        herd.think(|lane, inputs, outputs| {
+            if let Some(seat) = &seats[lane] {
+                phenotypes[seat.individual].activate(inputs, outputs);
             }
-        }
-        if herd.any_unusable_output() {
-            for (lane, seat) in self.seats.iter_mut().enumerate() {
-                let Some(seat) = seat else { continue };
-                seat.unusable_output = herd.unusable_output(lane);
-                if seat.unusable_output.is_some() {
-                    herd.set_outputs(lane, &vec![0.0; self.outputs.len()]);
-                }
-            }
-        }
+        });
+        herd.step();
     }
 
     /// How a lane's trial has ended, if it has.
     fn judge(&mut self, lane: usize) -> Option<Outcome> {
         let (Some(herd), Some(seat)) = (&self.herd, &mut self.seats[lane]) else { return None };
         let (steps, time_step) = (herd.steps(lane), herd.time_step(lane));
-        if let Some(index) = seat.unusable_output.take() {
-            // The step it could not decide on does not count.
-            let failure = Failure::NonFinite { what: format!("output {index}") };
-            return Some(Outcome { steps: steps - 1, time_step, failure: Some(failure) });
-        }
         if let Err(failure) = herd.show(lane, &mut seat.snapshot) {
             return Some(Outcome { steps, time_step, failure: Some(failure) });
         }
@@ -244,7 +214,6 @@ impl<'a, 'b> Stage<'a, 'b> {
             tally: Tally::new(self.episode.trials),
             movement: self.episode.movement.clone(),
             snapshot: Snapshot::default(),
-            unusable_output: None,
         });
         self.begin_trial(lane, tell);
     }

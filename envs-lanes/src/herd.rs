@@ -31,6 +31,10 @@ pub(crate) struct Herd<const W: usize> {
     net: Option<LaneNet<W>>,
     inputs: Vec<Lanes<W>>,
     outputs: Vec<Lanes<W>>,
+    /// What one lane senses, and what its controller wants.
+    of_one: (Vec<f32>, Vec<f32>),
+    /// For each lane, an output in this step that is no finite number: it ends the trial.
+    unusable: [Option<usize>; W],
     steps: [u32; W],
     time_step: Lanes<W>,
     time: Lanes<W>,
@@ -69,6 +73,8 @@ impl<const W: usize> Herd<W> {
             net: topology.and_then(LaneNet::new),
             inputs: zeros(environment.senses().len()),
             outputs: zeros(environment.motors().len()),
+            of_one: (vec![0.0; environment.senses().len()], vec![0.0; environment.motors().len()]),
+            unusable: [None; W],
             steps: [0; W],
             time_step: Lanes::ZERO,
             time: Lanes::ZERO,
@@ -85,6 +91,7 @@ impl<const W: usize> Herd<W> {
     pub(crate) fn begin(&mut self, lane: usize, settled: &Settled<crate::LaneEngine>) {
         self.world.copy_lane(lane, settled.engine.world());
         self.steps[lane] = 0;
+        self.unusable[lane] = None;
         self.time_step.0[lane] = settled.time_step;
         self.time.0[lane] = 0.0;
         self.rest_height.0[lane] = settled.rest.height();
@@ -96,7 +103,7 @@ impl<const W: usize> Herd<W> {
         }
     }
 
-    /// Whether the nets think in lanes; else whoever drives the herd thinks for them.
+    /// Whether the nets think in lanes; else each thinks for itself in [`think`](Self::think).
     pub(crate) fn thinks(&self) -> bool {
         self.net.is_some()
     }
@@ -113,28 +120,27 @@ impl<const W: usize> Herd<W> {
         self.instructions.run(Sense(self));
     }
 
-    /// What a lane senses.
-    pub(crate) fn inputs(&self, lane: usize, inputs: &mut [f32]) {
-        for (input, lanes) in inputs.iter_mut().zip(&self.inputs) {
-            *input = lanes.0[lane];
+    /// Everyone senses and decides. `activate`: what the controller of a lane wants when it senses this; only asked where
+    /// nets do not think in lanes, and of every lane, whether it plays or not.
+    pub(crate) fn think(&mut self, mut activate: impl FnMut(usize, &[f32], &mut [f32])) {
+        self.sense();
+        if self.net.is_none() {
+            let Self { inputs, outputs, of_one: (sensed, wanted), .. } = self;
+            for lane in 0..W {
+                sensed.iter_mut().zip(&*inputs).for_each(|(input, lanes)| *input = lanes.0[lane]);
+                wanted.fill(0.0);
+                activate(lane, sensed, wanted);
+                outputs.iter_mut().zip(&*wanted).for_each(|(lanes, output)| lanes.0[lane] = *output);
+            }
         }
-    }
-
-    /// What a lane's controller wants.
-    pub(crate) fn set_outputs(&mut self, lane: usize, outputs: &[f32]) {
-        for (lanes, output) in self.outputs.iter_mut().zip(outputs) {
-            lanes.0[lane] = *output;
+        if self.outputs.iter().any(|output| output.0.iter().any(|value| !value.is_finite())) {
+            for lane in 0..W {
+                self.unusable[lane] = self.outputs.iter().position(|output| !output.0[lane].is_finite());
+                if self.unusable[lane].is_some() {
+                    self.outputs.iter_mut().for_each(|output| output.0[lane] = 0.0);
+                }
+            }
         }
-    }
-
-    /// The first output of a lane that is no finite number.
-    pub(crate) fn unusable_output(&self, lane: usize) -> Option<usize> {
-        self.outputs.iter().position(|output| !output.0[lane].is_finite())
-    }
-
-    /// Whether any lane has an output that is no finite number.
-    pub(crate) fn any_unusable_output(&self) -> bool {
-        self.outputs.iter().any(|output| output.0.iter().any(|value| !value.is_finite()))
     }
 
     /// One time step of all lanes.
@@ -148,9 +154,10 @@ impl<const W: usize> Herd<W> {
             self.push();
         }
         self.instructions.run(Step(self, stopwatch));
-        for ((steps, time), time_step) in self.steps.iter_mut().zip(&mut self.time.0).zip(self.time_step.0) {
-            *steps += 1;
-            *time = *steps as f32 * time_step;
+        for lane in 0..W {
+            // A step the controller could not decide on does not count.
+            self.steps[lane] += u32::from(self.unusable[lane].is_none());
+            self.time.0[lane] = self.steps[lane] as f32 * self.time_step.0[lane];
         }
     }
 
@@ -177,8 +184,12 @@ impl<const W: usize> Herd<W> {
     /// Shows where a lane's creature is after a step.
     ///
     /// # Errors
-    /// If the step ended with a number that is not finite, or with a part that is too fast to be true.
+    /// If the controller wanted what is no finite number, or the step ended with one, or with a part that is too fast to be
+    /// true.
     pub(crate) fn show(&self, lane: usize, snapshot: &mut Snapshot) -> Result<(), Failure> {
+        if let Some(index) = self.unusable[lane] {
+            return Err(Failure::NonFinite { what: format!("output {index}") });
+        }
         let fastest = self.fastest.0[lane];
         if fastest.is_nan() {
             let clock = (self.steps[lane] - 1) as f32 * self.time_step.0[lane];

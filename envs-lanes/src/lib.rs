@@ -5,6 +5,7 @@
 //! the same instructions, each in a lane of its own. That takes hardly longer than one.
 //!
 //! - [`LaneEpisode`] is the [`Task`](ne_core::Task) for training: it plays batches.
+//! - [`play`] shows what controllers do, each in a world of its own.
 //! - [`LaneEnvironment`] is a single creature, for whoever has a place for a [`tasks::Environment`].
 //!
 //! Three decisions:
@@ -48,6 +49,7 @@ mod instructions;
 mod lanes;
 mod net;
 mod profile;
+mod recording;
 mod senses;
 mod solver;
 
@@ -55,3 +57,7 @@ pub use engine::{ENGINE, LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;
 pub use instructions::Instructions;
 pub use profile::Profile;
+pub use recording::{Play, play};
+
+/// Creatures side by side: a register of AVX-512, and several of those of smaller processors, which have time for it.
+pub const LANES: usize = 16;

@@ -1,4 +1,4 @@
-use crate::{Instructions, LaneEpisode, episode::LANES, herd::Herd};
+use crate::{Instructions, LANES, LaneEpisode, herd::Herd};
 use ne_core::{Failure, Seed};
 use ne_net::Network;
 use std::time::Instant;

@@ -2,28 +2,35 @@
 
 use crate::{
     champion::Champion,
+    near::near_worlds,
     obstacles::ObstaclesPassed,
     setup::{EpisodeParts, SetupError},
     trajectory::Recording,
+    worlds::{self, Worlds, is_usable},
 };
-use envs_core::{Conditions, Ground, Landscape};
+use envs_core::Landscape;
+use envs_lanes::LaneEnvironment;
 use envs_rapier::{RapierEnvironment, Variation};
 use ne_core::Seed;
 use ne_net::Network;
 use serde::Serialize;
+use std::sync::{Arc, OnceLock};
 use tasks::{
-    Environment, Episode, MovementCatalogue, MovementSpec, Trials,
-    gait::{GaitReport, Kind, Trajectory},
+    Episode, Movement, MovementCatalogue, MovementSpec, Trials,
+    gait::{GaitReport, Judgement, Kind, NearWorlds},
 };
 
-/// A world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
-/// asks for. Nothing ends the episode early.
+/// The world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
+/// asks for. Nothing ends the episode early. A gait that is usable there is tried in [near worlds](NearWorlds) too.
 #[derive(Clone)]
 pub struct Stage {
     episode: Episode<RapierEnvironment>,
-    movement: MovementSpec,
+    movement: Box<dyn Movement>,
     kind: Option<Kind>,
-    flat: bool,
+    /// The creature in the same world in lanes, which have rapier's bits; `None` if they cannot simulate it.
+    lanes: Option<LaneEnvironment>,
+    /// Built when they are first needed.
+    near: Arc<OnceLock<Worlds>>,
 }
 
 /// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those whose gait is usable in perturbed
@@ -46,30 +53,23 @@ impl Stage {
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
         let episode = parts.build(catalogue)?;
-        let flat = *episode.environment().ground() == Ground::flat();
-        Ok(Self { episode, movement, kind, flat })
-    }
-
-    /// The same stage in another world: under these conditions, on this ground or in this landscape.
-    ///
-    /// # Errors
-    /// If the world makes no sense, the creature does not come to rest in it, or the movement is unknown.
-    pub fn under(
-        &self,
-        conditions: &Conditions,
-        landscape: impl Into<Landscape>,
-        catalogue: &MovementCatalogue,
-    ) -> Result<Self, SetupError> {
-        let environment = self.episode.environment().under(conditions, landscape)?;
-        let flat = *environment.ground() == Ground::flat();
-        let steps = judged_steps(self.kind, environment.settings().time_step);
-        let episode = Episode::new(environment, catalogue.build(&self.movement)?, steps, Trials::default())?;
-        Ok(Self { episode, flat, ..self.clone() })
+        let movement = catalogue.build(&movement)?;
+        let lanes = parts.build_lanes(catalogue).ok().map(|episode| episode.environment().clone());
+        Ok(Self { episode, movement, kind, lanes, near: Arc::default() })
     }
 
     /// The creature in this world.
     pub fn environment(&self) -> &RapierEnvironment {
         self.episode.environment()
+    }
+
+    /// The same in lanes, if they can simulate it.
+    pub(crate) fn lanes(&self) -> Option<&LaneEnvironment> {
+        self.lanes.as_ref()
+    }
+
+    pub(crate) fn movement(&self) -> Box<dyn Movement> {
+        self.movement.clone()
     }
 
     /// How a gait is judged here, if it is.
@@ -79,31 +79,80 @@ impl Stage {
 
     /// What a controller does here. A body that explodes, and a controller of another shape, leave a short recording.
     pub fn record(&self, network: &Network) -> Recording {
-        let mut recording = Recording::default();
-        // Without variation nothing comes from the seed.
-        self.episode.play(&mut network.clone(), Seed::of_run(0), &mut recording);
-        recording
+        record(&self.episode, network)
     }
 
-    /// Measures what a controller does here; `None` for one that falls silent at once: there is nothing to measure.
+    /// Measures what a controller does here, and judges it here and in near worlds; `None` for one that falls silent at
+    /// once: there is nothing to measure.
     pub fn judge(&self, network: &Network) -> Option<GaitReport> {
         self.measure(network).map(|gait| gait.report)
     }
 
-    /// The same, and how many obstacles it passes.
+    /// The same, and how many obstacles it passes. What is not usable here is not tried in near worlds.
     pub fn measure(&self, network: &Network) -> Option<Gait> {
-        let recording = self.record(network);
-        let environment = self.episode.environment();
-        let trajectory = Trajectory::new(environment.body()?, &recording.snapshots).ok()?;
-        let trajectory = if self.flat { trajectory } else { trajectory.on_terrain() };
-        let report = GaitReport::of(&trajectory, self.kind);
-        Some(Gait { report, obstacles: ObstaclesPassed::count(environment.landscape(), &recording.snapshots) })
+        let mut gait = self.measure_alone(network)?;
+        if let Some(verdict) = gait.report.verdict.take() {
+            let near = verdict.usable.then(|| self.try_near_worlds(network));
+            gait.report.verdict = Some(with_near_worlds(verdict, near));
+        }
+        Some(gait)
     }
 
-    /// Whether a controller's gait is usable here; never for a movement that is not judged.
-    pub fn is_usable(&self, network: &Network) -> bool {
-        self.judge(network).and_then(|report| report.verdict).is_some_and(|judgement| judgement.usable)
+    /// The same, judged here alone.
+    pub fn measure_alone(&self, network: &Network) -> Option<Gait> {
+        worlds::measure(self.environment(), self.kind, &self.record(network).snapshots)
     }
+
+    /// In how many near worlds a controller's gait is usable, on the threads of the current pool.
+    pub fn try_near_worlds(&self, network: &Network) -> NearWorlds {
+        let worlds = self.near.get_or_init(|| {
+            let landscape: &Landscape = self.environment().landscape();
+            let conditions = near_worlds(self.environment().motors().len()).into_iter();
+            Worlds::new(self, &conditions.map(|conditions| (conditions, landscape.clone())).collect::<Vec<_>>())
+        });
+        NearWorlds { usable: worlds.usable(network), worlds: worlds.len() }
+    }
+
+    /// Whether a controller's gait is usable, here and in near worlds; never for a movement that is not judged.
+    pub fn is_usable(&self, network: &Network) -> bool {
+        self.judge(network).is_some_and(|report| is_usable(&report))
+    }
+
+    /// The first of these controllers whose gait is usable, on the threads of the current pool. In lanes first, all at once;
+    /// only what is usable there is tried in near worlds, and then confirmed by rapier.
+    pub fn first_usable(&self, networks: &[Network]) -> Option<usize> {
+        let Some(nominal) = Worlds::nominal(self) else {
+            return networks.iter().position(|network| self.is_usable(network));
+        };
+        let verdicts = nominal.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
+        networks.iter().zip(verdicts).position(|(network, verdict)| {
+            let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
+            let near = Some(self.try_near_worlds(network));
+            let confirmed = || self.measure_alone(network).is_some_and(|gait| is_usable(&gait.report));
+            with_near_worlds(verdict, near).usable && confirmed()
+        })
+    }
+
+    /// The same stage, where nothing is played in lanes.
+    #[cfg(test)]
+    pub(crate) fn in_rapier(self) -> Self {
+        Self { lanes: None, near: Arc::default(), ..self }
+    }
+}
+
+fn with_near_worlds(verdict: Judgement, near: Option<NearWorlds>) -> Judgement {
+    match near {
+        Some(near) => verdict.with_near_worlds(near),
+        None => verdict,
+    }
+}
+
+/// What a controller does in the one world of an episode.
+pub(crate) fn record(episode: &Episode<RapierEnvironment>, network: &Network) -> Recording {
+    let mut recording = Recording::default();
+    // Without variation nothing comes from the seed.
+    episode.play(&mut network.clone(), Seed::of_run(0), &mut recording);
+    recording
 }
 
 /// A gait, and how far it got on its terrain.
@@ -118,7 +167,7 @@ pub struct Gait {
 }
 
 /// The steps of an episode as long as the judgement asks for.
-fn judged_steps(kind: Option<Kind>, time_step: f32) -> u32 {
+pub(crate) fn judged_steps(kind: Option<Kind>, time_step: f32) -> u32 {
     let seconds = kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds);
     (seconds / f64::from(time_step)).round() as u32
 }
@@ -135,7 +184,8 @@ pub enum GaitOfChampionError {
     Unmeasurable,
 }
 
-/// Replays a champion in rapier, for as long as the judgement asks for, and measures its gait.
+/// Replays a champion in rapier, for as long as the judgement asks for, and measures its gait. A usable one is tried in near
+/// worlds as well, on the threads of the current pool.
 ///
 /// # Errors
 /// If a field of the champion is out of range, its movement is unknown, or there is nothing to measure.

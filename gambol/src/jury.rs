@@ -14,16 +14,16 @@ pub(crate) struct NominalJury {
     reference: Option<Box<dyn Task>>,
     /// The varied worlds in which fitness must be kept.
     proof: Option<Box<dyn Task>>,
-    /// Whether a gait is usable, if those of this movement are judged.
-    usable: Option<Box<Usable>>,
+    /// Whose gait is usable, if those of this movement are judged.
+    usable: Option<Box<FirstUsable>>,
     /// In how many perturbed worlds it is, if training varies the world.
     steadiness: Option<Box<Steadiness>>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
 
-/// Says whether the gait of a controller is usable.
-type Usable = dyn Fn(&dyn Phenotype) -> bool + Send + Sync;
+/// Says which of these controllers is the first whose gait is usable.
+type FirstUsable = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
 
 /// Says in how many perturbed worlds the gait of a controller is usable; `None` if in less than so many.
 type Steadiness = dyn Fn(&dyn Phenotype, usize) -> Option<usize> + Send + Sync;
@@ -85,16 +85,19 @@ impl NominalJury {
             reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
             proof: nominal.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
             usable: nominal.stage.clone().map(|stage| {
-                let usable = move |phenotype: &dyn Phenotype| {
-                    network_of(phenotype).is_some_and(|network| stage.is_usable(&network))
+                let evaluator = evaluator.clone();
+                let first_usable = move |phenotypes: &[&dyn Phenotype]| {
+                    // All are nets, or none is.
+                    let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network_of(*net)).collect();
+                    evaluator.install(|| stage.first_usable(&networks))
                 };
-                Box::new(usable) as Box<Usable>
+                Box::new(first_usable) as Box<FirstUsable>
             }),
             steadiness: nominal.proving.clone().map(|ground| {
                 let evaluator = evaluator.clone();
                 let steadiness = move |phenotype: &dyn Phenotype, least| {
                     let network = network_of(phenotype)?;
-                    evaluator.install(|| ground.usable(&network, least))
+                    Some(evaluator.install(|| ground.usable(&network))).filter(|&usable| usable >= least)
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
@@ -118,8 +121,12 @@ impl NominalJury {
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
         let first = &able[..able.len().min(JUDGED)];
-        let mut candidates = first.iter().chain(fittest.iter().take(JUDGED).filter(|index| !first.contains(index)));
-        if let Some(&best) = candidates.find(|&&index| usable(&finalists[index].express())) {
+        let fittest = fittest.iter().take(JUDGED).filter(|index| !first.contains(index));
+        let candidates: Vec<usize> = first.iter().chain(fittest).copied().collect();
+        let controllers: Vec<G::Phenotype> = candidates.iter().map(|&index| finalists[index].express()).collect();
+        let controllers: Vec<&dyn Phenotype> = controllers.iter().map(|net| net as &dyn Phenotype).collect();
+        if let Some(first) = usable(&controllers) {
+            let best = candidates[first];
             let hoped = self.hoped(kept[best], standing);
             let enough = (USABLE..=hoped).find(|&grade| place(best, grade) > standing).unwrap_or(hoped);
             grades[best] = self.steady(&finalists[best], enough, hoped);

@@ -21,6 +21,7 @@
 //! | [`dot`] | a champion's net as a drawing |
 //! | [`gait`] | a champion's gait, measured and judged: whether it is usable |
 //! | [`sheet`] | a gait as one image: a contact sheet with charts |
+//! | [`worlds`] | worlds in which gaits are judged, many at once |
 //! | [`robust`] | what is left of it in worlds that are not quite the same |
 //! | [`report`] | the HTML page |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
@@ -60,6 +61,7 @@ mod jury;
 pub mod lesson;
 mod limbs;
 mod lines;
+mod near;
 mod nominal;
 pub mod obstacles;
 mod perturbation;
@@ -78,6 +80,7 @@ pub mod suggest;
 pub mod training;
 mod training_task;
 pub mod trajectory;
+pub mod worlds;
 pub mod yardsticks;
 
 pub use setup::Setup;

@@ -5,7 +5,7 @@ use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Seed};
 use ne_net::Network;
 use std::sync::{Arc, Mutex};
-use tasks::{Episode, MovementCatalogue, Trials};
+use tasks::{Episode, Trials};
 
 /// One trial of the creature, whole and in the world as the configuration has it, where training varies the world, shortens
 /// the episode or has further bodies.
@@ -41,12 +41,11 @@ impl Nominal {
         episode: Episode<RapierEnvironment>,
         proof: Option<TrainingTask>,
         stage: Stage,
-        catalogue: &MovementCatalogue,
         seed: Seed,
     ) -> Self {
         let stage = Some(stage).filter(|stage| stage.kind().is_some());
         let tried = stage.clone().filter(|_| proof.is_some());
-        let proving = tried.map(|stage| ProvingGround::new(stage, catalogue.clone(), seed));
+        let proving = tried.map(|stage| ProvingGround::new(stage, seed));
         Self { task, episode, seed, proof, stage, proving, last: Arc::default() }
     }
 

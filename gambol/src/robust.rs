@@ -1,11 +1,18 @@
 //! How much of a champion's gait is left in worlds that are not quite the one it learned in.
 //!
 //! A gait that is usable in one exact world may lean on it: on one friction, one time step, one perfectly flat floor. A
-//! game has none of them. So a champion is replayed in rapier under many perturbations of the world, each judged as the
-//! champion itself is judged, and what is told is the share that stays usable and the part of the fitness that is kept.
+//! game has none of them. So a champion is replayed under many perturbations of the world, each judged by the rules the
+//! champion itself is judged by, alone and without near worlds, and what is told is the share that stays usable and the part of the fitness that is kept.
 
-use crate::{champion::Champion, gait::Stage, perturbation::World, setup::SetupError};
+use crate::{
+    champion::Champion,
+    gait::Stage,
+    perturbation::World,
+    setup::SetupError,
+    worlds::{Worlds, is_usable},
+};
 use envs_core::Conditions;
+use envs_lanes::LANES;
 use ne_core::{Seed, SettingError};
 use rayon::prelude::*;
 use serde::Serialize;
@@ -31,7 +38,7 @@ pub struct Robustness {
     /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world, nor has water.
     #[serde(skip)]
     pub bumpy: bool,
-    /// Whether it is usable without perturbation.
+    /// Whether it is usable without perturbation, and in near worlds.
     pub usable_unperturbed: bool,
     /// How far it runs, or how high it jumps, without perturbation, m.
     #[serde(rename = "progress_unperturbed_m")]
@@ -117,13 +124,17 @@ pub fn robustness(
     let kind = stage.kind().ok_or_else(not_judged)?;
     let unperturbed = stage.judge(&champion.network);
     let progress_unperturbed = unperturbed.as_ref().map_or(0.0, |report| progress(kind, report));
-    let trials: Vec<PerturbedTrial> = (0..perturbations)
-        .into_par_iter()
-        .map(|index| {
-            let world =
-                World::draw(Seed::of_run(seed).trial(index), &stage, progress_unperturbed.abs() as f32 + BEYOND);
-            let report = stage.under(&world.conditions, world.landscape.clone(), catalogue).ok();
-            PerturbedTrial::new(&world, kind, report.and_then(|stage| stage.judge(&champion.network)))
+    let reach = progress_unperturbed.abs() as f32 + BEYOND;
+    let indices: Vec<u32> = (0..perturbations).collect();
+    let trials: Vec<PerturbedTrial> = indices
+        .par_chunks(LANES)
+        .flat_map_iter(|indices| {
+            let draw = |&index: &u32| World::draw(Seed::of_run(seed).trial(index), &stage, reach);
+            let worlds: Vec<World> = indices.iter().map(draw).collect();
+            let places: Vec<_> =
+                worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
+            let reports = Worlds::new(&stage, &places).judge(&champion.network);
+            worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, kind, report))
         })
         .collect();
     let share = |count: usize| count as f64 / f64::from(perturbations);
@@ -141,10 +152,6 @@ pub fn robustness(
             .collect(),
         trials,
     })
-}
-
-fn is_usable(report: &GaitReport) -> bool {
-    report.verdict.as_ref().is_some_and(|verdict| verdict.usable)
 }
 
 /// What the movement is about, m.
@@ -199,25 +206,6 @@ impl PerturbedTrial {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perturbation::tests::stage;
-    use envs_core::Ground;
-    use ne_net::{DenseNet, DenseShape};
-    use tasks::Environment;
-
-    #[test]
-    fn without_perturbation_the_gait_is_the_same_to_the_bit() {
-        let stage = stage("tetrapod-1", "jumping");
-        let (inputs, outputs) = (stage.environment().inputs(), stage.environment().outputs());
-        let shape = DenseShape::new(inputs, vec![], outputs);
-        let weights: Vec<f32> = (0..(inputs + 1) * outputs).map(|index| (index % 7) as f32 * 0.3 - 0.8).collect();
-        let network = DenseNet::new(shape, &weights).expect("a net").into();
-        let nominal = Conditions::nominal(outputs);
-        let same = stage.under(&nominal, Ground::flat(), &MovementCatalogue::default()).expect("settles");
-        assert_eq!(same.judge(&network).expect("it moves"), stage.judge(&network).expect("it moves"));
-        let heavy = Conditions { mass: 1.1, ..nominal };
-        let other = stage.under(&heavy, Ground::flat(), &MovementCatalogue::default()).expect("settles");
-        assert_ne!(other.judge(&network), stage.judge(&network));
-    }
 
     #[test]
     fn medians_are_in_the_middle() {

@@ -258,7 +258,7 @@ impl Setup {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, catalogue)?.1),
                 };
-                Some(Nominal::new(task, episode, proof, stage, catalogue, Seed::of_run(config.seed)))
+                Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
             }
         };
         if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {

@@ -31,6 +31,10 @@ impl<const W: usize> Contacts<W> {
         }
     }
 
+    pub(super) fn is_level(&self) -> bool {
+        matches!(self, Self::Level(_))
+    }
+
     pub(super) fn copy_lane(&mut self, lane: usize, from: &Contacts<1>) {
         match (self, from) {
             (Self::Level(mine), Contacts::Level(theirs)) => {
@@ -39,7 +43,7 @@ impl<const W: usize> Contacts<W> {
             (Self::Uneven(mine), Contacts::Uneven(theirs)) => {
                 mine.iter_mut().zip(theirs).for_each(|(mine, theirs)| mine.copy_lane(lane, theirs));
             }
-            // Worlds of one kind have one ground.
+            // Worlds of one kind have one kind of ground.
             (Self::Level(_), Contacts::Uneven(_)) | (Self::Uneven(_), Contacts::Level(_)) => {}
         }
     }

@@ -132,6 +132,11 @@ impl<const W: usize> LaneWorld<W> {
         self.contacts.copy_lane(lane, &from.contacts);
     }
 
+    /// Whether the ground is a single half-space; its contacts are of another kind then.
+    pub(crate) fn is_level(&self) -> bool {
+        self.contacts.is_level()
+    }
+
     /// A part of all creatures.
     #[inline(always)]
     pub(crate) fn body(&self, part: usize) -> &Body<W> {

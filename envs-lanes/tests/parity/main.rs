@@ -8,6 +8,7 @@
 //! | `gauges`, `soundness` | how far joints, limits and the ground give way |
 //! | `evaluations`, `batches`, `contract` | whole evaluations, in any batch, on any thread |
 //! | `physics` | worlds that differ in what engines differ in, and pushes, another in each lane |
+//! | `recordings` | controllers in worlds of their own, shown moment by moment |
 //! | `failures`, `refusals` | what goes wrong, and what lanes cannot do |
 //! | `control` | rapier against rapier, started 0.2 µm higher: how large a difference of nothing becomes |
 //!
@@ -22,6 +23,7 @@ mod evaluations;
 mod failures;
 mod gauges;
 mod physics;
+mod recordings;
 mod refusals;
 mod scenes;
 mod soundness;

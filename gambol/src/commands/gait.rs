@@ -33,9 +33,10 @@ Examples:
 The contact sheet is one image: twelve frames over a stride or a jump, footfalls, pitch and height of the torso, the verdict.
 
 A champion is replayed in rapier, for as long as its movement is judged: 20 s of running and what is judged like it, 5 s
-of jumps, 20 s of what is not judged. A trajectory is
-taken as it is; of flat ground, with gravity as on Earth. It holds no torques: what a step costs is not known, and energy
-from nowhere is not looked for.
+of jumps, 20 s of what is not judged. One that is usable must be so in 7 of 8 near worlds as well: friction, gravity, mass
+and time step off by up to 1 %, the start pose by up to 1 degree. A trajectory is taken as it is and judged alone; of flat
+ground, with gravity as on Earth. It holds no torques: what a step costs is not known, and energy from nowhere is not
+looked for.
 
 Exit code 0: usable, or not judged. 1: something was wrong. 3: not usable.")]
 pub(crate) struct Gait {

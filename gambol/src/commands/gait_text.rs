@@ -2,7 +2,7 @@
 
 use gambol::obstacles::ObstaclesPassed;
 use std::fmt::Write;
-use tasks::gait::{GaitReport, JointUse, Kind, LegUse};
+use tasks::gait::{GaitReport, JointUse, Kind, LegUse, NearWorlds};
 
 /// How much of the end the footfall diagram shows, s.
 const DIAGRAM_SECONDS: f64 = 3.0;
@@ -36,7 +36,16 @@ fn verdict(name: &str, report: &GaitReport) -> String {
     let mut text = String::new();
     match &report.verdict {
         None => line(&mut text, &format!("{name}: not judged; only {} are", Kind::JUDGED.join(", "))),
-        Some(verdict) if verdict.usable => line(&mut text, &format!("{name}: usable")),
+        Some(verdict) if verdict.usable => {
+            line(&mut text, &format!("{name}: usable"));
+            line(
+                &mut text,
+                &match verdict.near_worlds {
+                    Some(NearWorlds { usable, worlds }) => format!("  usable in {usable} of {worlds} near worlds"),
+                    None => "  judged alone: near worlds need the champion".into(),
+                },
+            );
+        }
         Some(verdict) => {
             line(&mut text, &format!("{name}: not usable:"));
             verdict.reasons.iter().for_each(|reason| line(&mut text, &format!("  {reason}")));

@@ -75,10 +75,12 @@ impl Court {
     fn new(lanes: Engine, rapier: Option<Engine>) -> Self {
         let seen: Arc<Mutex<Vec<Candidate>>> = Arc::default();
         let register = seen.clone();
-        let usable = move |phenotype: &dyn Phenotype| {
-            let candidate = candidate(phenotype);
-            register.lock().expect("no test panics here").push(candidate.clone());
-            candidate.usable
+        let usable = move |phenotypes: &[&dyn Phenotype]| {
+            phenotypes.iter().position(|phenotype| {
+                let candidate = candidate(*phenotype);
+                register.lock().expect("no test panics here").push(candidate.clone());
+                candidate.usable
+            })
         };
         let tried: Arc<Mutex<Vec<usize>>> = Arc::default();
         let register = tried.clone();

@@ -30,6 +30,7 @@ mod audit;
 mod contact;
 mod error;
 mod flight;
+mod fourier;
 mod joint;
 mod judgement;
 mod leg;

@@ -1,4 +1,8 @@
-use super::{Trajectory, spectrum::detrended};
+use super::{
+    Trajectory,
+    fourier::{Fourier, power},
+    spectrum::detrended,
+};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -6,6 +10,8 @@ use std::ops::RangeInclusive;
 const NEARLY: f64 = 0.95;
 /// Joints that together swing less than this on average, in rad, have no rhythm.
 const STILL: f64 = 1e-3;
+/// Where signals have less than this share of their energy, what is left of it is rounding.
+const NEGLIGIBLE: f64 = 1e-12;
 
 /// How regularly the joints repeat themselves over the window: the autocorrelation of their angles (without mean and
 /// straight trend), summed over all joints.
@@ -56,13 +62,32 @@ fn autocorrelations(signals: &[Vec<f64>]) -> Vec<f64> {
     if samples == 0 || energy[samples] < STILL * STILL * (samples * signals.len()) as f64 {
         return Vec::new();
     }
+    let products = products(signals, samples / 2);
     let at_lag = |lag: usize| {
-        let product = |signal: &Vec<f64>| -> f64 { signal.iter().zip(&signal[lag..]).map(|(a, b)| a * b).sum() };
-        let together: f64 = signals.iter().map(product).sum();
         let alone = (energy[samples - lag] * (energy[samples] - energy[lag])).sqrt();
-        if alone > 0.0 { together / alone } else { 0.0 }
+        if alone > NEGLIGIBLE * energy[samples] { (products[lag] / alone).clamp(-1.0, 1.0) } else { 0.0 }
     };
     (0..=samples / 2).map(at_lag).collect()
+}
+
+/// For each lag up to the greatest, the sum over all signals of the products of each sample and the one that much later.
+fn products(signals: &[Vec<f64>], greatest: usize) -> Vec<f64> {
+    let samples = signals.first().map_or(0, Vec::len);
+    let fourier = Fourier::new(samples + greatest);
+    let mut powers = vec![[0.0; 2]; fourier.length()];
+    // Two at a time, as real and imaginary part of one: the products of a sample of the one and a sample of the other end up
+    // in the imaginary part.
+    for pair in signals.chunks(2) {
+        let mut values = vec![[0.0; 2]; fourier.length()];
+        for (place, signal) in pair.iter().enumerate() {
+            values.iter_mut().zip(signal).for_each(|(value, &sample)| value[place] = sample);
+        }
+        fourier.forward(&mut values);
+        powers.iter_mut().zip(&values).for_each(|(sum, &value)| sum[0] += power(value));
+    }
+    fourier.backward(&mut powers);
+    let scale = 1.0 / fourier.length() as f64;
+    powers[..=greatest].iter().map(|value| scale * value[0]).collect()
 }
 
 /// The lag of a stride, and the height of the highest peak.
@@ -89,6 +114,17 @@ mod tests {
         let (lag, strength) = stride(&autocorrelations(&[sine(0.0), sine(1.0)])).expect("a rhythm");
         assert_eq!(lag, 40);
         assert!(strength > 0.999, "{strength}");
+    }
+
+    #[test]
+    fn products_are_those_of_the_samples() {
+        let signal = |seed: usize| (0..77).map(|index| libm::sin((index * index * seed % 37) as f64)).collect();
+        let signals: Vec<Vec<f64>> = (1..4).map(signal).collect();
+        for (lag, found) in products(&signals, 38).into_iter().enumerate() {
+            let product = |signal: &Vec<f64>| -> f64 { signal.iter().zip(&signal[lag..]).map(|(a, b)| a * b).sum() };
+            let wanted: f64 = signals.iter().map(product).sum();
+            assert!((found - wanted).abs() < 1e-12, "{lag}: {found} {wanted}");
+        }
     }
 
     #[test]

@@ -1,4 +1,5 @@
-use std::f64::consts::{PI, TAU};
+use super::fourier::{Complex, Fourier, power, times, turned};
+use std::f64::consts::PI;
 
 /// Lower frequencies than this number of cycles in the window are a drift, and no rhythm.
 const FEWEST_CYCLES: usize = 2;
@@ -14,32 +15,41 @@ pub(super) struct Peak {
     pub(super) amplitude: f64,
 }
 
-/// The frequencies of signals of one length: a plain discrete Fourier transform on its own grid, from 2 cycles in the
-/// window up to half the sampling rate, with tables.
+/// The frequencies of signals of one length: a discrete Fourier transform on its own grid, from 2 cycles in the window up
+/// to half the sampling rate. For any length, by Bluestein's way: as a convolution with a chirp, a wave that turns faster
+/// and faster.
 pub(super) struct Spectrum {
-    cos: Vec<f64>,
-    sin: Vec<f64>,
+    /// One number a sample.
+    chirp: Vec<Complex>,
+    fourier: Fourier,
+    /// The transform of the chirp, backwards.
+    filter: Vec<Complex>,
     time_step: f64,
 }
 
 impl Spectrum {
-    /// For signals of `samples` numbers, `time_step` s apart.
+    /// For signals of `samples` numbers (at least 1), `time_step` s apart.
     pub(super) fn new(samples: usize, time_step: f64) -> Self {
-        let angle = |index: usize| {
-            let turn = TAU * index as f64 / samples as f64;
-            if turn > PI { turn - TAU } else { turn }
-        };
-        let table = |wave: fn(f64) -> f64| (0..samples).map(|index| wave(angle(index))).collect();
-        Self { cos: table(libm::cos), sin: table(libm::sin), time_step }
+        // Half a turn times index² / samples; whole turns are left out while it is a whole number.
+        let angle = |index: usize| PI * (index * index % (2 * samples)) as f64 / samples as f64;
+        let chirp: Vec<Complex> = (0..samples).map(|index| turned(-angle(index))).collect();
+        let fourier = Fourier::new(2 * samples - 1);
+        let mut filter = vec![[0.0; 2]; fourier.length()];
+        for (index, &[real, imaginary]) in chirp.iter().enumerate() {
+            filter[index] = [real, -imaginary];
+            filter[(fourier.length() - index) % fourier.length()] = [real, -imaginary];
+        }
+        fourier.forward(&mut filter);
+        Self { chirp, fourier, filter, time_step }
     }
 
     /// The strongest frequency. The signal should be [`detrended`].
     pub(super) fn peak(&self, signal: &[f64]) -> Peak {
-        let samples = self.cos.len();
+        let samples = self.chirp.len();
         if samples as f64 * self.time_step < SHORTEST {
             return Peak::default();
         }
-        let powers: Vec<f64> = (1..=samples / 2).map(|cycles| self.power(signal, cycles)).collect();
+        let powers = self.powers(signal);
         let strongest = (FEWEST_CYCLES..=powers.len()).fold(None, |best: Option<usize>, cycles| match best {
             Some(best) if powers[best - 1] >= powers[cycles - 1] => Some(best),
             _ => Some(cycles),
@@ -52,18 +62,19 @@ impl Spectrum {
         }
     }
 
-    fn power(&self, signal: &[f64], cycles: usize) -> f64 {
-        let samples = self.cos.len();
-        let (mut real, mut imaginary, mut index) = (0.0, 0.0, 0);
-        for value in signal {
-            real += value * self.cos[index];
-            imaginary += value * self.sin[index];
-            index += cycles;
-            if index >= samples {
-                index -= samples;
-            }
+    /// The power at 1 cycle in the window, 2 cycles and so on.
+    fn powers(&self, signal: &[f64]) -> Vec<f64> {
+        let mut values = vec![[0.0; 2]; self.fourier.length()];
+        for ((value, &sample), &[real, imaginary]) in values.iter_mut().zip(signal).zip(&self.chirp) {
+            *value = [sample * real, sample * imaginary];
         }
-        real * real + imaginary * imaginary
+        self.fourier.forward(&mut values);
+        for (value, &factor) in values.iter_mut().zip(&self.filter) {
+            *value = times(*value, factor);
+        }
+        self.fourier.backward(&mut values);
+        let scale = 1.0 / (values.len() as f64 * values.len() as f64);
+        values[1..=self.chirp.len() / 2].iter().map(|&value| scale * power(value)).collect()
     }
 }
 
@@ -85,6 +96,24 @@ pub(super) fn detrended(signal: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f64::consts::TAU;
+
+    #[test]
+    fn powers_are_those_of_the_plain_transform() {
+        for samples in [51, 64, 97, 150] {
+            let signal: Vec<f64> = (0..samples).map(|index| libm::sin((index * index % 31) as f64)).collect();
+            let powers = Spectrum::new(samples, 0.02).powers(&signal);
+            assert_eq!(powers.len(), samples / 2);
+            for (cycles, found) in (1..).zip(powers) {
+                let mut sum = [0.0; 2];
+                for (index, value) in signal.iter().enumerate() {
+                    let [cos, sin] = turned(TAU * (index * cycles % samples) as f64 / samples as f64);
+                    sum = [sum[0] + value * cos, sum[1] + value * sin];
+                }
+                assert!((found - power(sum)).abs() < 1e-10, "{samples}, {cycles}: {found} {}", power(sum));
+            }
+        }
+    }
 
     fn wave(samples: usize, hertz: f64) -> Vec<f64> {
         (0..samples).map(|index| libm::sin(TAU * hertz * index as f64 * 0.02)).collect()

@@ -1,0 +1,196 @@
+//! Worlds in which gaits are judged, each by itself.
+
+use crate::gait::{Gait, Stage, judged_steps, record};
+use crate::obstacles::ObstaclesPassed;
+use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Landscape};
+use envs_lanes::{LANES, LaneEnvironment, Play};
+use envs_rapier::RapierEnvironment;
+use ne_core::Seed;
+use ne_net::Network;
+use rayon::prelude::*;
+use tasks::{
+    Environment, Episode, Snapshot, Trials,
+    gait::{GaitReport, Kind, Trajectory},
+};
+
+/// Worlds of one creature, built once. Controllers are played in them in lanes, many at once, where lanes can simulate them,
+/// and else in rapier; what comes out is the same.
+#[derive(Clone)]
+pub struct Worlds {
+    kind: Option<Kind>,
+    /// `None`: the creature does not come to rest there.
+    worlds: Vec<Option<World>>,
+}
+
+#[derive(Clone)]
+enum World {
+    InLanes(Box<LaneEnvironment>),
+    InRapier(Box<Episode<RapierEnvironment>>),
+}
+
+/// A controller in a world.
+type Pair<'a, W> = (usize, &'a Network, &'a W);
+
+impl Worlds {
+    /// Builds worlds under these conditions and in these landscapes, on the threads of the current pool.
+    pub fn new(stage: &Stage, worlds: &[(Conditions, Landscape)]) -> Self {
+        let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(stage, conditions, landscape);
+        Self { kind: stage.kind(), worlds: worlds.par_iter().map(build).collect() }
+    }
+
+    /// The stage's own world alone, in lanes; `None` if they cannot simulate it.
+    pub(crate) fn nominal(stage: &Stage) -> Option<Self> {
+        let world = World::InLanes(Box::new(stage.lanes()?.clone()));
+        Some(Self { kind: stage.kind(), worlds: vec![Some(world)] })
+    }
+
+    /// How many worlds there are.
+    pub fn len(&self) -> usize {
+        self.worlds.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.worlds.is_empty()
+    }
+
+    /// Measures what a controller does in each world, on the threads of the current pool. `None`: there is nothing to
+    /// measure.
+    pub fn judge(&self, network: &Network) -> Vec<Option<GaitReport>> {
+        self.judge_all(std::slice::from_ref(network)).pop().unwrap_or_default()
+    }
+
+    /// The same for several controllers.
+    pub fn judge_all(&self, networks: &[Network]) -> Vec<Vec<Option<GaitReport>>> {
+        let (mut in_lanes, mut in_rapier): (Vec<Pair<'_, _>>, Vec<Pair<'_, _>>) = (Vec::new(), Vec::new());
+        let every = networks.iter().flat_map(|network| self.worlds.iter().map(move |world| (network, world)));
+        for (place, (network, world)) in every.enumerate() {
+            match world {
+                Some(World::InLanes(environment)) => in_lanes.push((place, network, &**environment)),
+                Some(World::InRapier(episode)) => in_rapier.push((place, network, &**episode)),
+                None => {}
+            }
+        }
+        let measured_in_rapier = in_rapier.into_par_iter().map(|(place, network, episode)| {
+            (place, measure(episode.environment(), self.kind, &record(episode, network).snapshots))
+        });
+        let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs));
+        let mut reports: Vec<Vec<Option<GaitReport>>> = vec![vec![None; self.len()]; networks.len()];
+        for (place, gait) in measured_in_lanes.chain(measured_in_rapier).collect::<Vec<_>>() {
+            reports[place / self.len()][place % self.len()] = gait.map(|gait| gait.report);
+        }
+        reports
+    }
+
+    /// In how many worlds the gait of a controller is usable.
+    pub(crate) fn usable(&self, network: &Network) -> usize {
+        self.judge(network).iter().flatten().filter(|report| is_usable(report)).count()
+    }
+
+    fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>]) -> Vec<(usize, Option<Gait>)> {
+        let Some((_, _, environment)) = pairs.first() else { return Vec::new() };
+        // Nothing varies in these worlds: nothing comes from the seed, and nothing can go wrong.
+        let starts = pairs.iter().map(|(_, _, world)| world.settled(Seed::of_run(0)).ok());
+        let begun: Vec<_> = pairs.iter().zip(starts).filter_map(|(pair, start)| Some((pair, start?))).collect();
+        let steps = |world: &LaneEnvironment| judged_steps(self.kind, world.settings().time_step);
+        let plays: Vec<Play<'_>> =
+            begun.iter().map(|((_, network, world), start)| Play { network, start, steps: steps(world) }).collect();
+        let mut recordings: Vec<Vec<Snapshot>> = vec![Vec::new(); plays.len()];
+        envs_lanes::play(environment, &plays, |play, snapshot| {
+            recordings[play].push(snapshot.clone());
+            true
+        });
+        // A recording may have megabytes: each goes as soon as it is measured.
+        let measured = |((place, _, world), snapshots): (&Pair<'_, LaneEnvironment>, Vec<Snapshot>)| {
+            (*place, measure(*world, self.kind, &snapshots))
+        };
+        let pairs: Vec<&Pair<'_, LaneEnvironment>> = begun.iter().map(|(pair, _)| *pair).collect();
+        pairs.into_par_iter().zip(recordings).map(measured).collect()
+    }
+}
+
+impl World {
+    /// `None` if the world makes no sense, or the creature does not come to rest there.
+    fn new(stage: &Stage, conditions: &Conditions, landscape: &Landscape) -> Option<Self> {
+        match stage.lanes().map(|lanes| lanes.under(conditions, landscape.clone())) {
+            Some(Ok(environment)) => Some(Self::InLanes(Box::new(environment))),
+            // What lanes refuse rapier may simulate.
+            None | Some(Err(EnvironmentError::Unsupported { .. })) => {
+                let environment = stage.environment().under(conditions, landscape.clone()).ok()?;
+                let steps = judged_steps(stage.kind(), environment.settings().time_step);
+                let episode = Episode::new(environment, stage.movement(), steps, Trials::default()).ok()?;
+                Some(Self::InRapier(Box::new(episode)))
+            }
+            Some(Err(_)) => None,
+        }
+    }
+}
+
+/// Measures a recording of a world; `None` for one that breaks off at once.
+pub(crate) fn measure<E: Engine>(
+    environment: &CreatureEnvironment<E>,
+    kind: Option<Kind>,
+    snapshots: &[Snapshot],
+) -> Option<Gait> {
+    let body = environment.body()?;
+    let trajectory = Trajectory::new(body, snapshots).ok()?;
+    let trajectory = if body.uneven_ground { trajectory.on_terrain() } else { trajectory };
+    let report = GaitReport::of(&trajectory, kind);
+    Some(Gait { report, obstacles: ObstaclesPassed::count(environment.landscape(), snapshots) })
+}
+
+/// Whether what was measured is a usable gait; never for a movement that is not judged.
+pub(crate) fn is_usable(report: &GaitReport) -> bool {
+    report.verdict.as_ref().is_some_and(|verdict| verdict.usable)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::perturbation::{self, tests::stage};
+    use envs_core::Ground;
+    use ne_net::{DenseNet, DenseShape};
+
+    fn network(stage: &Stage, seed: usize) -> Network {
+        let shape = DenseShape::new(stage.environment().inputs(), vec![], stage.environment().outputs());
+        let weights: Vec<f32> = (0..shape.weight_count()).map(|index| (index * seed % 7) as f32 * 0.3 - 0.8).collect();
+        DenseNet::new(shape, &weights).expect("a net").into()
+    }
+
+    fn perturbed(stage: &Stage) -> Vec<(Conditions, Landscape)> {
+        let draw = |index| {
+            let world = perturbation::World::draw(Seed::of_run(4).trial(index), stage, 5.0);
+            (world.conditions, world.landscape)
+        };
+        (0..5).map(draw).collect()
+    }
+
+    #[test]
+    fn lanes_measure_what_rapier_measures() {
+        for (creature, movement) in [("tetrapod-1", "jumping"), ("biped-1", "running")] {
+            let stage = stage(creature, movement);
+            let nominal = (Conditions::nominal(stage.environment().outputs()), Ground::flat().into());
+            let conditions: Vec<_> = perturbed(&stage).into_iter().chain([nominal]).collect();
+            let networks = [network(&stage, 3), network(&stage, 5)];
+            let reports = Worlds::new(&stage, &conditions).judge_all(&networks);
+            assert_eq!(reports, Worlds::new(&stage.clone().in_rapier(), &conditions).judge_all(&networks));
+            for (network, reports) in networks.iter().zip(&reports) {
+                assert_eq!(reports.len(), 6);
+                assert!(reports.iter().all(Option::is_some));
+                assert_eq!(reports[5], stage.measure_alone(network).map(|gait| gait.report));
+                assert_ne!(reports[0], reports[5], "another world, another gait");
+            }
+        }
+    }
+
+    #[test]
+    fn a_world_that_makes_no_sense_has_nothing_to_measure() {
+        let stage = stage("biped-1", "jumping");
+        let nominal = Conditions::nominal(stage.environment().outputs());
+        let heavy = Conditions { mass: f32::NAN, ..nominal.clone() };
+        let worlds = [nominal, heavy].map(|conditions| (conditions, Ground::flat().into()));
+        let reports = Worlds::new(&stage, &worlds).judge(&network(&stage, 3));
+        assert_eq!(reports.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false]);
+        assert!(Worlds::new(&stage, &[]).judge(&network(&stage, 3)).is_empty());
+    }
+}
