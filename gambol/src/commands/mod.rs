@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod ablation;
+mod balance;
 mod bench;
 mod bench_gaits;
 mod bench_training;
