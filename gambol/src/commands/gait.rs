@@ -16,7 +16,7 @@ use std::{
 };
 use tasks::{
     MovementCatalogue,
-    gait::{GaitError, GaitReport, Kind, Trajectory},
+    gait::{GaitError, GaitReport, Kind},
 };
 
 #[derive(Args)]
@@ -24,13 +24,13 @@ use tasks::{
 Examples:
   gambol gait runs/biped-1-running
   gambol gait champion.json --json
-  gambol replay champion.json --seconds 20 --trajectory gait.csv
+  gambol replay champion.json --trajectory gait.csv
   gambol gait gait.csv --creature biped-1 --movement running
 
 A champion is replayed in rapier, for as long as its movement is judged: 20 s of running and what is judged like it, 5 s
 of jumps, 20 s of what is not judged. A trajectory is
-taken as it is; of flat ground, with gravity as on Earth. It holds no torques: what a step costs is not known, and energy
-from nowhere is not looked for.
+taken as it is; of flat ground, with gravity as on Earth. Where it has no columns for speeds they are found by central
+differences; where it has none for torques, what a step costs is not known, and energy from nowhere is not looked for.
 
 Exit code 0: usable, or not judged. 1: something was wrong. 3: not usable.")]
 pub(crate) struct Gait {
@@ -93,11 +93,9 @@ fn of_champion(path: &Path) -> Result<Measured, Box<dyn Error>> {
 fn of_trajectory(path: &Path, creature: &str, movement: Option<&str>) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
     let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let names: Vec<String> = blueprint.parts().iter().map(|part| part.name.clone()).collect();
-    let read = read_csv(&text, &names).map_err(|error| format!("{}, {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
-    let trajectory =
-        Trajectory::from_positions(&body, &read.snapshots).map_err(|error| located(path, &read, &error))?;
+    let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;
+    let trajectory = read.trajectory(&body).map_err(|error| located(path, &read, &error))?;
     let report = GaitReport::of(&trajectory, movement.and_then(Kind::of));
     let movement = movement.map_or_else(String::new, |movement| format!(" {movement}"));
     let gait = gait::Gait { report, obstacles: Vec::new() };
@@ -117,6 +115,9 @@ fn located(path: &Path, read: &CsvTrajectory, error: &GaitError) -> String {
              ({expected:.4} s on average)",
             line(*snapshot)
         ),
+        GaitError::NotFinite { snapshot, what } if read.speeds_known => {
+            format!("{path}{}: step {snapshot}: {what} is too large", line(*snapshot))
+        }
         GaitError::NotFinite { snapshot, .. } => {
             format!("{path}{}: step {snapshot} is too far from its neighbours for any speed", line(*snapshot))
         }
