@@ -12,6 +12,7 @@ pub struct Blueprint {
     actuated: Vec<usize>,
     feet: Vec<usize>,
     legs: Vec<Vec<usize>>,
+    arms: Vec<Vec<usize>>,
     /// Left, bottom, right and top of the start pose, m.
     bounding_box: [f32; 4],
 }
@@ -37,6 +38,8 @@ pub struct BodyPart {
     pub angle: f32,
     /// Whether its tag is an actuated one. Its hinge may still lack a motor: see [`Hinge::actuated`].
     pub actuated: bool,
+    /// Whether the chain it belongs to may be a leg: see [`Part::leg`](crate::Part::leg).
+    pub leg: bool,
 }
 
 /// A hinge between two parts.
@@ -97,6 +100,7 @@ impl Blueprint {
                 y: part.position[1],
                 angle: part.angle.to_radians(),
                 actuated: creature.actuated_tags.contains(&part.tag),
+                leg: part.leg,
             })
             .collect();
         let index_of = |name: &str| parts.iter().position(|part| part.name == name);
@@ -118,10 +122,11 @@ impl Blueprint {
             })
             .collect();
         let actuated = (0..hinges.len()).filter(|&hinge| hinges[hinge].actuated).collect();
-        let feet = legs::feet(&parts, &hinges);
-        let legs = legs::legs(&parts, &hinges, &feet);
+        let limbs = legs::limbs(&parts, &hinges).into_iter();
+        let (legs, arms): (Vec<_>, Vec<_>) = limbs.partition(|limb| legs::is_leg(&parts, limb));
+        let feet = legs.iter().filter_map(|leg| leg.last().copied()).collect();
         let bounding_box = bounding_box(&parts);
-        Self { creature, parts, hinges, actuated, feet, legs, bounding_box }
+        Self { creature, parts, hinges, actuated, feet, legs, arms, bounding_box }
     }
 
     /// The creature as its file says it, looks included.
@@ -149,8 +154,8 @@ impl Blueprint {
         &self.actuated
     }
 
-    /// Indices of the feet, the last segments of the legs: actuated parts on which nothing hangs. In the order of the
-    /// parts; the two end segments of a chain whose torso is in the middle.
+    /// Indices of the feet, the last segments of the legs: actuated parts on which nothing hangs, but for those of
+    /// [`arms`](Self::arms). In the order of the parts; the two end segments of a chain whose torso is in the middle.
     pub fn feet(&self) -> &[usize] {
         &self.feet
     }
@@ -162,8 +167,15 @@ impl Blueprint {
         &self.legs
     }
 
+    /// The actuated chains that are no legs, because one of their parts [says so](crate::Part::leg): arms and tails, each from
+    /// the body outwards. In the order of their last parts; none in most creatures.
+    pub fn arms(&self) -> &[Vec<usize>] {
+        &self.arms
+    }
+
     /// Whether no foot reaches lower than the torso in the start pose (by at least 1 cm): the creature lies on the
-    /// ground and crawls, like an apod. Its gait is told by its joints rather than by its footfalls.
+    /// ground and crawls, like an apod. So does one without feet, whose chains are all [`arms`](Self::arms). Its gait is told
+    /// by its joints rather than by its footfalls.
     pub fn is_legless(&self) -> bool {
         let torso = self.parts[0].lowest_point() - 0.01;
         self.feet.iter().all(|&foot| self.parts[foot].lowest_point() > torso)

@@ -80,6 +80,10 @@ pub struct Part {
     #[serde(default, skip_serializing_if = "is_zero")]
     #[cfg_attr(feature = "schema", schemars(range(min = -360.0, max = 360.0)))]
     pub angle: f32,
+    /// Whether the chain of parts it belongs to may be a leg; default true. False for arms and tails: their last part is no
+    /// foot, but their motors are outputs of the net like all others.
+    #[serde(default = "default_leg", skip_serializing_if = "is_true")]
+    pub leg: bool,
     /// How it is drawn; default a grey shape.
     #[serde(default)]
     pub look: Look,
@@ -162,6 +166,14 @@ impl Creature {
 
 fn default_actuated_tags() -> Vec<String> {
     vec!["leg".to_owned()]
+}
+
+fn default_leg() -> bool {
+    true
+}
+
+fn is_true(value: &bool) -> bool {
+    *value
 }
 
 fn default_friction() -> f32 {

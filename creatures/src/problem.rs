@@ -203,6 +203,9 @@ pub enum Problem {
         first: usize,
     },
     /// A sensor of feet asked of a creature without feet.
-    #[error("{path}: `{sensor}` needs feet: a part with an actuated tag on which no other part hangs")]
+    #[error(
+        "{path}: `{sensor}` needs feet: a part with an actuated tag on which no other part hangs, in a chain whose parts do \
+         not say \"leg\": false"
+    )]
     NoFeet { path: String, sensor: &'static str },
 }

@@ -118,7 +118,7 @@ fn unknown_fields_name_the_nearest() {
     let UnknownName { path, what, found, nearest, valid, .. } = unknown.as_ref();
     assert_eq!((path.as_str(), *what, found.as_str()), ("parts[0].frction", "field", "frction"));
     assert_eq!(nearest.as_deref(), Some("friction"));
-    assert_eq!(valid.len(), 8);
+    assert_eq!(valid.len(), 9);
     assert!(error.to_string().contains("unknown field `frction`; did you mean `friction`?"), "{error}");
 
     let error = error_of(|file| file["parts"][0]["shape"]["box"]["heigth"] = json!(1));

@@ -309,7 +309,8 @@ fn sensors() {
             f["sensors"] = json!(["foot-contacts"]);
         },
         Problem::NoFeet { .. },
-        "sensors[0]: `foot-contacts` needs feet: a part with an actuated tag on which no other part hangs"
+        "sensors[0]: `foot-contacts` needs feet: a part with an actuated tag on which no other part hangs, in a chain \
+         whose parts do not say \"leg\": false"
     );
     problem!(
         |f| {
@@ -318,7 +319,8 @@ fn sensors() {
             f["sensors"] = json!(["foot-slip"]);
         },
         Problem::NoFeet { .. },
-        "sensors[0]: `foot-slip` needs feet: a part with an actuated tag on which no other part hangs"
+        "sensors[0]: `foot-slip` needs feet: a part with an actuated tag on which no other part hangs, in a chain \
+         whose parts do not say \"leg\": false"
     );
     problem!(
         |f| f["sensors"] = json!([{ "next-gap": { "length": 0 } }]),

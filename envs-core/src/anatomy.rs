@@ -11,6 +11,7 @@ pub fn body_of(blueprint: &Blueprint) -> Body {
     Body {
         body_length: blueprint.body_length(),
         start_height: blueprint.start_height(),
+        start_angle: parts[0].angle,
         gravity: STANDARD_GRAVITY,
         parts: parts.iter().map(part).collect(),
         hinges: blueprint.hinges().iter().map(|hinge_| hinge(hinge_, parts)).collect(),

@@ -72,6 +72,11 @@ impl Stage {
         self.movement.clone()
     }
 
+    /// How long an episode lasts here, in steps.
+    pub fn steps(&self) -> u32 {
+        self.episode.steps()
+    }
+
     /// How a gait is judged here, if it is.
     pub fn kind(&self) -> Option<Kind> {
         self.kind

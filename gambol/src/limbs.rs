@@ -25,8 +25,18 @@ struct Limb {
     /// −1 for a limb whose first part lies rather behind its parent than below it: the rear half of a caterpillar, the hind
     /// legs of a long body. It is a mirror image, and bends the other way, as knees do where elbows bend.
     sign: f32,
-    /// Limbs with equally many joints share a net: which.
+    /// Limbs with equally many joints share a net, but for arms, which share one with arms of the same tag: which.
     kind: usize,
+    /// The tag of its first part, if it is one of the [arms](Blueprint::arms).
+    arm: Option<String>,
+}
+
+impl Limb {
+    /// What limbs of its kind are called in the names of genes.
+    fn kind_name(&self) -> String {
+        let joints = self.hinges.len();
+        self.arm.as_ref().map_or_else(|| format!("{joints} joints"), |tag| format!("{tag} of {joints} joints"))
+    }
 }
 
 /// What a limb is made of.
@@ -35,6 +45,8 @@ struct Chain {
     hinges: Vec<usize>,
     /// Its parts, passive ones among them: a foot that dangles feels the ground all the same.
     parts: Vec<usize>,
+    /// Whether it is one of the [arms](Blueprint::arms).
+    arm: bool,
 }
 
 /// What a copy of the net sees.
@@ -101,19 +113,19 @@ pub(crate) fn topology(
     let inputs = senses.len();
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
-        let joints = copies[0].1.hinges.len();
+        let (joints, kind_name) = (copies[0].1.hinges.len(), copies[0].1.kind_name());
         let sights: Vec<Sights> = copies.iter().map(|(_, limb)| sees(limb, senses)).collect();
         // A copy may lack a sense that another has, but slots are the same in all of them.
         let longest = sights.iter().max_by_key(|sights| sights.slots.len());
         let slots = longest.map_or(&[][..], |sights| &sights.slots);
         let own = ["threshold", "place"].into_iter().chain(slots.iter().map(String::as_str));
         let neuron = |target: &str| {
-            let own = own.clone().map(|source| format!("{joints} joints, {target}: {source}"));
+            let own = own.clone().map(|source| format!("{kind_name}, {target}: {source}"));
             own.collect::<Vec<_>>()
         };
         let hears = |joint: usize| {
-            let heard = (0..hidden).map(move |index| format!("{joints} joints, joint {joint}: hidden {index}"));
-            neuron(&format!("joint {joint}")).into_iter().chain(heard)
+            let heard = (0..hidden).map(|index| format!("{kind_name}, joint {joint}: hidden {index}"));
+            neuron(&format!("joint {joint}")).into_iter().chain(heard).collect::<Vec<_>>()
         };
         let hidden_genes: Vec<usize> =
             (0..hidden).map(|index| genes.group(neuron(&format!("hidden {index}")))).collect();
@@ -196,6 +208,8 @@ fn sees(limb: &Limb, senses: &Senses) -> Sights {
                 let first = *speeds.get_or_insert_with(|| sights.add::<Vec<_>>(joints("speed")));
                 place_of(hinge).map(|joint| (Sight::Joint, first + joint))
             }
+            // Arms have no feet.
+            Source::Contact(_) | Source::Slip(_) if limb.arm.is_some() => None,
             Source::Contact(part) => {
                 let slot = *feet.get_or_insert_with(|| sights.add(["contact of foot".to_owned()]));
                 limb.parts.contains(&part).then_some((Sight::Foot, slot))
@@ -213,40 +227,42 @@ fn sees(limb: &Limb, senses: &Senses) -> Sights {
     sights
 }
 
-/// The limbs of a creature: its legs and, each alone, the actuated hinges that are in none; of a legless creature each
-/// hinge.
+/// The limbs of a creature: its legs, its arms and, each alone, the actuated hinges that are in neither; of a legless
+/// creature each hinge.
 fn limbs(blueprint: &Blueprint, phases: LimbPhases) -> Vec<Limb> {
     let actuated = blueprint.actuated();
     let hinge_of = |part: usize| actuated.iter().copied().find(|&hinge| blueprint.hinges()[hinge].child == part);
     let mut chains: Vec<Chain> = Vec::new();
     let mut taken = vec![false; blueprint.hinges().len()];
     if !blueprint.is_legless() {
-        for leg in blueprint.legs() {
+        let legs = blueprint.legs().iter().map(|leg| (leg, false));
+        for (limb, arm) in legs.chain(blueprint.arms().iter().map(|arm| (arm, true))) {
             let hinges: Vec<usize> =
-                leg.iter().filter_map(|&part| hinge_of(part)).filter(|&hinge| !taken[hinge]).collect();
+                limb.iter().filter_map(|&part| hinge_of(part)).filter(|&hinge| !taken[hinge]).collect();
             hinges.iter().for_each(|&hinge| taken[hinge] = true);
             if !hinges.is_empty() {
-                chains.push(Chain { hinges, parts: leg.clone() });
+                chains.push(Chain { hinges, parts: limb.clone(), arm });
             }
         }
     }
     for &hinge in actuated.iter().filter(|&&hinge| !taken[hinge]) {
-        chains.push(Chain { hinges: vec![hinge], parts: vec![blueprint.hinges()[hinge].child] });
+        chains.push(Chain { hinges: vec![hinge], parts: vec![blueprint.hinges()[hinge].child], arm: false });
     }
     let places = places(blueprint, &chains);
-    let mut kinds: Vec<usize> = Vec::new();
+    let mut kinds: Vec<(usize, Option<String>)> = Vec::new();
     let phase_of = phases_of(&places, phases, blueprint.is_legless());
-    let limb = |(Chain { hinges, parts }, (&place, phase)): (Chain, (&f32, f32))| {
-        let joints = hinges.len();
-        let kind = kinds.iter().position(|&kind| kind == joints).unwrap_or_else(|| {
-            kinds.push(joints);
+    let limb = |(Chain { hinges, parts, arm }, (&place, phase)): (Chain, (&f32, f32))| {
+        let arm = arm.then(|| blueprint.parts()[parts[0]].tag.clone());
+        let kind = (hinges.len(), arm.clone());
+        let kind = kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
+            kinds.push(kind);
             kinds.len() - 1
         });
         let hinge = &blueprint.hinges()[hinges[0]];
         let (parent, child) = (&blueprint.parts()[hinge.parent], &blueprint.parts()[hinge.child]);
         let across = (child.x - parent.x).abs() > (child.y - parent.y).abs();
         let sign = if across && child.x < parent.x { -1.0 } else { 1.0 };
-        Limb { hinges, parts, place, phase, sign, kind }
+        Limb { hinges, parts, place, phase, sign, kind, arm }
     };
     chains.into_iter().zip(places.iter().zip(phase_of)).map(limb).collect()
 }

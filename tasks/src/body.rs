@@ -9,13 +9,16 @@ pub struct Body {
     pub body_length: f32,
     /// Height of the torso's centre above the lowest point in the start pose, m.
     pub start_height: f32,
+    /// The torso's angle as the creature's file draws it, rad, counter-clockwise. Tilt counts from there, so that a body that
+    /// topples while it settles is tilted.
+    pub start_angle: f32,
     /// What pulls it down, m/s²: in water gravity less buoyancy, which may be below 0.
     pub gravity: f32,
     /// What each part is like.
     pub parts: Vec<BodyPart>,
     /// Every hinge; hinge `i` is the same everywhere.
     pub hinges: Vec<BodyHinge>,
-    /// The legs: the indices of their parts, from hip to foot. Only legs that move actively are listed.
+    /// The legs: the indices of their parts, from hip to foot. Only legs that move actively are listed, and no arms.
     pub legs: Vec<Vec<usize>>,
     /// Whether it lies on the ground and crawls: its gait is told by its hinges, and not by its footfalls. The legs are
     /// then the chains that hang on its torso.

@@ -35,6 +35,7 @@ fn puppet() -> Body {
     Body {
         body_length: 1.0,
         start_height: 0.5,
+        start_angle: 0.0,
         gravity: 9.81,
         parts: vec![part("torso", &[[-0.2, -0.1], [0.2, 0.1]]), leg("left leg"), leg("right leg")],
         hinges: HIPS.into_iter().enumerate().map(hinge).collect(),

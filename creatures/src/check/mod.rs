@@ -33,8 +33,18 @@ pub(crate) fn check(creature: &Creature) -> Vec<Problem> {
     problems
 }
 
+/// Whether a leg ends somewhere. Of a creature whose tree is not one, any answer will do that ends.
 fn has_feet(creature: &Creature) -> bool {
-    creature.parts.iter().skip(1).any(|part| {
-        creature.actuated_tags.contains(&part.tag) && !creature.joints.iter().any(|joint| joint.parent == part.name)
+    let part_of = |name: &str| creature.parts.iter().position(|part| part.name == name);
+    let parent_of = |part: usize| {
+        let joint = creature.joints.iter().find(|joint| joint.child == creature.parts[part].name)?;
+        part_of(&joint.parent).filter(|&parent| parent < part)
+    };
+    let is_actuated = |part: usize| part != 0 && creature.actuated_tags.contains(&creature.parts[part].tag);
+    (1..creature.parts.len()).any(|part| {
+        let is_last = !creature.joints.iter().any(|joint| joint.parent == creature.parts[part].name);
+        let above = |&part: &usize| parent_of(part).filter(|&parent| is_actuated(parent));
+        let mut limb = std::iter::successors(Some(part), above);
+        is_actuated(part) && is_last && limb.all(|part| creature.parts[part].leg)
     })
 }

@@ -72,6 +72,7 @@ fn a_snake_of_150_parts_moves_as_in_rapier() {
             friction: 1.0,
             position: [x, 0.025],
             angle: 0.0,
+            leg: true,
             look: Default::default(),
         });
         if index > 0 {

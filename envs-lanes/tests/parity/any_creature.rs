@@ -138,6 +138,7 @@ fn assemble(sketches: &[Sketch], tree: Tree, height: f32, place: f32) -> Creatur
             friction: sketch.friction,
             position,
             angle: sketch.angle,
+            leg: true,
             look: Default::default(),
         });
     }

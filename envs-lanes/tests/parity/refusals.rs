@@ -48,7 +48,17 @@ fn more_than_100_parts_at_one_part_are_refused() {
             let position = [0.0, 0.1];
             let (name, tag) = (format!("part {index}"), "leg".to_owned());
             let look = Default::default();
-            creature.parts.push(Part { name, tag, shape, density: 10.0, friction: 1.0, position, angle: 0.0, look });
+            creature.parts.push(Part {
+                name,
+                tag,
+                shape,
+                density: 10.0,
+                friction: 1.0,
+                position,
+                angle: 0.0,
+                leg: true,
+                look,
+            });
             if index > 0 {
                 let motor = Some(Motor { top_speed: 1.0, top_torque: 1.0 });
                 let child = format!("part {index}");

@@ -14,7 +14,7 @@ use tasks::Environment;
 
 fn part(name: &str, tag: &str, shape: Shape, density: f32, position: [f32; 2]) -> Part {
     let (name, tag) = (name.to_owned(), tag.to_owned());
-    Part { name, tag, shape, density, friction: 1.0, position, angle: 0.0, look: Default::default() }
+    Part { name, tag, shape, density, friction: 1.0, position, angle: 0.0, leg: true, look: Default::default() }
 }
 
 fn rectangle(width: f32, height: f32) -> Shape {

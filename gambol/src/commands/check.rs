@@ -1,4 +1,4 @@
-use super::Outcome;
+use super::{Outcome, balance};
 use clap::Args;
 use creatures::{Blueprint, Creature, DEFAULT_INPUT_RANGE, Motors, Senses};
 use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
@@ -26,7 +26,11 @@ Examples:
   gambol check my-creature.json
   gambol check tetrapod-2
   gambol check my-config.json
-  gambol check runs/biped-1-running/champion.json")]
+  gambol check runs/biped-1-running/champion.json
+
+A creature is also let settle in rapier, its motors holding still, as before every episode. It is warned of if its torso
+then has turned by more than 5° from the pose in its file, or has sunk by more than 15 % of its height. Warnings leave
+the exit code at 0.")]
 pub(crate) struct Check {
     /// A creature, configuration or champion file, or a shipped creature's name (see: gambol creatures)
     #[arg(value_name = "FILE|NAME")]
@@ -78,6 +82,9 @@ fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>>
     let world = (PhysicsSettings::default(), Ground::flat(), Conditions::nominal(motors.len()));
     if let Err(refusal) = LaneEngine::new(&blueprint, &world.0, &world.1, &world.2) {
         say!("  note: {refusal}; train it with --engine rapier")?;
+    }
+    for warning in balance::warnings(&blueprint) {
+        say!("  warning: {warning}")?;
     }
     for channel in senses.channels() {
         say!("  in   {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;

@@ -18,7 +18,7 @@ use std::{
 };
 use tasks::{
     MovementCatalogue,
-    gait::{GaitError, GaitReport, Kind, Trajectory},
+    gait::{GaitError, GaitReport, Kind},
 };
 
 #[derive(Args)]
@@ -27,16 +27,17 @@ Examples:
   gambol gait runs/biped-1-running
   gambol gait champion.json --json
   gambol gait runs/biped-1-running --sheet sheet.png
-  gambol replay champion.json --seconds 20 --trajectory gait.csv
+  gambol replay champion.json --trajectory gait.csv
   gambol gait gait.csv --creature biped-1 --movement running
 
 The contact sheet is one image: twelve frames over a stride or a jump, footfalls, pitch and height of the torso, the verdict.
 
-A champion is replayed in rapier, for as long as its movement is judged: 20 s of running and what is judged like it, 5 s
-of jumps, 20 s of what is not judged. One that is usable must be so in 7 of 8 near worlds as well: friction, gravity, mass
-and time step off by up to 1 %, the start pose by up to 1 degree. A trajectory is taken as it is and judged alone; of flat
-ground, with gravity as on Earth. It holds no torques: what a step costs is not known, and energy from nowhere is not
-looked for.
+A champion is replayed in rapier, for as long as its movement is judged: 60 s of running and what is judged like it, 5 s
+of jumps, 20 s of swimming and of what is not judged. One that is usable must be so in 7 of 8 near worlds as well:
+friction, gravity, mass and time step off by up to 1 %, the start pose by up to 1 degree, the torso spinning by up to 0.05
+rad/s. A trajectory is taken as it is and judged alone; of flat ground, with gravity as on Earth. Where it has no columns
+for speeds they are found by central differences; where it has none for torques, what a step costs is not known, and
+energy from nowhere is not looked for.
 
 Exit code 0: usable, or not judged. 1: something was wrong. 3: not usable.")]
 pub(crate) struct Gait {
@@ -134,11 +135,9 @@ fn of_trajectory(
 ) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
     let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
-    let names: Vec<String> = blueprint.parts().iter().map(|part| part.name.clone()).collect();
-    let read = read_csv(&text, &names).map_err(|error| format!("{}, {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
-    let trajectory =
-        Trajectory::from_positions(&body, &read.snapshots).map_err(|error| located(path, &read, &error))?;
+    let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;
+    let trajectory = read.trajectory(&body).map_err(|error| located(path, &read, &error))?;
     let report = GaitReport::of(&trajectory, movement.and_then(Kind::of));
     let subject = sheet::Subject {
         blueprint: &blueprint,
@@ -166,6 +165,9 @@ fn located(path: &Path, read: &CsvTrajectory, error: &GaitError) -> String {
              ({expected:.4} s on average)",
             line(*snapshot)
         ),
+        GaitError::NotFinite { snapshot, what } if read.speeds_known => {
+            format!("{path}{}: step {snapshot}: {what} is too large", line(*snapshot))
+        }
         GaitError::NotFinite { snapshot, .. } => {
             format!("{path}{}: step {snapshot} is too far from its neighbours for any speed", line(*snapshot))
         }

@@ -9,6 +9,7 @@ macro_rules! say {
 }
 
 mod ablation;
+mod balance;
 mod bench;
 mod bench_gaits;
 mod bench_training;
@@ -35,7 +36,7 @@ type Outcome = Result<ExitCode, Box<dyn Error>>;
 
 /// The exit code of `verify` when the replay is not what the file says.
 const DIVERGED: u8 = 3;
-/// The exit code of `gait` when the gait is not usable.
+/// The exit code of `gait` when the gait is not usable, and of a run that was to end with a usable one and did not.
 const NOT_USABLE: u8 = 3;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
@@ -73,7 +74,8 @@ Exit codes:
   0    done
   1    something was wrong: the message says which file and which field
   2    the command line was not understood
-  3    verify: the replay is not what the champion file says; gait: the gait is not usable
+  3    verify: the replay is not what the champion file says; gait: the gait is not usable;
+       train and resume with --until usable: no usable gait was found
   130  a run was interrupted; it is saved and can be resumed
 
 Set GAMBOL_LOG=debug to see what the libraries do."

@@ -13,7 +13,7 @@ use std::{
     io::{self, IsTerminal, Write},
     time::{Duration, Instant},
 };
-use tasks::MovementCatalogue;
+use tasks::{MovementCatalogue, gait::Judgement};
 
 /// Between two lines where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(5);
@@ -129,24 +129,25 @@ impl Show {
         }
     }
 
-    pub(super) fn result(&self, outcome: &Outcome, seconds: f64, report: bool) {
+    /// What came of the run. `verdict`: on the champion's gait, if those of its movement are judged.
+    pub(super) fn result(&self, outcome: &Outcome, verdict: Option<&Judgement>, seconds: f64, report: bool) {
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
         if matches!(self.manner, Manner::Json) {
             let trained = champion.as_ref().and_then(|champion| champion.trained);
             print_json(&json!({ "result": {
                 "folder": folder.path(), "reason": reason, "progress": progress, "fitness": fitness,
-                "trained": trained, "seconds": seconds,
+                "trained": trained, "verdict": verdict, "seconds": seconds,
             }}));
         }
         if matches!(self.manner, Manner::Quiet | Manner::Json) {
             return;
         }
         // A reader that went away (`| head`) does not make a run that went well a failure.
-        let _ = self.summary(outcome, seconds, report);
+        let _ = self.summary(outcome, verdict, seconds, report);
     }
 
-    fn summary(&self, outcome: &Outcome, seconds: f64, report: bool) -> io::Result<()> {
+    fn summary(&self, outcome: &Outcome, verdict: Option<&Judgement>, seconds: f64, report: bool) -> io::Result<()> {
         let Outcome { folder, reason, progress, champion } = outcome;
         let generations = progress.generations;
         match champion {
@@ -163,6 +164,9 @@ impl Show {
             None if generations == 0 => say!("no generation was done: {reason}")?,
             None => say!("every evaluation failed; {reason} after {generations} generations")?,
         }
+        if let Some(verdict) = verdict {
+            say!("gait      {}", in_words(verdict))?;
+        }
         if champion.is_some() {
             say!("champion  {}", folder.champion().display())?;
         }
@@ -173,6 +177,16 @@ impl Show {
             say!("go on     gambol resume {}", folder.path().display())?;
         }
         Ok(())
+    }
+}
+
+/// `usable`, or `not usable: ` and what speaks against it.
+fn in_words(verdict: &Judgement) -> String {
+    let reasons: Vec<String> = verdict.reasons.iter().map(ToString::to_string).collect();
+    match verdict.near_worlds {
+        _ if !verdict.usable => format!("not usable: {}", reasons.join("; ")),
+        Some(near) => format!("usable, in {} of {} near worlds too", near.usable, near.worlds),
+        None => "usable".into(),
     }
 }
 

@@ -1,7 +1,7 @@
 use super::{Outcome, gait::champion_file};
 use clap::Args;
 use gambol::{
-    Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::legs,
+    Setup, champion::Champion, dot::dot, front::Front, gait::Stage, report, run_folder::RunFolder, shaping::legs,
     trajectory::Recording,
 };
 use ne_core::archive;
@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
 };
-use tasks::MovementCatalogue;
+use tasks::{Body, Environment, MovementCatalogue};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -20,8 +20,13 @@ Examples:
   gambol replay champion.json --dot net.dot              then, with Graphviz: dot -Tsvg net.dot > net.svg
   gambol replay runs/tetrapod-1-running --point 3 --trajectory thrifty.csv --save thrifty.json
 
+Trajectory and page show what `gambol gait` judges: the champion in rapier, in the world without variation, for as long as
+its movement is judged (or --seconds), and no term ends it. What is printed at the end is an evaluation, which terms may end.
+
 The trajectory has a row for each step and part, the start included:
-  step,time_s,part,x_m,y_m,angle_rad,ground_contact")]
+  step,time_s,part,x_m,y_m,angle_rad,ground_contact,vx_m_per_s,vy_m_per_s,spin_rad_per_s,motor_torque_n_m
+The torque is that of the motor of the joint on which the part hangs, empty if a controller moves none there. `gambol gait`
+reads such a file.")]
 pub(crate) struct Replay {
     /// A champion file, or the folder of a run
     champion: PathBuf,
@@ -34,13 +39,13 @@ pub(crate) struct Replay {
     /// Write a page that shows the gait
     #[arg(long, value_name = "FILE")]
     html: Option<PathBuf>,
-    /// Write where every part is after every step, as CSV
+    /// Write where every part is after every step, how fast, and what its motor does, as CSV
     #[arg(long, value_name = "FILE")]
     trajectory: Option<PathBuf>,
     /// Write the net as a graph in the DOT language
     #[arg(long, value_name = "FILE")]
     dot: Option<PathBuf>,
-    /// How long to play [default: as long as an evaluation]
+    /// How long to play [default: trajectory and page as long as the movement is judged, else as long as an evaluation]
     #[arg(long)]
     seconds: Option<f64>,
     /// Overwrite files that exist
@@ -60,26 +65,24 @@ impl Replay {
             champion.write(path)?;
             say!("champion    {}", path.display())?;
         }
-        if let Some(seconds) = self.seconds {
-            let steps = seconds / f64::from(champion.physics.time_step);
-            if !(1.0..=1e6).contains(&steps) {
-                return Err(format!("--seconds {seconds}: must give from 1 to 1000000 steps").into());
-            }
-            champion.movement.steps = Some(steps.round() as u32);
-        }
+        let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
+        champion.movement.steps = steps.or(champion.movement.steps);
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
         let episode = champion.episode(&catalogue).map_err(|error| in_file(&error))?;
-        let mut recording = Recording::default();
-        let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut recording);
+        let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut ());
         if let Some(failure) = &played.failure {
             say!("the replay failed after {} steps: {failure}", played.steps)?;
         }
         if let Some(path) = &self.trajectory {
-            let names: Vec<String> = champion.creature.parts.iter().map(|part| part.name.clone()).collect();
+            let stage = Stage::new(champion.episode_parts(), &catalogue).map_err(|error| in_file(&error))?;
+            let world = stage.environment();
+            let (recording, failure) = Recording::play(world, &champion.network, steps.unwrap_or(stage.steps()));
             let mut csv = Vec::new();
-            recording.write_csv(&names, &mut csv)?;
+            recording.write_csv(world.body().unwrap_or(&Body::default()), &mut csv)?;
             archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
-            say!("trajectory  {}", path.display())?;
+            let seconds = recording.snapshots.last().map_or(0.0, |last| last.time);
+            let failure = failure.map_or_else(String::new, |failure| format!(", ended by a failure: {failure}"));
+            say!("trajectory  {}, {seconds:.2} s{failure}", path.display())?;
         }
         if let Some(path) = &self.dot {
             archive::write_whole(path, dot(&champion).as_bytes())
@@ -87,7 +90,7 @@ impl Replay {
             say!("net         {}", path.display())?;
         }
         if let Some(path) = &self.html {
-            report::write_replay(&champion, &catalogue, path)?;
+            report::write_replay(&champion, &catalogue, steps, path)?;
             say!("page        {}", path.display())?;
         }
         let (value, unit) = (played.movement.value(), played.movement.unit());
@@ -114,6 +117,15 @@ impl Replay {
             }
         }
         Ok(())
+    }
+}
+
+/// The steps of so many seconds.
+fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
+    let steps = seconds / f64::from(time_step);
+    match (1.0..=1e6).contains(&steps) {
+        true => Ok(steps.round() as u32),
+        false => Err(format!("--seconds {seconds}: must give from 1 to 1000000 steps")),
     }
 }
 

@@ -1,9 +1,10 @@
-use super::{INTERRUPTED, Outcome, progress::Show};
+use super::{INTERRUPTED, NOT_USABLE, Outcome, progress::Show};
 use clap::{Args, ValueEnum};
 use gambol::{
     Setup,
+    champion::Champion,
     config::{Request, RunConfig},
-    report,
+    gait, report,
     shaping::{self, Carried, Journey},
     suggest,
     training::{self, TrainOptions},
@@ -15,7 +16,10 @@ use std::{
     process::ExitCode,
     time::Instant,
 };
-use tasks::MovementCatalogue;
+use tasks::{
+    MovementCatalogue,
+    gait::{Judgement, Kind, Reason},
+};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -38,7 +42,10 @@ Examples:
   gambol train --config shaping/run-then-gaps-then-thrift.json
   gambol train tetrapod-2 jumping --from runs/tetrapod-2-running
 
-A run ends at the first limit it meets; without any, after 300 generations. Ctrl-C finishes the generation and saves.")]
+A run ends at the first limit it meets; without any, after 300 generations. Ctrl-C finishes the generation and saves.
+At the end the champion's gait is judged, as `gambol gait` judges it, if those of its movement are.
+
+Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable. 130: interrupted.")]
 pub(crate) struct Train {
     /// A shipped creature's name (see: gambol creatures) or a creature file
     creature: Option<String>,
@@ -116,7 +123,7 @@ pub(super) struct Limits {
     /// End after so much wall-clock time, such as 10s, 90s, 5m or 1h, with the best usable champion so far
     #[arg(long, value_name = "TIME", value_parser = minutes_of, conflicts_with = "minutes")]
     budget: Option<f64>,
-    /// End as soon as the champion's gait is usable (see: gambol gait)
+    /// End as soon as the champion's gait is usable (see: gambol gait); exit code 3 if it never is
     #[arg(long, value_name = "WHAT")]
     until: Option<Until>,
     /// End when this fitness is reached
@@ -295,6 +302,26 @@ pub(super) fn carry_out(
     if !manner.no_report {
         report::write_report(&outcome.folder, &catalogue, Some(outcome.reason))?;
     }
-    show.result(&outcome, seconds, !manner.no_report);
-    Ok(if outcome.reason == StopReason::Interrupted { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS })
+    let until_usable = config.stop.grade.is_some();
+    // Judging takes a whole episode: not where nobody is told.
+    let judged = outcome.champion.as_ref().filter(|_| !manner.quiet || until_usable);
+    let verdict = judged.and_then(|champion| verdict(champion, &catalogue));
+    show.result(&outcome, verdict.as_ref(), seconds, !manner.no_report);
+    let usable = verdict.is_some_and(|verdict| verdict.usable);
+    Ok(match outcome.reason {
+        StopReason::Interrupted => ExitCode::from(INTERRUPTED),
+        _ if until_usable && !usable => ExitCode::from(NOT_USABLE),
+        _ => ExitCode::SUCCESS,
+    })
+}
+
+/// What `gambol gait` says of a champion; `None` if gaits of its movement are not judged.
+fn verdict(champion: &Champion, catalogue: &MovementCatalogue) -> Option<Judgement> {
+    let kind = Kind::of(&champion.movement.name)?;
+    let nothing_to_measure = || {
+        let reasons = vec![Reason::TooShort { seconds: 0.0, required: kind.judged_seconds() }];
+        Judgement { usable: false, reasons, best_flight: None, near_worlds: None }
+    };
+    let report = gait::judge(champion, catalogue).ok();
+    Some(report.and_then(|report| report.verdict).unwrap_or_else(nothing_to_measure))
 }

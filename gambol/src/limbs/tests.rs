@@ -26,6 +26,7 @@ struct Made {
     motors: Motors,
     limbs: Vec<Limb>,
     shape: TiedShape,
+    names: Vec<String>,
 }
 
 impl Made {
@@ -45,8 +46,8 @@ impl Made {
         let motors = Motors::new(blueprint);
         let config = preset("default").expect("there").config(blueprint.creature().clone(), "running");
         let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
-        let shape = topology(blueprint, &senses, &motors, &controller, phases).topology;
-        Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape }
+        let Limbs { topology: shape, names } = topology(blueprint, &senses, &motors, &controller, phases);
+        Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape, names }
     }
 
     /// The ties of each limb's copy, as they follow each other.
@@ -273,6 +274,7 @@ fn hanging(chain: &[(&str, &str, &str, bool)]) -> Blueprint {
         friction: 1.0,
         position,
         angle: 0.0,
+        leg: true,
         look: Default::default(),
     };
     creature.parts.push(part("torso", "torso", [0.0, 0.9]));
@@ -328,4 +330,44 @@ fn where_legs_branch_each_joint_is_moved_by_one_limb() {
     assert_eq!(limbs_of(&hanging(&branching)), [left.clone(), right]);
     let alone = (vec![2], vec!["thigh", "right shin"], 1);
     assert_eq!(limbs_of(&hanging(&branching[..3])), [left, alone], "legs of two joints and of one are of two kinds");
+}
+
+/// Arms hang on a body that walks: they are moved, but what they learn is not what legs learn.
+#[test]
+fn arms_are_limbs_with_weights_of_their_own() {
+    let mut creature = hanging(&[
+        ("left thigh", "torso", "leg", true),
+        ("left shin", "left thigh", "leg", true),
+        ("left arm", "torso", "leg", true),
+        ("left hand", "left arm", "leg", true),
+        ("right arm", "torso", "leg", true),
+        ("right hand", "right arm", "leg", true),
+        ("tail", "torso", "leg", true),
+        ("tip", "tail", "leg", true),
+    ])
+    .creature()
+    .clone();
+    for part in &mut creature.parts {
+        match part.name.as_str() {
+            "left arm" | "right hand" => part.leg = false,
+            "tail" => (part.leg, part.tag) = (false, "tail".into()),
+            _ => {}
+        }
+    }
+    creature.actuated_tags.push("tail".into());
+    let blueprint = Blueprint::new(creature).expect("valid");
+    let leg = (vec![0, 1], vec!["left thigh", "left shin"], 0);
+    let arms = [(vec![2, 3], vec!["left arm", "left hand"], 1), (vec![4, 5], vec!["right arm", "right hand"], 1)];
+    let tail = (vec![6, 7], vec!["tail", "tip"], 2);
+    assert_eq!(limbs_of(&blueprint), [leg, arms[0].clone(), arms[1].clone(), tail]);
+    let names = Made::new(&blueprint, LimbPhases::Alternating).names;
+    for name in
+        ["2 joints, joint 0: threshold", "leg of 2 joints, joint 0: threshold", "tail of 2 joints, joint 0: threshold"]
+    {
+        assert!(names.iter().any(|found| found == name), "{name}: {names:?}");
+    }
+    let mut unique = names.clone();
+    unique.sort();
+    unique.dedup();
+    assert_eq!(unique.len(), names.len(), "a name is one gene's");
 }

@@ -19,6 +19,7 @@ use crate::{
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     setup::SetupError,
     sheet::{self, SheetError},
+    trajectory::Recording,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
@@ -138,11 +139,21 @@ fn compose(
     })
 }
 
-/// Makes a page that replays a champion, and nothing else.
+/// Makes a page that replays a champion, and nothing else: in the world in which its gait is judged, for so many steps, or
+/// for as long as it is judged. No term ends it.
 ///
 /// # Errors
 /// If the champion's task cannot be built, or the page cannot be written.
-pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &Path) -> Result<(), ReportError> {
+pub fn write_replay(
+    champion: &Champion,
+    catalogue: &MovementCatalogue,
+    steps: Option<u32>,
+    path: &Path,
+) -> Result<(), ReportError> {
+    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    let steps = steps.unwrap_or(stage.steps());
+    let (recording, _) = Recording::play(stage.environment(), &champion.network, steps);
+    let body_length = stage.environment().blueprint().body_length();
     let unit = catalogue.find(&champion.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
     let report = Report {
         title: format!("{} · {} · Gambol", champion.creature.name, champion.movement.name),
@@ -153,8 +164,8 @@ pub fn write_replay(champion: &Champion, catalogue: &MovementCatalogue, path: &P
         history: Vec::new(),
         species: Vec::new(),
         statistics: Vec::new(),
-        champion: Some(champion_data(champion, catalogue)?),
-        ground: GroundData::new(champion.episode(catalogue)?.environment().ground(), DRAWN),
+        champion: Some(ChampionData::new(champion, &recording, body_length)),
+        ground: GroundData::new(stage.environment().ground(), DRAWN),
         gait: gait_data(champion, catalogue)?,
         front: None,
         strip: Vec::new(),

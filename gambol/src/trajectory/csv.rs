@@ -5,18 +5,46 @@ use std::{
     collections::HashMap,
     io::{self, Write},
 };
-use tasks::{PartState, Snapshot};
+use tasks::{
+    Body, PartState, Snapshot,
+    gait::{GaitError, Trajectory},
+};
 
-/// What each column is, in the order they are written.
-const COLUMNS: [&str; 7] = ["step", "time_s", "part", "x_m", "y_m", "angle_rad", "ground_contact"];
+/// What each column is that must be there, in the order they are written.
+const PLACES: [&str; 7] = ["step", "time_s", "part", "x_m", "y_m", "angle_rad", "ground_contact"];
 
-/// A trajectory read from CSV: places, angles and contacts, and neither speeds nor the motors' work.
+/// Of these columns all are there or none.
+const SPEEDS: [&str; 3] = ["vx_m_per_s", "vy_m_per_s", "spin_rad_per_s"];
+
+/// This one may be there if the speeds are.
+const TORQUE: &str = "motor_torque_n_m";
+
+/// A trajectory read from CSV: places, angles and contacts, and what else the file holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CsvTrajectory {
-    /// Where every part was, at the start and after every step.
+    /// Where every part was, at the start and after every step; speeds and the motors' work are 0 if the file does not hold
+    /// them.
     pub snapshots: Vec<Snapshot>,
     /// The line each snapshot begins at, from 1.
     pub lines: Vec<usize>,
+    /// Whether the file holds speeds.
+    pub speeds_known: bool,
+    /// Whether it holds torques, and with them the motors' work.
+    pub work_known: bool,
+}
+
+impl CsvTrajectory {
+    /// The trajectory, ready to be measured: with central differences where the file holds no speeds.
+    ///
+    /// # Errors
+    /// See [`Trajectory::new`].
+    pub fn trajectory<'a>(&'a self, body: &'a Body) -> Result<Trajectory<'a>, GaitError> {
+        match (self.speeds_known, self.work_known) {
+            (true, true) => Trajectory::new(body, &self.snapshots),
+            (true, false) => Ok(Trajectory::new(body, &self.snapshots)?.without_work()),
+            (false, _) => Trajectory::from_positions(body, &self.snapshots),
+        }
+    }
 }
 
 /// What is wrong with a trajectory, and where.
@@ -30,21 +58,34 @@ pub struct CsvError {
 }
 
 impl Recording {
-    /// Writes one row for each step and part, the start included:
-    /// `step,time_s,part,x_m,y_m,angle_rad,ground_contact`.
+    /// Writes one row for each step and part, the start included: `step,time_s,part,x_m,y_m,angle_rad,ground_contact`, then
+    /// `vx_m_per_s,vy_m_per_s,spin_rad_per_s` and, if torques were recorded, `motor_torque_n_m`.
     ///
     /// `part` is the part's name, quoted where CSV needs it; `angle_rad` is against the world, counter-clockwise, above
-    /// −π and up to π; `ground_contact` is 1 while the part presses on the ground, else 0.
+    /// −π and up to π; `ground_contact` is 1 while the part presses on the ground, else 0; the torque is that of the motor of
+    /// the hinge on which the part hangs, empty if the controller moves none there. Numbers are as short as gives them back
+    /// to the bit.
     ///
     /// # Errors
     /// Whatever the writer says.
-    pub fn write_csv(&self, part_names: &[String], out: &mut impl Write) -> io::Result<()> {
-        writeln!(out, "{}", COLUMNS.join(","))?;
+    pub fn write_csv(&self, body: &Body, out: &mut impl Write) -> io::Result<()> {
+        let with_torques = self.torques.len() == self.snapshots.len();
+        let torque = with_torques.then_some(TORQUE);
+        let columns: Vec<&str> = PLACES.into_iter().chain(SPEEDS).chain(torque).collect();
+        writeln!(out, "{}", columns.join(","))?;
+        let motor_of: Vec<Option<usize>> =
+            (0..body.parts.len()).map(|part| body.actuated().position(|hinge| hinge.child == part)).collect();
         for (step, snapshot) in self.snapshots.iter().enumerate() {
-            for (name, part) in part_names.iter().zip(&snapshot.parts) {
+            for ((shape, motor), part) in body.parts.iter().zip(&motor_of).zip(&snapshot.parts) {
                 let (time, contact) = (snapshot.time, u8::from(part.touching));
-                let name = quoted(name);
-                writeln!(out, "{step},{time},{name},{},{},{},{contact}", part.x, part.y, part.angle())?;
+                let (name, angle) = (quoted(&shape.name), part.angle());
+                write!(out, "{step},{time},{name},{},{},{angle},{contact}", part.x, part.y)?;
+                write!(out, ",{},{},{}", part.vx, part.vy, part.spin)?;
+                match motor.and_then(|motor| self.torques.get(step)?.get(motor)) {
+                    Some(torque) => writeln!(out, ",{torque}")?,
+                    None if with_torques => writeln!(out, ",")?,
+                    None => writeln!(out)?,
+                }
             }
         }
         Ok(())
@@ -55,19 +96,22 @@ fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-/// Reads what [`Recording::write_csv`] writes. Columns may be in any order, and there may be others; so may the parts of a
-/// step, but each must be there once. Steps count up from 0.
+/// Reads what [`Recording::write_csv`] writes, for this body. Columns may be in any order, and there may be others; so may the
+/// parts of a step, but each must be there once. Steps count up from 0. The columns of speeds, and that of torques, may be
+/// missing. The motors' work is |torque × speed of the hinge| × time step, added up over steps and motors.
 ///
 /// # Errors
 /// Names the line and what is wrong with it: a column that is missing, what is not a number, a part the creature does not
-/// have, has twice or is without, a step out of order.
-pub fn read_csv(text: &str, part_names: &[String]) -> Result<CsvTrajectory, CsvError> {
+/// have, has twice or is without, a step out of order, a torque where there is no motor.
+pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
+    let names: Vec<&str> = body.parts.iter().map(|part| part.name.as_str()).collect();
     let mut rows = rows(text.strip_prefix('\u{feff}').unwrap_or(text))?.into_iter();
-    let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", COLUMNS.join(","))))?;
-    let columns = columns(&header)?;
-    let indices: HashMap<&str, usize> = part_names.iter().map(String::as_str).zip(0..).collect();
-    let mut reader =
-        Reader { names: part_names, read: CsvTrajectory { snapshots: vec![], lines: vec![] }, seen: vec![] };
+    let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", PLACES.join(","))))?;
+    let places = columns(&header, PLACES)?;
+    let (speeds, torque) = further_columns(&header)?;
+    let indices: HashMap<&str, usize> = names.iter().copied().zip(0..).collect();
+    let motors: Vec<bool> = (0..names.len()).map(|part| body.actuated().any(|hinge| hinge.child == part)).collect();
+    let mut reader = Reader { names: &names, snapshots: vec![], lines: vec![], torques: vec![], seen: vec![] };
     let mut last_line = header.line;
     for row in rows {
         last_line = row.line;
@@ -75,9 +119,9 @@ pub fn read_csv(text: &str, part_names: &[String]) -> Result<CsvTrajectory, CsvE
             let (found, expected) = (row.fields.len(), header.fields.len());
             return Err(wrong(row.line, format!("{found} fields, the header has {expected}")));
         }
-        let [step, time, part, x, y, angle, contact] = columns.map(|column| row.fields[column].as_str());
+        let [step, time, part, x, y, angle, contact] = places.map(|column| row.fields[column].as_str());
         let number = |what: &str, text: &str| number(row.line, what, text);
-        let part = *indices.get(part).ok_or_else(|| unknown_part(row.line, part, part_names))?;
+        let part = *indices.get(part).ok_or_else(|| wrong(row.line, crate::suggest::unknown("part", part, &names)))?;
         let angle = number("angle_rad", angle)?;
         let touching = match contact.trim() {
             "0" => false,
@@ -85,22 +129,59 @@ pub fn read_csv(text: &str, part_names: &[String]) -> Result<CsvTrajectory, CsvE
             other => return Err(wrong(row.line, format!("ground_contact is \"{other}\", expected 0 or 1"))),
         };
         let (cos, sin) = (libm::cosf(angle), libm::sinf(angle));
-        let state =
+        let mut state =
             PartState { x: number("x_m", x)?, y: number("y_m", y)?, cos, sin, touching, ..PartState::default() };
+        if let Some(columns) = speeds {
+            for (value, (column, name)) in
+                [&mut state.vx, &mut state.vy, &mut state.spin].into_iter().zip(columns.into_iter().zip(SPEEDS))
+            {
+                *value = number(name, &row.fields[column])?;
+            }
+        }
+        let torque = match torque {
+            Some(column) => torque_of(row.line, &row.fields[column], names[part], motors[part])?,
+            None => 0.0,
+        };
         let step =
             step.trim().parse().map_err(|_| wrong(row.line, format!("step is \"{step}\", expected a whole number")))?;
-        reader.add(row.line, step, number("time_s", time)?, part, state)?;
+        reader.add(row.line, step, number("time_s", time)?, part, state, torque)?;
     }
-    reader.finish(last_line)
+    let mut read = reader.finish(last_line)?;
+    if torque.is_some() {
+        add_work(body, &mut read.snapshots, &read.torques);
+    }
+    let Reader { snapshots, lines, .. } = read;
+    Ok(CsvTrajectory { snapshots, lines, speeds_known: speeds.is_some(), work_known: torque.is_some() })
+}
+
+/// The torque on a part, N·m; 0 where no motor is to give one.
+fn torque_of(line: usize, text: &str, part: &str, has_motor: bool) -> Result<f32, CsvError> {
+    let torque = if text.trim().is_empty() && !has_motor { 0.0 } else { number(line, TORQUE, text)? };
+    if torque != 0.0 && !has_motor {
+        let what = format!("{TORQUE} is {torque}, expected 0 or nothing: \"{part}\" hangs on no motor of a controller");
+        return Err(wrong(line, what));
+    }
+    Ok(torque)
+}
+
+/// Adds up what the motors have done by the end of each step.
+fn add_work(body: &Body, snapshots: &mut [Snapshot], torques: &[Vec<f32>]) {
+    let (Some(first), Some(last)) = (snapshots.first(), snapshots.last()) else { return };
+    let steps = snapshots.len().saturating_sub(1).max(1);
+    let time_step = f64::from(last.time - first.time) / steps as f64;
+    let mut work = 0.0;
+    for (snapshot, torques) in snapshots.iter_mut().zip(torques).skip(1) {
+        let parts = &snapshot.parts;
+        let powers = body
+            .actuated()
+            .map(|hinge| (torques[hinge.child] * (parts[hinge.child].spin - parts[hinge.parent].spin)).abs());
+        work += f64::from(powers.sum::<f32>()) * time_step;
+        snapshot.motor_work = work;
+    }
 }
 
 fn wrong(line: usize, what: String) -> CsvError {
     CsvError { line, what }
-}
-
-fn unknown_part(line: usize, part: &str, known: &[String]) -> CsvError {
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    wrong(line, crate::suggest::unknown("part", part, &known))
 }
 
 fn number(line: usize, what: &str, text: &str) -> Result<f32, CsvError> {
@@ -110,35 +191,58 @@ fn number(line: usize, what: &str, text: &str) -> Result<f32, CsvError> {
         .ok_or_else(|| wrong(line, format!("{what} is \"{text}\", expected a finite number")))
 }
 
-/// Where each of the columns is.
-fn columns(header: &Row) -> Result<[usize; 7], CsvError> {
-    let mut places = [0; 7];
-    for (place, name) in places.iter_mut().zip(COLUMNS) {
-        let found = header.fields.iter().position(|field| field.trim() == name);
-        *place = found.ok_or_else(|| {
-            wrong(header.line, format!("the column \"{name}\" is missing; expected {}", COLUMNS.join(",")))
+/// Where a column is, if it is there.
+fn column(header: &Row, name: &str) -> Option<usize> {
+    header.fields.iter().position(|field| field.trim() == name)
+}
+
+/// Where each of these columns is.
+fn columns<const N: usize>(header: &Row, names: [&str; N]) -> Result<[usize; N], CsvError> {
+    let mut places = [0; N];
+    for (place, name) in places.iter_mut().zip(names) {
+        *place = column(header, name).ok_or_else(|| {
+            wrong(header.line, format!("the column \"{name}\" is missing; expected {}", names.join(",")))
         })?;
     }
     Ok(places)
 }
 
+/// Where the speeds are, if they are there, and the torques. Some of the speeds are too few, and so are torques alone.
+fn further_columns(header: &Row) -> Result<(Option<[usize; 3]>, Option<usize>), CsvError> {
+    let torque = column(header, TORQUE);
+    let any = torque.is_some() || SPEEDS.iter().any(|name| column(header, name).is_some());
+    Ok((any.then(|| columns(header, SPEEDS)).transpose()?, torque))
+}
+
 /// Puts rows together to snapshots.
 struct Reader<'a> {
-    names: &'a [String],
-    read: CsvTrajectory,
+    names: &'a [&'a str],
+    snapshots: Vec<Snapshot>,
+    lines: Vec<usize>,
+    /// Of each snapshot, the torque on each part.
+    torques: Vec<Vec<f32>>,
     /// Which parts of the last snapshot have come.
     seen: Vec<bool>,
 }
 
 impl Reader<'_> {
-    fn add(&mut self, line: usize, step: usize, time: f32, part: usize, state: PartState) -> Result<(), CsvError> {
-        let steps = self.read.snapshots.len();
+    fn add(
+        &mut self,
+        line: usize,
+        step: usize,
+        time: f32,
+        part: usize,
+        state: PartState,
+        torque: f32,
+    ) -> Result<(), CsvError> {
+        let steps = self.snapshots.len();
         if step == steps {
             self.check_whole(line)?;
             self.seen = vec![false; self.names.len()];
             let parts = vec![PartState::default(); self.names.len()];
-            self.read.snapshots.push(Snapshot { time, parts, motor_work: 0.0 });
-            self.read.lines.push(line);
+            self.snapshots.push(Snapshot { time, parts, motor_work: 0.0 });
+            self.torques.push(vec![0.0; self.names.len()]);
+            self.lines.push(line);
         } else if step + 1 != steps {
             let expected = if steps == 0 { "0".into() } else { format!("{} or {steps}", steps - 1) };
             return Err(wrong(line, format!("step {step} is out of order, expected {expected}")));
@@ -147,7 +251,7 @@ impl Reader<'_> {
         if std::mem::replace(&mut self.seen[part], true) {
             return Err(wrong(line, format!("step {step} has the part \"{name}\" twice")));
         }
-        let snapshot = &mut self.read.snapshots[step];
+        let snapshot = &mut self.snapshots[step];
         if snapshot.time != time {
             return Err(wrong(
                 line,
@@ -155,6 +259,7 @@ impl Reader<'_> {
             ));
         }
         snapshot.parts[part] = state;
+        self.torques[step][part] = torque;
         Ok(())
     }
 
@@ -162,16 +267,16 @@ impl Reader<'_> {
     fn check_whole(&self, line: usize) -> Result<(), CsvError> {
         match self.seen.iter().position(|seen| !seen) {
             Some(part) => {
-                let (step, name) = (self.read.snapshots.len() - 1, &self.names[part]);
+                let (step, name) = (self.snapshots.len() - 1, &self.names[part]);
                 Err(wrong(line, format!("step {step} ends without the part \"{name}\"")))
             }
             None => Ok(()),
         }
     }
 
-    fn finish(self, last_line: usize) -> Result<CsvTrajectory, CsvError> {
+    fn finish(self, last_line: usize) -> Result<Self, CsvError> {
         self.check_whole(last_line)?;
-        Ok(self.read)
+        Ok(self)
     }
 }
 
@@ -209,97 +314,4 @@ fn rows(text: &str) -> Result<Vec<Row>, CsvError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn names() -> Vec<String> {
-        ["torso", "a \"long\", bent\nleg"].map(str::to_owned).into()
-    }
-
-    fn recording() -> Recording {
-        let part = |x: f32, angle: f32| PartState {
-            x,
-            y: 0.1,
-            cos: angle.cos(),
-            sin: angle.sin(),
-            touching: x > 0.5,
-            ..PartState::default()
-        };
-        let snapshot = |step: u8| {
-            let time = f32::from(step) * 0.02;
-            Snapshot { time, parts: vec![part(time, 0.3), part(1.0 / 3.0 + time, -3.0)], motor_work: 0.0 }
-        };
-        Recording { snapshots: (0..20).map(snapshot).collect(), activations: Vec::new() }
-    }
-
-    fn written() -> String {
-        let mut csv = Vec::new();
-        recording().write_csv(&names(), &mut csv).expect("memory");
-        String::from_utf8(csv).expect("text")
-    }
-
-    #[test]
-    fn what_is_written_is_read_again() {
-        let read = read_csv(&written(), &names()).expect("what was written");
-        assert_eq!(read.snapshots.len(), 20);
-        // The second name takes two lines.
-        assert_eq!(read.lines[..3], [2, 5, 8]);
-        for (read, was) in read.snapshots.iter().zip(&recording().snapshots) {
-            assert_eq!(read.time, was.time);
-            for (read, was) in read.parts.iter().zip(&was.parts) {
-                assert_eq!((read.x, read.y, read.touching), (was.x, was.y, was.touching));
-                assert!((read.cos - was.cos).abs() < 1e-6 && (read.sin - was.sin).abs() < 1e-6);
-            }
-        }
-    }
-
-    #[test]
-    fn columns_and_parts_may_be_in_another_order() {
-        let text =
-            "part,step,time_s,x_m,y_m,note,ground_contact,angle_rad\r\nb,0,0,1,2,hm,1,0\r\na,0,0,3,4,,0,0\r\n\r\n";
-        let read = read_csv(text, &["a".to_owned(), "b".to_owned()]).expect("valid");
-        let [a, b] = &read.snapshots[0].parts[..] else { panic!("two parts") };
-        assert_eq!((a.x, a.y, a.touching, b.x, b.y, b.touching), (3.0, 4.0, false, 1.0, 2.0, true));
-    }
-
-    #[test]
-    fn what_is_wrong_is_named_with_its_line() {
-        let names = ["torso", "leg"].map(str::to_owned);
-        let good = "0,0,torso,0,1,0,0\n0,0,leg,0,0,0,1\n1,0.02,torso,0,1,0,0\n1,0.02,leg,0,0,0,1\n";
-        let header = "step,time_s,part,x_m,y_m,angle_rad,ground_contact\n";
-        let refusal = |text: &str| read_csv(text, &names).expect_err(text).to_string();
-        let changed = |from: &str, to: &str| {
-            assert!(good.contains(from), "{from}");
-            refusal(&format!("{header}{}", good.replacen(from, to, 1)))
-        };
-        assert!(read_csv(&format!("{header}{good}"), &names).is_ok());
-        assert_eq!(refusal(""), "line 1: expected the columns step,time_s,part,x_m,y_m,angle_rad,ground_contact");
-        assert!(refusal(good).starts_with("line 1: the column \"step\" is missing; expected step,time_s,"));
-        assert!(refusal(&header.replace(",y_m", "")).starts_with("line 1: the column \"y_m\" is missing"));
-        assert_eq!(
-            changed("1,0.02,torso,0,1", "1,0.02,torso,0,high"),
-            "line 4: y_m is \"high\", expected a finite number"
-        );
-        assert_eq!(changed("0,0,leg,0", "0,0,leg,inf"), "line 3: x_m is \"inf\", expected a finite number");
-        assert_eq!(
-            changed("1,0.02,leg,0,0,0,1", "1,0.02,leg,0,0,0,yes"),
-            "line 5: ground_contact is \"yes\", expected 0 or 1"
-        );
-        assert_eq!(
-            changed("0,0,leg", "0,0,legs"),
-            "line 3: there is no part \"legs\"; did you mean \"leg\"? (there are: torso, leg)"
-        );
-        assert_eq!(changed("0,0,leg", "0,0,torso"), "line 3: step 0 has the part \"torso\" twice");
-        assert_eq!(changed("0,0,leg,0,0,0,1\n", ""), "line 3: step 0 ends without the part \"leg\"");
-        assert_eq!(changed("1,0.02,leg,0,0,0,1\n", ""), "line 4: step 1 ends without the part \"leg\"");
-        assert_eq!(changed("1,0.02,torso", "3,0.02,torso"), "line 4: step 3 is out of order, expected 0 or 1");
-        assert_eq!(changed("0,0,torso", "1,0,torso"), "line 2: step 1 is out of order, expected 0");
-        assert_eq!(changed("1,0.02,torso", "1.5,0.02,torso"), "line 4: step is \"1.5\", expected a whole number");
-        assert_eq!(
-            changed("1,0.02,leg", "1,0.03,leg"),
-            "line 5: time_s is 0.03, but 0.02 in the rows before of step 1"
-        );
-        assert_eq!(changed("0,0,leg,0,0,0,1", "0,0,leg,0,0,0"), "line 3: 6 fields, the header has 7");
-        assert_eq!(changed("0,0,leg", "0,0,\"leg"), "line 3: a quotation mark is never closed");
-    }
-}
+mod tests;

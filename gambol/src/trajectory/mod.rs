@@ -1,6 +1,7 @@
 //! What a champion did, step by step: recorded, digested, written as CSV and read from it.
 
 mod csv;
+mod play;
 
 pub use csv::{CsvError, CsvTrajectory, read_csv};
 
@@ -72,16 +73,27 @@ pub struct Recording {
     /// The activation of every node of the net, inputs first, in the order they are computed; empty if the controller
     /// does not show them.
     pub activations: Vec<Vec<f32>>,
+    /// The torque each motor gave in the step that led there, N·m, in order of the controller's outputs; empty if it was not
+    /// [played](Self::play) but watched.
+    pub torques: Vec<Vec<f32>>,
+}
+
+impl Recording {
+    fn note_activations(&mut self, network: &Network) {
+        match network {
+            Network::Dense(net) => self.activations.push(net.activations().flatten().copied().collect()),
+            Network::Graph(net) => self.activations.push(net.activations().to_vec()),
+            _ => {}
+        }
+    }
 }
 
 impl Watcher for Recording {
     fn watch(&mut self, moment: &Moment<'_>) {
         self.snapshots.push(moment.snapshot.clone());
         let phenotype: &dyn std::any::Any = moment.phenotype;
-        match phenotype.downcast_ref() {
-            Some(Network::Dense(net)) => self.activations.push(net.activations().flatten().copied().collect()),
-            Some(Network::Graph(net)) => self.activations.push(net.activations().to_vec()),
-            _ => {}
+        if let Some(network) = phenotype.downcast_ref() {
+            self.note_activations(network);
         }
     }
 }

@@ -42,7 +42,80 @@ fn every_shipped_creature_is_valid() -> Outcome {
         fs::write(&path, shipped.json)?;
         let printed = succeed(gambol("check").arg(&path));
         assert_says(&printed, &[text(&path), "a valid creature", "\n  in   ", "\n  out  "]);
+        assert!(!printed.contains("warning"), "{printed}");
     }
+    Ok(())
+}
+
+/// This shipped creature with something changed, checked: what is printed. It stays valid.
+fn checked(name: &str, change: impl FnOnce(&mut creatures::Creature)) -> Result<String, Box<dyn std::error::Error>> {
+    let mut creature = creatures::find(name)?;
+    change(&mut creature);
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("changed.json");
+    fs::write(&path, creature.to_json())?;
+    Ok(succeed(gambol("check").arg(&path)))
+}
+
+/// A body that topples before the clock starts would else be judged from where it lies.
+#[test]
+fn a_creature_that_starts_out_of_balance_is_warned_of() -> Outcome {
+    for (x, way, side) in [(2.0, "forwards", "ahead of"), (-2.0, "backwards", "behind")] {
+        let printed = checked("biped-1", |creature| {
+            let mut weight = creature.parts[0].clone();
+            (weight.name, weight.tag, weight.position[0]) = ("weight".into(), "weight".into(), 0.25 * x);
+            weight.density = 500.0;
+            let anchor = [0.1 * x, weight.position[1]];
+            let joint = creatures::Joint {
+                parent: creature.parts[0].name.clone(),
+                child: "weight".into(),
+                anchor,
+                limits: [0.0, 0.0],
+                motor: None,
+            };
+            creature.parts.push(weight);
+            creature.joints.push(joint);
+        })?;
+        assert_says(
+            &printed,
+            &[
+                "a valid creature",
+                "warning: it settles tilted by ",
+                &format!("° {way}: it starts out of balance; move"),
+            ],
+        );
+        assert_says(&printed, &[&format!(" m {side} the points on the ground (x = ")]);
+    }
+    Ok(())
+}
+
+/// Its centre of mass is above its feet, but motors that are asked for speed 0 let an ankle creep.
+#[test]
+fn a_creature_whose_joints_creep_is_warned_of() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/creatures/biped-with-feet.json");
+    let printed = succeed(gambol("check").arg(path));
+    assert_says(
+        &printed,
+        &["warning: it settles tilted by ", " % lower: it starts out of balance", "creep under load"],
+    );
+}
+
+#[test]
+fn a_creature_that_sinks_or_cannot_settle_is_warned_of() -> Outcome {
+    let printed = checked("tetrapod-2", |creature| {
+        creature
+            .joints
+            .iter_mut()
+            .for_each(|joint| joint.motor = joint.motor.map(|motor| creatures::Motor { top_torque: 0.01, ..motor }));
+        let shins = creature.parts.iter_mut().filter(|part| part.name.contains("shin"));
+        shins.for_each(|shin| shin.position[0] += 0.15);
+    })?;
+    assert_says(&printed, &["warning: its torso sinks by ", " % while it settles, from ", "straighten its legs"]);
+    let printed = checked("biped-1", |creature| {
+        creature.parts.iter_mut().for_each(|part| part.position[1] += 30.0);
+        creature.joints.iter_mut().for_each(|joint| joint.anchor[1] += 30.0);
+    })?;
+    assert_says(&printed, &["warning: it cannot be trained: ", "still in the air after settling for 1 s"]);
     Ok(())
 }
 

@@ -11,8 +11,8 @@ use std::{
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// What an evaluation in these tests lasts, and a step.
-const STEPS: usize = 60;
+/// What a run is judged in, and a step.
+const JUDGED_STEPS: usize = 1000;
 const STEP_SECONDS: f64 = 0.02;
 
 fn trained(folder: &Path, creature: &str) -> PathBuf {
@@ -30,7 +30,10 @@ fn trajectory(champion: &Path, seconds: Option<&str>) -> Result<Vec<Vec<String>>
     succeed(replay.args(seconds.map(|seconds| ["--seconds", seconds]).into_iter().flatten()));
     let text = fs::read_to_string(csv)?;
     let (header, rows) = text.split_once('\n').expect("a header");
-    assert_eq!(header, "step,time_s,part,x_m,y_m,angle_rad,ground_contact");
+    assert_eq!(
+        header,
+        "step,time_s,part,x_m,y_m,angle_rad,ground_contact,vx_m_per_s,vy_m_per_s,spin_rad_per_s,motor_torque_n_m"
+    );
     Ok(rows.lines().map(|row| row.split(',').map(str::to_owned).collect()).collect())
 }
 
@@ -40,14 +43,19 @@ fn a_trajectory_has_a_row_for_each_step_and_part() -> Outcome {
     let champion = trained(folder.path(), "tetrapod-1");
     let rows = trajectory(&champion, None)?;
     let parts = ["torso", "left front leg", "right front leg", "left hind leg", "right hind leg"].len();
-    assert_eq!(rows.len(), (STEPS + 1) * parts);
+    assert_eq!(rows.len(), (JUDGED_STEPS + 1) * parts);
     for (index, row) in rows.iter().enumerate() {
         let (step, part) = (index / parts, index % parts);
-        let [number, time, name, x, y, angle, contact] = &row[..] else { panic!("{row:?} has not seven columns") };
+        let [number, time, name, x, y, angle, contact, speeds @ .., torque] = &row[..] else {
+            panic!("{row:?} has not eleven columns")
+        };
         assert_eq!(number.parse::<usize>()?, step);
         assert!((time.parse::<f64>()? - step as f64 * STEP_SECONDS).abs() < 1e-4, "{row:?}");
         assert_eq!(*name, rows[part][2], "parts come in the same order at every step");
-        for value in [x, y] {
+        assert_eq!(speeds.len(), 3);
+        assert_eq!(torque.is_empty(), part == 0, "each leg has a motor: {row:?}");
+        assert!(torque.is_empty() || torque.parse::<f64>()?.is_finite());
+        for value in [x, y].into_iter().chain(speeds) {
             assert!(value.parse::<f64>()?.abs() < 100.0, "{row:?}");
         }
         assert!(angle.parse::<f64>()?.abs() <= std::f64::consts::PI + 1e-6, "{row:?}");
@@ -62,8 +70,8 @@ fn a_replay_can_be_shorter_or_longer_and_begins_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     let champion = trained(folder.path(), "biped-1");
     let whole = trajectory(&champion, None)?;
-    let (short, long) = (trajectory(&champion, Some("0.5"))?, trajectory(&champion, Some("3"))?);
-    assert_eq!((short.len(), whole.len(), long.len()), (26 * 3, 61 * 3, 151 * 3));
+    let (short, long) = (trajectory(&champion, Some("0.5"))?, trajectory(&champion, Some("25"))?);
+    assert_eq!((short.len(), whole.len(), long.len()), (26 * 3, 1001 * 3, 1251 * 3));
     assert_eq!(short[..], long[..short.len()]);
     assert_eq!(whole[..], long[..whole.len()]);
     Ok(())
@@ -95,6 +103,12 @@ fn a_page_shows_the_replay_and_needs_no_network() -> Outcome {
     assert!(data["gait"]["verdict"]["usable"].is_boolean());
     let replay = &data["champion"]["replay"];
     assert_eq!((&replay["frames"], &replay["parts"]), (&101.into(), &3.into()));
+    // Else it is what is judged.
+    let whole = folder.path().join("whole.html");
+    succeed(gambol("replay").arg(&champion).arg("--html").arg(&whole));
+    let whole = crate::reporting::data(&fs::read_to_string(whole)?);
+    assert_eq!(whole["champion"]["replay"]["frames"], JUDGED_STEPS + 1);
+    assert_eq!(whole["gait"]["duration_s"].as_f64().map(|seconds| seconds.round()), Some(20.0));
     assert_eq!(replay["data"].as_array().map(Vec::len), Some(101 * 3 * 3));
     Ok(())
 }

@@ -1,6 +1,6 @@
 use crate::{
     folder::LASTING,
-    program::{WITHOUT_JURY, assert_says, gambol, run, small_run, succeed, text},
+    program::{WITHOUT_JURY, assert_says, gambol, run, small_run, small_run_of, succeed, text},
 };
 use serde_json::Value;
 use std::{collections::BTreeSet, fs};
@@ -57,6 +57,51 @@ fn json_is_a_line_for_each_generation_and_one_for_the_result() -> Outcome {
     assert_eq!(result["progress"]["evaluations"], 40);
     assert_eq!(result["fitness"], generations[4]["generation"]["best_so_far"]);
     assert_eq!(result["trained"], Value::Null, "its fitness is that of training");
+    Ok(())
+}
+
+/// What two generations have learned is no gait: the run says so, and what `gambol gait` says against it.
+#[test]
+fn a_run_that_finds_nothing_usable_says_so_and_why() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let told = succeed(&mut small_run(&path, 2));
+    let judged = run(gambol("gait").arg(&path));
+    assert_eq!(judged.code, Some(3));
+    let reasons: Vec<&str> = judged.stdout.lines().skip(1).map_while(|line| line.strip_prefix("  ")).collect();
+    assert!(!reasons.is_empty(), "{}", judged.stdout);
+    assert_says(&told, &[&format!("\ngait      not usable: {}\n", reasons.join("; "))]);
+    let json = |arguments: &mut std::process::Command| -> Result<Value, serde_json::Error> {
+        let ended = run(arguments);
+        let line: Value = serde_json::from_str(ended.stdout.lines().last().expect("a result"))?;
+        Ok(line["result"]["verdict"].clone())
+    };
+    let report: Value = serde_json::from_str(&run(gambol("gait").arg(&path).arg("--json")).stdout)?;
+    assert_eq!(report["verdict"]["usable"], false);
+    let again = folder.path().join("again");
+    assert_eq!(json(small_run(&again, 2).arg("--json"))?, report["verdict"]);
+    // More generations, and what came of them.
+    let resumed = json(gambol("resume").arg(&again).args(["--json", "--no-report", "--generations", "3"]))?;
+    assert!(resumed["usable"].is_boolean(), "{resumed}");
+    let standing = folder.path().join("standing");
+    let mut train = small_run_of("biped-1", "standing", &standing, 2);
+    assert_eq!(json(train.arg("--json"))?, Value::Null, "standing is not judged");
+    Ok(())
+}
+
+#[test]
+fn a_run_until_usable_that_finds_nothing_usable_ends_with_exit_code_3() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for flag in ["--quiet", "--json"] {
+        let path = folder.path().join(flag);
+        let ended = run(small_run(&path, 2).args(["--until", "usable", flag]));
+        assert_eq!(ended.code, Some(3), "{flag}: {}{}", ended.stdout, ended.stderr);
+        assert_eq!(ended.stderr, "");
+        // The run has been saved, and goes on.
+        let mut resume = gambol("resume");
+        resume.arg(&path).args(["--quiet", "--no-report", "--until", "usable", "--generations", "3"]);
+        assert_eq!(run(&mut resume).code, Some(3));
+    }
     Ok(())
 }
 

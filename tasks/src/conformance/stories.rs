@@ -56,6 +56,7 @@ pub(super) fn bodies() -> [(&'static str, Body); 3] {
     let body = |parts: usize, hinges: &[(usize, usize)], legs: &[&[usize]]| Body {
         body_length: 1.0,
         start_height: 1.0,
+        start_angle: 0.0,
         gravity: 9.81,
         parts: (0..parts).map(part).collect(),
         hinges: hinges.iter().copied().map(hinge).collect(),

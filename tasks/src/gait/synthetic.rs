@@ -119,6 +119,7 @@ pub(super) fn body() -> Body {
     Body {
         body_length: 1.0,
         start_height: 0.8,
+        start_angle: 0.0,
         gravity: 9.81,
         parts: vec![part("torso", 10.0, 0.6, 0.3), part("left leg", 1.0, 0.1, 0.6), part("right leg", 1.0, 0.1, 0.6)],
         hinges: vec![hip(1), hip(2)],

@@ -2,7 +2,8 @@ use super::Trajectory;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
-/// How upright the torso stays, against its angle in the settled start pose.
+/// How upright the torso stays, against its [angle in the creature's file](crate::Body::start_angle): a body that topples while
+/// it settles is tilted from the start.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Uprightness {
     /// The farthest it ever turned either way, degrees, whole turns counted: a somersault is 360.

@@ -56,6 +56,13 @@ impl<'a> Trajectory<'a> {
         Self::checked(body, Cow::Owned(derived), false)
     }
 
+    /// The same, of a recording that holds speeds, but not the motors' work: there is no cost of transport and no audit of the
+    /// energy.
+    #[must_use]
+    pub fn without_work(self) -> Self {
+        Self { work_known: false, ..self }
+    }
+
     /// The same, on ground that is not flat: parts below height 0 are no tunnelling then.
     #[must_use]
     pub fn on_terrain(self) -> Self {
@@ -77,8 +84,8 @@ impl<'a> Trajectory<'a> {
     fn checked(body: &'a Body, snapshots: Cow<'a, [Snapshot]>, work_known: bool) -> Result<Self, GaitError> {
         let time_step = check(body, &snapshots)?;
         let mut tilts = unwrapped(snapshots.iter().map(|snapshot| angle_of(snapshot.torso())));
-        let start = tilts[0];
-        tilts.iter_mut().for_each(|tilt| *tilt -= start);
+        let turns = tilts[0] - shorter_way(tilts[0] - f64::from(body.start_angle));
+        tilts.iter_mut().for_each(|tilt| *tilt -= turns);
         let hinge_angles = body.hinges.iter().map(|hinge| angles(hinge, &snapshots)).collect();
         Ok(Self {
             body,
@@ -160,7 +167,8 @@ impl<'a> Trajectory<'a> {
         f64::from(self.snapshots[step].torso().y) - f64::from(self.snapshots[0].torso().y)
     }
 
-    /// The torso's angle against its start, rad, counting whole turns.
+    /// The torso's angle against [that of its file](Body::start_angle), rad, counting whole turns; at the start at most half
+    /// a turn.
     pub(super) fn tilts(&self) -> &[f64] {
         &self.tilts
     }
@@ -300,8 +308,8 @@ fn check_body(body: &Body) -> Result<(), GaitError> {
     if !positive(body.body_length) || !positive(body.start_height) {
         return wrong("length and start height must be positive");
     }
-    if !body.gravity.is_finite() {
-        return wrong("gravity must be finite");
+    if !body.gravity.is_finite() || !body.start_angle.is_finite() {
+        return wrong("gravity and start angle must be finite");
     }
     for part in &body.parts {
         let finite =
@@ -327,4 +335,39 @@ fn check_body(body: &Body) -> Result<(), GaitError> {
         return wrong("legs must be made of parts that exist");
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::synthetic::{Pose, body, film};
+    use super::*;
+
+    /// The torso's tilt at the start and at the end of half a second, of a torso drawn at one angle that settles at another
+    /// and then turns by 0.5 rad.
+    fn tilts(drawn: f64, settled: f64) -> [f64; 2] {
+        let body = Body { start_angle: drawn as f32, ..body() };
+        let script = |step: usize| Pose { tilt: settled + 0.02 * step as f64, ..Pose::standing() };
+        let snapshots = film(0.5, script);
+        let trajectory = Trajectory::new(&body, &snapshots).expect("consistent");
+        [trajectory.tilts()[0], trajectory.tilts()[25]]
+    }
+
+    #[test]
+    fn tilt_counts_from_the_pose_of_the_file_by_the_shorter_way() {
+        for (drawn, settled, tilt) in
+            [(0.0, 0.0, 0.0), (0.3, 1.3, 1.0), (3.0, -3.0, TAU - 6.0), (-3.0, 3.0, 6.0 - TAU), (7.0, 7.0 - TAU, 0.0)]
+        {
+            let [start, end] = tilts(drawn, settled);
+            assert!((start - tilt).abs() < 1e-5, "{drawn} {settled}: {start}");
+            assert!((end - start - 0.5).abs() < 1e-5, "{drawn} {settled}: {end}");
+        }
+    }
+
+    #[test]
+    fn a_body_that_is_drawn_nowhere_is_refused() {
+        let body = Body { start_angle: f32::NAN, ..body() };
+        let snapshots = film(0.1, |_| Pose::standing());
+        let error = Trajectory::new(&body, &snapshots).expect_err("no angle").to_string();
+        assert!(error.contains("gravity and start angle must be finite"), "{error}");
+    }
 }
