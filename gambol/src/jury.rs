@@ -31,7 +31,7 @@ type Steadiness = dyn Fn(&dyn Phenotype, usize) -> Option<usize> + Send + Sync;
 /// In how many of the [`proving::WORLDS`] a gait must be usable for one grade above [`USABLE`], for two and so on: a quarter,
 /// half, three quarters, all but one. Finer ones would have a slow champion that is usable in one world more stand above one
 /// twice as fast.
-const STEADY: [usize; 4] = [3, 6, 9, proving::WORLDS - 1];
+const STEADY: [usize; 4] = [4, 8, 11, proving::WORLDS - 1];
 
 /// The highest grade.
 const HIGHEST: u8 = USABLE + STEADY.len() as u8;

@@ -7,15 +7,10 @@ use tasks::gait::NEAR_WORLDS;
 
 const NEAR: Purpose = Purpose::new("near worlds");
 
-/// A degree, rad.
-const DEGREE: f32 = 0.017_453_3;
-
 /// The near worlds of a creature with so many actuated joints: the same for all its champions and all runs.
 pub(crate) fn near_worlds(motors: usize) -> Vec<Conditions> {
-    let variation =
-        Variation { friction: 0.01, mass: 0.01, time_step: [0.99, 1.01], start_pose: DEGREE, ..Variation::default() };
     let lot = Seed::of_run(Seed::of_run(0).stream(NEAR).random());
-    (0..NEAR_WORLDS as u32).map(|index| variation.draw(lot.trial(index), motors)).collect()
+    (0..NEAR_WORLDS as u32).map(|index| Variation::near().draw(lot.trial(index), motors)).collect()
 }
 
 #[cfg(test)]
@@ -28,11 +23,12 @@ mod tests {
         assert_eq!(worlds.len(), NEAR_WORLDS);
         assert_eq!(worlds, near_worlds(3));
         for (index, world) in worlds.iter().enumerate() {
-            for factor in [world.friction, world.mass, world.time_step] {
+            for factor in [world.friction, world.mass, world.time_step, world.gravity] {
                 assert!(factor != 1.0 && (factor - 1.0).abs() <= 0.01 + 1e-6, "{world:?}");
             }
-            assert_eq!(world.torque, 1.0);
-            assert!(world.turns.iter().all(|turn| *turn != 0.0 && turn.abs() <= DEGREE), "{world:?}");
+            assert_eq!((world.torque, world.solver_iterations), (1.0, None));
+            assert!(world.pushes.is_empty() && world.torso_spin != 0.0 && world.torso_spin.abs() <= 0.05);
+            assert!(world.turns.iter().all(|turn| *turn != 0.0 && turn.abs() <= 0.0175), "{world:?}");
             assert!(!worlds[..index].contains(world));
             assert_eq!(world.validate(3), Ok(()));
         }

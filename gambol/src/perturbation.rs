@@ -1,9 +1,10 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::gait::Stage;
-use envs_core::{Conditions, Ground, Landscape, bumps};
-use ne_core::{Purpose, RandomStream, Seed};
+use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
+use ne_core::{Purpose, Seed};
 use rand::RngExt;
+use serde::Serialize;
 use tasks::Environment;
 
 const PERTURBATION: Purpose = Purpose::new("perturbation");
@@ -14,16 +15,68 @@ pub const FRICTION: f32 = 0.3;
 pub const MASS: f32 = 0.1;
 /// The top torque of all motors together is.
 pub const TORQUE: f32 = 0.1;
-/// The shortest and the longest time step, s; drawn log-uniformly.
-pub const TIME_STEPS: [f32; 2] = [1.0 / 120.0, 1.0 / 40.0];
 /// The lowest and the highest bump, m.
 pub const BUMP_HEIGHTS: [f32; 2] = [0.002, 0.02];
 
-/// No bumps beyond this, m: nobody gets there.
+/// No bumps beyond this, m: nothing gets there.
 const FARTHEST: f32 = 500.0;
+
+/// What is changed in a perturbed world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Cause {
+    /// Mounds on the ground; a terrain that is not flat is laid out anew instead. In water nothing changes.
+    Bumps,
+    /// [Pushes](Variation::pushed) against the torso.
+    Pushes,
+    /// Friction ([`FRICTION`]), mass ([`MASS`]), motor torque ([`TORQUE`]), and the start pose by up to 3°.
+    Friction,
+    /// What [physics engines differ in](Variation::physics).
+    Physics,
+    /// All of it.
+    Together,
+}
+
+impl Cause {
+    /// All causes, in the order in which worlds take turns.
+    pub const ALL: [Self; 5] = [Self::Bumps, Self::Pushes, Self::Friction, Self::Physics, Self::Together];
+
+    /// Its name, as in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Bumps => "bumps",
+            Self::Pushes => "pushes",
+            Self::Friction => "friction",
+            Self::Physics => "physics",
+            Self::Together => "together",
+        }
+    }
+
+    fn has_bumps(self) -> bool {
+        matches!(self, Self::Bumps | Self::Together)
+    }
+
+    /// How its worlds vary, but for bumps.
+    fn variation(self) -> Variation {
+        let body =
+            Variation { friction: FRICTION, mass: MASS, torque: TORQUE, start_pose: 0.05, ..Variation::default() };
+        match self {
+            Self::Bumps => Variation::default(),
+            Self::Pushes => Variation::pushed(),
+            Self::Friction => body,
+            Self::Physics => Variation::physics(),
+            Self::Together => {
+                let Variation { friction, mass, torque, start_pose, .. } = body;
+                let pushes = Variation::pushed().pushes;
+                Variation { friction, mass, torque, start_pose, pushes, ..Variation::physics() }
+            }
+        }
+    }
+}
 
 /// A perturbed world.
 pub(crate) struct World {
+    pub(crate) cause: Cause,
     pub(crate) conditions: Conditions,
     pub(crate) landscape: Landscape,
     /// How many bumps are on its ground.
@@ -33,41 +86,30 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// The world of a seed. Bumps reach `reach` m from the start, at most 500. A terrain has none, but is laid out anew; in
-    /// water there are none either.
-    pub(crate) fn draw(seed: Seed, stage: &Stage, reach: f32) -> Self {
+    /// The world of this index: causes take turns. Bumps reach `reach` m from the start, at most 500.
+    pub(crate) fn draw(seed: Seed, index: u32, stage: &Stage, reach: f32) -> Self {
         let environment = stage.environment();
-        let mut stream = seed.stream(PERTURBATION);
-        let mut factor = |share: f32| uniform(&mut stream, [1.0 - share, 1.0 + share]);
-        let (friction, mass, torque) = (factor(FRICTION), factor(MASS), factor(TORQUE));
-        let time_step = libm::expf(uniform(&mut stream, TIME_STEPS.map(libm::logf)));
-        let nominal = environment.settings().time_step;
-        let conditions = Conditions {
-            friction,
-            mass,
-            torque,
-            time_step: time_step / nominal,
-            ..Conditions::nominal(environment.outputs())
-        };
+        let seed = seed.trial(index);
+        let cause = Cause::ALL[index as usize % Cause::ALL.len()];
+        let conditions = cause.variation().draw(seed, environment.outputs());
+        let time_step = environment.settings().time_step * conditions.time_step;
         let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
-        if !terrain.is_flat() {
-            let landscape = Landscape::new(terrain, stream.random(), blueprint);
-            return Self { conditions, landscape, bumps: 0, time_step };
-        }
-        if environment.settings().water.is_some() {
-            return Self { conditions, landscape: Landscape::default(), bumps: 0, time_step };
-        }
-        let [left, _, right, _] = blueprint.bounding_box();
-        let bumps = bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST));
-        let count = bumps.len();
-        let mut ground = Ground::flat();
-        ground.shapes.extend(bumps);
-        Self { conditions, landscape: ground.into(), bumps: count, time_step }
+        let mut stream = seed.stream(PERTURBATION);
+        let unchanged = !cause.has_bumps() || environment.settings().water.is_some();
+        let (landscape, bumps) = if unchanged {
+            (environment.landscape().clone(), 0)
+        } else if !terrain.is_flat() {
+            (Landscape::new(terrain, stream.random(), blueprint), 0)
+        } else {
+            let [left, _, right, _] = blueprint.bounding_box();
+            let bumps = bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST));
+            let count = bumps.len();
+            let mut ground = Ground::flat();
+            ground.shapes.extend(bumps);
+            (ground.into(), count)
+        };
+        Self { cause, conditions, landscape, bumps, time_step }
     }
-}
-
-fn uniform(stream: &mut RandomStream, [low, high]: [f32; 2]) -> f32 {
-    low + (high - low) * stream.random::<f32>()
 }
 
 #[cfg(test)]
@@ -100,16 +142,21 @@ pub(crate) mod tests {
             let stage = stage(name, "running");
             let [left, _, right, _] = stage.environment().blueprint().bounding_box();
             for index in 0..200 {
-                let seed = Seed::of_run(3).trial(index);
-                let World { conditions, landscape, bumps, time_step } = World::draw(seed, &stage, 10.0);
+                let World { cause, conditions, landscape, bumps, time_step } =
+                    World::draw(Seed::of_run(3), index, &stage, 10.0);
+                assert_eq!(cause, Cause::ALL[index as usize % 5]);
                 let ground = landscape.ground;
                 assert_eq!(bumps, ground.shapes.len() - 1);
                 assert!((conditions.friction - 1.0).abs() <= FRICTION + 1e-6);
                 assert!((conditions.mass - 1.0).abs() <= MASS + 1e-6);
                 assert!((conditions.torque - 1.0).abs() <= TORQUE + 1e-6);
-                assert!((TIME_STEPS[0] - 1e-6..=TIME_STEPS[1] + 1e-6).contains(&time_step), "{time_step}");
+                assert!((1.0 / 241.0..=1.0 / 39.9).contains(&time_step), "{time_step}");
+                let pushed = matches!(cause, Cause::Pushes | Cause::Together);
+                assert_eq!(!conditions.pushes.is_empty(), pushed);
+                let physics = matches!(cause, Cause::Physics | Cause::Together);
+                assert_eq!(conditions.solver_iterations.is_some(), physics);
                 assert_eq!(ground.validate(), Ok(()));
-                assert!(ground.shapes.len() > 8);
+                assert_eq!(ground.shapes.len() > 8, cause.has_bumps());
                 for shape in &ground.shapes[1..] {
                     let GroundShape::Circle { x, y, radius } = *shape else { panic!("not a mound") };
                     let (top, half) = (y + radius, libm::sqrtf(radius * radius - y * y));
@@ -124,7 +171,7 @@ pub(crate) mod tests {
     #[test]
     fn bumps_reach_as_far_as_they_are_asked_to() {
         let farthest = |reach: f32| {
-            let world = World::draw(Seed::of_run(1), &stage("biped-1", "running"), reach);
+            let world = World::draw(Seed::of_run(1), 0, &stage("biped-1", "running"), reach);
             let x = |shape: &GroundShape| if let GroundShape::Circle { x, .. } = *shape { x } else { 0.0 };
             world.landscape.ground.shapes.iter().map(x).fold(0.0, f32::max)
         };

@@ -9,8 +9,8 @@ use std::sync::{Arc, OnceLock};
 
 const PROVING_GROUND: Purpose = Purpose::new("proving ground");
 
-/// Perturbed worlds a finalist is tried in.
-pub(crate) const WORLDS: usize = 12;
+/// Perturbed worlds a candidate is tried in: as many of each cause, and no more than lanes play at once.
+pub(crate) const WORLDS: usize = 15;
 
 /// So many body lengths the bumps reach: a quarter of what a fast gait covers. Beyond it the
 /// ground is flat, and physics faster.
@@ -40,7 +40,7 @@ impl ProvingGround {
         // Other worlds than those robustness is measured in, whatever the run's seed.
         let lot: u64 = self.seed.stream(PROVING_GROUND).random();
         let world = |index| {
-            let World { conditions, landscape, .. } = World::draw(Seed::of_run(lot).trial(index), &self.stage, reach);
+            let World { conditions, landscape, .. } = World::draw(Seed::of_run(lot), index, &self.stage, reach);
             (conditions, landscape)
         };
         (0..WORLDS as u32).map(world).collect()

@@ -22,7 +22,7 @@ use tasks::{
     gait::{GaitReport, Kind},
 };
 
-pub use crate::perturbation::{BUMP_HEIGHTS, FRICTION, MASS, TIME_STEPS, TORQUE};
+pub use crate::perturbation::{BUMP_HEIGHTS, Cause, FRICTION, MASS, TORQUE};
 
 /// The most perturbations.
 const MOST: u32 = 100_000;
@@ -45,6 +45,9 @@ pub struct Robustness {
     pub progress_unperturbed: f64,
     /// Share of the perturbed worlds in which its gait is usable, 0 to 1.
     pub usable_share: f64,
+    /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`]; causes without a world are left
+    /// out.
+    pub causes: Vec<CauseShare>,
     /// The median of progress in a perturbed world over that without perturbation; `None` if there was none without.
     pub fitness_kept: Option<f64>,
     /// The share of the perturbed worlds in which each [reason](tasks::gait::Reason::name) speaks against it, the most
@@ -52,6 +55,17 @@ pub struct Robustness {
     pub reasons: Vec<ReasonShare>,
     /// Every perturbed world.
     pub trials: Vec<PerturbedTrial>,
+}
+
+/// How a gait bears one cause.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct CauseShare {
+    /// What is changed.
+    pub cause: Cause,
+    /// In so many worlds.
+    pub worlds: usize,
+    /// Share of these in which the gait is usable, 0 to 1.
+    pub usable_share: f64,
 }
 
 /// How often a reason speaks against a gait.
@@ -66,12 +80,26 @@ pub struct ReasonShare {
 /// What a champion did in a perturbed world.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct PerturbedTrial {
+    /// What is changed.
+    pub cause: Cause,
     /// Factor on the ground's friction.
     pub friction: f32,
     /// Factor on the mass.
     pub mass: f32,
     /// Factor on the motors' top torque.
     pub torque: f32,
+    /// Factor on gravity.
+    pub gravity: f32,
+    /// Factor on the motors' gain.
+    pub motor_gain: f32,
+    /// Solver iterations a step; `None`: those of the champion's settings.
+    pub solver_iterations: Option<u32>,
+    /// Factor on the natural frequency of joints.
+    pub joint_frequency: f32,
+    /// Factors on the natural frequency and the damping of contacts.
+    pub contacts: [f32; 2],
+    /// How many pushes there are in 120 s.
+    pub pushes: usize,
     /// Seconds a step lasts.
     #[serde(rename = "time_step_s")]
     pub time_step: f32,
@@ -129,7 +157,7 @@ pub fn robustness(
     let trials: Vec<PerturbedTrial> = indices
         .par_chunks(LANES)
         .flat_map_iter(|indices| {
-            let draw = |&index: &u32| World::draw(Seed::of_run(seed).trial(index), &stage, reach);
+            let draw = |&index: &u32| World::draw(Seed::of_run(seed), index, &stage, reach);
             let worlds: Vec<World> = indices.iter().map(draw).collect();
             let places: Vec<_> =
                 worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
@@ -144,6 +172,7 @@ pub fn robustness(
         usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
         progress_unperturbed,
         usable_share: share(trials.iter().filter(|trial| trial.usable).count()),
+        causes: causes(&trials),
         fitness_kept: (progress_unperturbed > 0.0)
             .then(|| median(trials.iter().map(|trial| trial.progress / progress_unperturbed).collect())),
         reasons: reasons(&trials)
@@ -160,6 +189,17 @@ fn progress(kind: Kind, report: &GaitReport) -> f64 {
         Kind::Running | Kind::Backwards | Kind::Swimming => report.travel.distance,
         Kind::Jumping => report.aloft.highest.unwrap_or(0.0),
     }
+}
+
+/// How each cause is borne.
+fn causes(trials: &[PerturbedTrial]) -> Vec<CauseShare> {
+    let share = |cause| {
+        let worlds = trials.iter().filter(|trial| trial.cause == cause);
+        let usable = worlds.clone().filter(|trial| trial.usable).count();
+        let worlds = worlds.count();
+        (worlds > 0).then(|| CauseShare { cause, worlds, usable_share: usable as f64 / worlds as f64 })
+    };
+    Cause::ALL.into_iter().filter_map(share).collect()
 }
 
 /// How many trials each reason speaks against, the most first.
@@ -182,7 +222,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 impl PerturbedTrial {
     fn new(world: &World, kind: Kind, report: Option<GaitReport>) -> Self {
-        let Conditions { friction, mass, torque, .. } = world.conditions;
+        let Conditions { friction, mass, torque, gravity, motor_gain, solver_iterations, joint_frequency, .. } =
+            world.conditions;
         let mut reasons: Vec<_> = match report.as_ref().and_then(|report| report.verdict.as_ref()) {
             Some(verdict) => verdict.reasons.iter().map(tasks::gait::Reason::name).collect(),
             None => vec![UNMEASURABLE],
@@ -191,6 +232,13 @@ impl PerturbedTrial {
         reasons.sort_unstable();
         reasons.dedup();
         Self {
+            cause: world.cause,
+            gravity,
+            motor_gain,
+            solver_iterations,
+            joint_frequency,
+            contacts: [world.conditions.contact_frequency, world.conditions.contact_damping],
+            pushes: world.conditions.pushes.len(),
             friction,
             mass,
             torque,
@@ -216,6 +264,13 @@ mod tests {
     #[test]
     fn reasons_are_told_by_how_often_they_hold() {
         let trial = |reasons: &[&'static str]| PerturbedTrial {
+            cause: Cause::Friction,
+            gravity: 1.0,
+            motor_gain: 1.0,
+            solver_iterations: None,
+            joint_frequency: 1.0,
+            contacts: [1.0; 2],
+            pushes: 0,
             friction: 1.0,
             mass: 1.0,
             torque: 1.0,

@@ -159,7 +159,7 @@ mod tests {
 
     fn perturbed(stage: &Stage) -> Vec<(Conditions, Landscape)> {
         let draw = |index| {
-            let world = perturbation::World::draw(Seed::of_run(4).trial(index), stage, 5.0);
+            let world = perturbation::World::draw(Seed::of_run(4), index, stage, 5.0);
             (world.conditions, world.landscape)
         };
         (0..5).map(draw).collect()

@@ -182,7 +182,7 @@ impl Default for MovementCatalogue {
         catalogue.add_with_settings(
             None,
             "ends the episode when the torso tilts, sinks or anything but feet touches the ground; 1 if so; settings: tilt, \
-             degrees (40), height (0.65)",
+             degrees (40), height (0.65), brush, s (0.06)",
             Posture::new,
         );
         catalogue.add::<Sway>(None, "standard deviation of the torso's angle beyond 8°; weigh it negatively");

@@ -2,7 +2,7 @@ use super::{Outcome, gait::champion_file};
 use clap::Args;
 use gambol::{
     champion::Champion,
-    robust::{BUMP_HEIGHTS, FRICTION, MASS, Robustness, TORQUE, robustness},
+    robust::{Cause, Robustness, robustness},
 };
 use std::{io, path::PathBuf, process::ExitCode};
 use tasks::{MovementCatalogue, gait::Kind};
@@ -13,9 +13,15 @@ Examples:
   gambol robust runs/biped-1-running
   gambol robust champion.json --perturbations 1000 --seed 7 --json
 
-Every perturbed world has another friction (± 30 %), mass and motor torque (± 10 % each), time step (from 1/120 to
-1/40 s) and bumps on the ground, up to 2 cm high; a terrain is laid out anew in place of bumps. In each the champion is replayed in rapier and judged as gambol gait
-does. Same seed, same worlds, on any number of threads.")]
+Worlds take turns in what is changed:
+  bumps      mounds on the ground, up to 2 cm high; a terrain is laid out anew in their place
+  pushes     against the torso, up to 0.3 m/s of the whole body, every 2 to 4 s
+  friction   friction ± 30 %, mass and motor torque ± 10 %, the start pose by up to 3 degrees
+  physics    what engines differ in: 1 to 8 solver iterations, joints of 30 Hz to 1 kHz, contacts of half to 4 times the
+             frequency and half to twice the damping, motor gain times 0.5 to 50, gravity ± 5 %, steps of 1/240 to 1/40 s
+  together   all of it
+In each the champion is replayed and judged as gambol gait does,
+but for near worlds. Same seed, same worlds, on any number of threads.")]
 pub(crate) struct Robust {
     /// A champion file, or the folder of a run
     #[arg(value_name = "CHAMPION|FOLDER")]
@@ -72,14 +78,14 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
         Some(kept) => say!("  keeps            {} of the {what} (median)", percent(kept))?,
         None => say!("  keeps            – (it gets nowhere unperturbed)")?,
     }
-    let shares = [FRICTION, MASS, TORQUE].map(|share| percent(share.into()));
-    let [friction, mass, torque] = &shares;
-    let bumps = 100.0 * BUMP_HEIGHTS[1];
-    say!("  worlds           friction ± {friction}, mass ± {mass}, torque ± {torque}, steps of 1/120 to 1/40 s,")?;
-    match robustness.bumpy {
-        true => say!("                   bumps up to {bumps:.0} cm high")?,
-        false if robustness.kind == Kind::Swimming => say!("                   in water")?,
-        false => say!("                   the terrain laid out anew")?,
+    say!("\n  worlds           usable")?;
+    for share in &robustness.causes {
+        let cause = match share.cause {
+            Cause::Bumps if robustness.kind == Kind::Swimming => "in water",
+            Cause::Bumps if !robustness.bumpy => "another terrain",
+            cause => cause.name(),
+        };
+        say!("  {cause:<15}  {} of {}", percent(share.usable_share), share.worlds)?;
     }
     if !robustness.reasons.is_empty() {
         say!("\n  what fails, and in how many of the worlds")?;

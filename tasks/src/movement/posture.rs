@@ -6,7 +6,7 @@ use serde::Deserialize;
 /// Ends the episode of a body with legs when it loses its posture: when its torso turns too far from its start, sinks too
 /// low, or when anything but a foot touches the ground. Its value is 1 if that happened and 0 if not.
 ///
-/// A brush of 0.06 s is forgiven, since a gait may brush the ground a little. Legless bodies are left alone. On uneven
+/// A brush is forgiven, since a gait may brush the ground a little. Legless bodies are left alone. On uneven
 /// ground the torso may sink as low as it likes.
 #[derive(Clone, Debug, Default)]
 pub struct Posture {
@@ -30,16 +30,15 @@ pub struct PostureSettings {
     pub tilt: f32,
     /// The lowest the torso may get, as a share of its start height; from 0 to 1, default 0.65.
     pub height: f32,
+    /// How long a part that is no foot may touch the ground at a time, s; from 0 to 1, default 0.06, a brush.
+    pub brush: f32,
 }
 
 impl Default for PostureSettings {
     fn default() -> Self {
-        Self { tilt: 40.0, height: 0.65 }
+        Self { tilt: 40.0, height: 0.65, brush: 0.06 }
     }
 }
-
-/// s.
-const BRUSH: f32 = 0.06;
 
 impl Posture {
     /// With these settings.
@@ -51,6 +50,7 @@ impl Posture {
             return Err(SettingError::new("tilt", settings.tilt, "finite and above 0"));
         }
         SettingError::check_range("height", settings.height.into(), 0.0, 1.0)?;
+        SettingError::check_range("brush", settings.brush.into(), 0.0, 1.0)?;
         Ok(Self { settings, ..Self::default() })
     }
 }
@@ -87,7 +87,7 @@ impl Movement for Posture {
         self.touched = if touches { self.touched + seconds } else { 0.0 };
         self.lost |= self.turn.angle.abs() > self.settings.tilt.to_radians()
             || (!self.uneven_ground && now.torso().y < self.lowest)
-            || self.touched > BRUSH;
+            || self.touched > self.settings.brush;
         if self.lost { Verdict::End } else { Verdict::GoOn }
     }
 
