@@ -38,8 +38,8 @@ pub struct Variation {
     pub mass: f32,
     /// Of the top torque of all motors together.
     pub torque: f32,
-    /// The least and the greatest factor on [`PhysicsSettings::time_step`], drawn log-uniformly: a gait that needs steps
-    /// of one length leans on the engine's errors. From 0.1 to 1 and from 1 to 2; default 1 and 1. A file may have a
+    /// The least and the greatest factor on [`PhysicsSettings::time_step`](crate::PhysicsSettings::time_step), drawn
+    /// log-uniformly: a gait that needs steps of one length leans on the engine's errors. From 0.1 to 1 and from 1 to 2; default 1 and 1. A file may have a
     /// share in its place: 0.2 is read as 0.8 and 1.2.
     #[serde(deserialize_with = "factors")]
     pub time_step: [f32; 2],

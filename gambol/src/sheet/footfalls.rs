@@ -3,7 +3,7 @@
 use super::Subject;
 use envs_core::body_of;
 
-/// Rows at most: further parts that touch are counted, and not shown.
+/// Rows at most: more than this are no longer legible.
 const MOST: usize = 24;
 
 /// A row of the diagram.

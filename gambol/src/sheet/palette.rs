@@ -16,14 +16,20 @@ pub(super) fn encode(width: u32, pixels: &[Ink]) -> Result<Vec<u8>, SheetError> 
 
 fn write(width: u32, pixels: &[Ink]) -> Result<Vec<u8>, EncodingError> {
     let mut places: BTreeMap<Ink, (usize, u8)> = BTreeMap::new();
-    for pixel in pixels {
-        places.entry(*pixel).or_default().0 += 1;
+    // Most neighbours are of one colour.
+    let runs = || pixels.chunk_by(|one, other| one == other);
+    for run in runs() {
+        places.entry(run[0]).or_default().0 += run.len();
     }
     let palette = choose(&places);
     for (ink, (_, place)) in &mut places {
         *place = nearest(&palette, *ink);
     }
-    let indices: Vec<u8> = pixels.iter().map(|pixel| places.get(pixel).map_or(0, |&(_, place)| place)).collect();
+    let mut indices = Vec::with_capacity(pixels.len());
+    for run in runs() {
+        let place = places.get(&run[0]).map_or(0, |&(_, place)| place);
+        indices.resize(indices.len() + run.len(), place);
+    }
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, width, pixels.len() as u32 / width.max(1));
     encoder.set_color(ColorType::Indexed);

@@ -108,7 +108,7 @@ fn a_jump_is_shown_from_before_take_off_until_after_landing() {
 }
 
 #[test]
-fn whoever_lies_at_the_end_is_shown_there() {
+fn a_body_that_lies_at_the_end_is_shown_there() {
     let blueprint = biped();
     let mut snapshots = hops(&blueprint, 5);
     let last = snapshots.len() - 1;
