@@ -130,7 +130,8 @@ fn who_watches_may_end_a_play() {
     });
     let wanted: Vec<u32> = (0..PLAYS as u32).map(|play| play.min(30)).collect();
     assert_eq!(outcomes.iter().map(|outcome| outcome.steps).collect::<Vec<_>>(), wanted);
-    assert_eq!(shown, wanted.iter().map(|steps| steps + 1).collect::<Vec<_>>());
+    let moments: Vec<usize> = wanted.iter().map(|&steps| steps as usize + 1).collect();
+    assert_eq!(shown, moments);
     let none = [Play { network: &network, start: &starts[0], steps: 0 }];
     assert_eq!(play(&scene.flat.1, &none, |_, _| true)[0].steps, 0);
 }
