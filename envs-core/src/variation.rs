@@ -53,6 +53,10 @@ pub struct Variation {
     /// all have that of the terrain's own seed.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub terrain: bool,
+    /// Whether the first of several trials is in a [near](Self::near) world on level ground, so that the world of the
+    /// settings is never out of sight; default `false`. With one trial alone it has no effect.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub near_first: bool,
     /// Of gravity.
     #[serde(skip_serializing_if = "is_zero")]
     pub gravity: f32,
@@ -124,6 +128,7 @@ impl Variation {
         start_pose: 0.0,
         bumps: 0.0,
         terrain: false,
+        near_first: false,
         gravity: 0.0,
         motor_gain: [1.0, 1.0],
         solver_iterations: None,
@@ -137,20 +142,33 @@ impl Variation {
     /// The world of a training run: a gait evolved in one exact world is brittle.
     ///
     /// Friction ± 30 %, mass and torque ± 10 %, steps between 0.42 and 1.25 times as long (1/120 to 1/40 s in place of
-    /// 1/50), and every actuated joint turned by up to 0.05 rad (3°).
+    /// 1/50), every actuated joint turned by up to 0.05 rad (3°), and pushes of up to 0.3 m/s;
+    /// the first of several trials in a [near](Self::near) world.
     pub const fn light() -> Self {
-        Self { friction: 0.3, mass: 0.1, torque: 0.1, time_step: [0.42, 1.25], start_pose: 0.05, ..Self::NONE }
+        Self {
+            near_first: true,
+            friction: 0.3,
+            mass: 0.1,
+            torque: 0.1,
+            time_step: [0.42, 1.25],
+            start_pose: 0.05,
+            pushes: 0.3,
+            ..Self::NONE
+        }
     }
 
     /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.33 and 1.5 times as long,
-    /// every actuated joint turned by up to 0.1 rad (6°), and bumps up to 2 cm high.
+    /// every actuated joint turned by up to 0.1 rad (6°), pushes of up to 0.4 m/s and bumps up to 2 cm high; the first of
+    /// several trials in a near world.
     pub const fn strong() -> Self {
         Self {
+            near_first: true,
             friction: 0.5,
             mass: 0.2,
             torque: 0.2,
             time_step: [0.33, 1.5],
             start_pose: 0.1,
+            pushes: 0.4,
             bumps: 0.02,
             ..Self::NONE
         }
@@ -195,6 +213,16 @@ impl Variation {
     /// Whether every trial has the same world.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
+    }
+
+    /// The same, for evaluations of so many trials.
+    #[must_use]
+    pub fn for_trials(self, count: u32) -> Self {
+        Self { near_first: self.near_first && count > 1, ..self }
+    }
+
+    fn is_near(&self, seed: Seed) -> bool {
+        self.near_first && seed.trial_index() == 0
     }
 
     /// Checks every range.
@@ -248,6 +276,9 @@ impl Variation {
 
     /// The world of the trial with this seed, for a creature with so many actuated joints.
     pub fn draw(&self, seed: Seed, motors: usize) -> Conditions {
+        if self.is_near(seed) {
+            return Self::near().draw(seed, motors);
+        }
         let mut stream = seed.stream(TRIAL_VARIATION);
         // From −1 to 1. The order of the draws is part of every recorded run.
         let mut draw = || 2.0 * stream.random::<f32>() - 1.0;
@@ -299,7 +330,7 @@ impl Variation {
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
     pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
-        if self.bumps == 0.0 {
+        if self.bumps == 0.0 || self.is_near(seed) {
             return Vec::new();
         }
         let heights = [0.1 * self.bumps, self.bumps];

@@ -171,9 +171,18 @@ pub struct Gait {
     pub obstacles: Vec<ObstaclesPassed>,
 }
 
+/// How long an episode must be for the judgement, s.
+pub(crate) fn judged_seconds(kind: Option<Kind>) -> f64 {
+    kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds)
+}
+
 /// The steps of an episode as long as the judgement asks for.
 pub(crate) fn judged_steps(kind: Option<Kind>, time_step: f32) -> u32 {
-    let seconds = kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds);
+    steps_of(judged_seconds(kind), time_step)
+}
+
+/// The steps of an episode of so many seconds.
+pub(crate) fn steps_of(seconds: f64, time_step: f32) -> u32 {
     (seconds / f64::from(time_step)).round() as u32
 }
 

@@ -37,7 +37,7 @@ const STEADY: [usize; 4] = [4, 8, 11, proving::WORLDS - 1];
 const HIGHEST: u8 = USABLE + STEADY.len() as u8;
 
 /// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
-const JUDGED: usize = 4;
+const JUDGED: usize = 8;
 
 /// How much of its fitness a finalist keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
 /// be shorter there, and episodes are, so what keeps all of its speed may keep only half of its distance.

@@ -12,6 +12,9 @@ const PROVING_GROUND: Purpose = Purpose::new("proving ground");
 /// Perturbed worlds a candidate is tried in: as many of each cause, and no more than lanes play at once.
 pub(crate) const WORLDS: usize = 15;
 
+/// Gaits are played for so long there, s: most of what fails in a minute fails by then.
+const SECONDS: f64 = 15.0;
+
 /// So many body lengths the bumps reach: a quarter of what a fast gait covers. Beyond it the
 /// ground is flat, and physics faster.
 const REACH: f32 = 15.0;
@@ -32,7 +35,7 @@ impl ProvingGround {
 
     /// In how many of the worlds a controller's gait is usable, on the threads of the current pool.
     pub(crate) fn usable(&self, network: &Network) -> usize {
-        self.worlds.get_or_init(|| Worlds::new(&self.stage, &self.draw())).usable(network)
+        self.worlds.get_or_init(|| Worlds::new(&self.stage, &self.draw()).shortened(SECONDS)).usable(network)
     }
 
     fn draw(&self) -> Vec<(Conditions, Landscape)> {

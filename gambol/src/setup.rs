@@ -140,7 +140,8 @@ impl EpisodeParts<'_> {
     pub fn build(&self, catalogue: &MovementCatalogue) -> Result<Episode<RapierEnvironment>, SetupError> {
         let (movement, steps, blueprint) = self.pieces(catalogue)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let (physics, variation, terrain) = (self.physics, self.variation, self.terrain.clone());
+        let variation = self.variation.for_trials(self.trials.count);
+        let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
             RapierEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)?
                 .with_actuation(self.actuation)?;
@@ -154,7 +155,8 @@ impl EpisodeParts<'_> {
     pub fn build_lanes(&self, catalogue: &MovementCatalogue) -> Result<LaneEpisode, SetupError> {
         let (movement, steps, blueprint) = self.pieces(catalogue)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
-        let (physics, variation, terrain) = (self.physics, self.variation, self.terrain.clone());
+        let variation = self.variation.for_trials(self.trials.count);
+        let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
             LaneEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)
                 .and_then(|environment| environment.with_actuation(self.actuation))

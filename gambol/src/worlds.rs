@@ -1,6 +1,6 @@
 //! Worlds in which gaits are judged, each by itself.
 
-use crate::gait::{Gait, Stage, judged_steps, record};
+use crate::gait::{Gait, Stage, judged_seconds, judged_steps, record, steps_of};
 use crate::obstacles::ObstaclesPassed;
 use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Landscape};
 use envs_lanes::{LANES, LaneEnvironment, Play};
@@ -10,7 +10,7 @@ use ne_net::Network;
 use rayon::prelude::*;
 use tasks::{
     Environment, Episode, Snapshot, Trials,
-    gait::{GaitReport, Kind, Trajectory},
+    gait::{GaitReport, Kind, Reason, Trajectory},
 };
 
 /// Worlds of one creature, built once. Controllers are played in them in lanes, many at once, where lanes can simulate them,
@@ -18,6 +18,8 @@ use tasks::{
 #[derive(Clone)]
 pub struct Worlds {
     kind: Option<Kind>,
+    /// How long gaits are played, s.
+    seconds: f64,
     /// `None`: the creature does not come to rest there.
     worlds: Vec<Option<World>>,
 }
@@ -35,13 +37,24 @@ impl Worlds {
     /// Builds worlds under these conditions and in these landscapes, on the threads of the current pool.
     pub fn new(stage: &Stage, worlds: &[(Conditions, Landscape)]) -> Self {
         let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(stage, conditions, landscape);
-        Self { kind: stage.kind(), worlds: worlds.par_iter().map(build).collect() }
+        Self {
+            kind: stage.kind(),
+            seconds: judged_seconds(stage.kind()),
+            worlds: worlds.par_iter().map(build).collect(),
+        }
+    }
+
+    /// The same worlds, in which gaits are played for at most so many seconds: enough to choose between candidates, and too
+    /// short for a verdict.
+    #[must_use]
+    pub(crate) fn shortened(self, seconds: f64) -> Self {
+        Self { seconds: self.seconds.min(seconds), ..self }
     }
 
     /// The stage's own world alone, in lanes; `None` if they cannot simulate it.
     pub(crate) fn nominal(stage: &Stage) -> Option<Self> {
         let world = World::InLanes(Box::new(stage.lanes()?.clone()));
-        Some(Self { kind: stage.kind(), worlds: vec![Some(world)] })
+        Some(Self { kind: stage.kind(), seconds: judged_seconds(stage.kind()), worlds: vec![Some(world)] })
     }
 
     /// How many worlds there are.
@@ -72,7 +85,8 @@ impl Worlds {
             }
         }
         let measured_in_rapier = in_rapier.into_par_iter().map(|(place, network, episode)| {
-            (place, measure(episode.environment(), self.kind, &record(episode, network).snapshots))
+            let steps = steps_of(self.seconds, episode.environment().settings().time_step);
+            (place, measure(episode.environment(), self.kind, &record(&episode.shortened(steps), network).snapshots))
         });
         let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs));
         let mut reports: Vec<Vec<Option<GaitReport>>> = vec![vec![None; self.len()]; networks.len()];
@@ -82,9 +96,12 @@ impl Worlds {
         reports
     }
 
-    /// In how many worlds the gait of a controller is usable.
+    /// In how many worlds nothing but its length speaks against the gait of a controller.
     pub(crate) fn usable(&self, network: &Network) -> usize {
-        self.judge(network).iter().flatten().filter(|report| is_usable(report)).count()
+        let length = |reason: &Reason| matches!(reason, Reason::TooShort { .. });
+        let sound =
+            |report: &&GaitReport| report.verdict.as_ref().is_some_and(|verdict| verdict.reasons.iter().all(length));
+        self.judge(network).iter().flatten().filter(sound).count()
     }
 
     fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>]) -> Vec<(usize, Option<Gait>)> {
@@ -92,7 +109,7 @@ impl Worlds {
         // Nothing varies in these worlds: nothing comes from the seed, and nothing can go wrong.
         let starts = pairs.iter().map(|(_, _, world)| world.settled(Seed::of_run(0)).ok());
         let begun: Vec<_> = pairs.iter().zip(starts).filter_map(|(pair, start)| Some((pair, start?))).collect();
-        let steps = |world: &LaneEnvironment| judged_steps(self.kind, world.settings().time_step);
+        let steps = |world: &LaneEnvironment| steps_of(self.seconds, world.settings().time_step);
         let plays: Vec<Play<'_>> =
             begun.iter().map(|((_, network, world), start)| Play { network, start, steps: steps(world) }).collect();
         let mut recordings: Vec<Vec<Snapshot>> = vec![Vec::new(); plays.len()];

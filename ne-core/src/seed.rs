@@ -62,6 +62,11 @@ impl Seed {
         self.generation
     }
 
+    /// The trial it is for, from 0.
+    pub const fn trial_index(self) -> u32 {
+        self.trial
+    }
+
     /// The random stream of this place for `purpose`, at its beginning.
     pub fn stream(self, purpose: Purpose) -> RandomStream {
         let mut key = [0; 32];

@@ -14,6 +14,7 @@ pub(super) fn equip(config: &mut RunConfig) {
     let blueprint = Blueprint::new(config.creature.clone()).ok();
     // Who lies on its back has legs all the same.
     let on_legs = |blueprint: &Blueprint| movement == Movement::GettingUp || !blueprint.is_legless();
+    let height = blueprint.as_ref().map_or(1.0, Blueprint::start_height);
     let legs = blueprint.filter(on_legs).map_or(0, |blueprint| blueprint.legs().len());
     // In water legs are limbs like others: there is nothing to stand on.
     let legless = legs == 0 || movement == Movement::Swimming;
@@ -24,9 +25,11 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.hidden_scale = 1.0;
     controller.limbs = Some(movement.phases(legs));
     controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
-    config.sensors = Some(sensors(&config.creature.sensors, movement, legless));
-    config.movement.terms = movement.terms(legless);
+    config.sensors = Some(sensors(&config.creature.sensors, movement.period(legless, height), legless));
+    config.movement.terms = movement.terms(legs, legless);
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
+    // Of one world alone the lucky would be the best: one near world, and two that vary.
+    config.trials.count = 3;
     // What lanes refuse is trained in rapier rather than not at all.
     if config.creature.self_collision {
         config.engine = EngineChoice::Rapier;
@@ -88,41 +91,58 @@ impl Movement {
         if self.leaps() && legs > 2 { LimbPhases::Together } else { LimbPhases::Alternating }
     }
 
-    /// A stride or a hop, a leap with its run-up, and a stroke, s.
-    fn period(self) -> f32 {
+    /// A stride or a hop, a leap with its run-up, and a stroke, s. Legs swing like pendulums: the time of a stride goes with
+    /// the root of the height, m, at which they carry the torso.
+    fn period(self, legless: bool, height: f32) -> f32 {
+        let pendulum = |seconds: f32| {
+            let period = seconds * libm::sqrtf(height / 0.8).clamp(0.7, 1.4);
+            // A round number: it stands in files.
+            libm::roundf(100.0 * period) / 100.0
+        };
         match self {
-            Self::Jumping | Self::LongJump => 1.0,
             Self::Swimming => 0.35,
-            _ => 0.5,
+            Self::Jumping | Self::LongJump if legless => 1.0,
+            Self::Jumping | Self::LongJump => pendulum(1.0),
+            _ if legless => 0.5,
+            _ => pendulum(0.5),
         }
     }
 
-    /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s and 2 s for a jump,
-    /// which is long enough for a run-up; 10 s and 4 to 6 s for what is to last.
+    /// How long the champion's episode is, and how long one of training: 20 s and 10 s for a run, 5 s for a jump and
+    /// its landing, 2 s for a long jump; 10 s and 4 to 6 s for what is to last.
     fn steps(self) -> Option<(u32, u32)> {
         match self {
             Self::Running | Self::Backwards | Self::Walking => Some((1000, 500)),
             Self::Swimming => Some((1000, 250)),
-            Self::Jumping | Self::LongJump => Some((250, 100)),
+            Self::Jumping => Some((250, 250)),
+            Self::LongJump => Some((250, 100)),
             Self::Hopping => Some((500, 200)),
             Self::Standing | Self::GettingUp => Some((500, 300)),
             Self::Other => None,
         }
     }
 
-    fn terms(self, legless: bool) -> Vec<TermSpec> {
+    fn terms(self, legs: usize, legless: bool) -> Vec<TermSpec> {
         let terms: &[(&str, f64)] = match self {
             // What ends an episode is charged for by the distance it then cannot cover.
             Self::Running | Self::Backwards if legless => {
                 &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)]
             }
-            Self::Running | Self::Backwards => {
-                &[("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("footfalls", 0.0), ("vibration", -0.2)]
-            }
+            Self::Running | Self::Backwards => &[
+                ("honest", 0.0),
+                ("posture", 0.0),
+                ("headway", 0.0),
+                ("footfalls", 0.0),
+                ("vibration", -0.2),
+                ("slip", -1.0),
+                ("haste", -0.95),
+            ],
             // Headway would ask for a speed of its own.
             Self::Walking if legless => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
             Self::Walking => &[("honest", 0.0), ("upright", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
-            Self::Jumping => &[("honest", 0.0), ("leap", 2.0), ("vibration", -0.02)],
+            Self::Jumping => {
+                &[("honest", 0.0), ("posture", 0.0), ("leap", 2.0), ("landing", 3.0), ("vibration", -0.05)]
+            }
             // A somersault also gets far.
             Self::LongJump => &[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)],
             Self::Hopping => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)],
@@ -132,6 +152,19 @@ impl Movement {
             Self::Other => &[],
         };
         let mut terms: Vec<_> = terms.iter().map(|&(term, weight)| TermSpec::new(term, weight)).collect();
+        let mut set = |name: &str, field: &str, value: serde_json::Value| {
+            if let Some(term) = terms.iter_mut().find(|term| term.term == name) {
+                term.settings.insert(field.into(), value);
+            }
+        };
+        // Two legs that hurry fall.
+        set("haste", "speed", if legs <= 2 { 1.6.into() } else { 2.2.into() });
+        if self == Self::Jumping {
+            // A jump crouches, and nothing but feet may touch the ground, however shortly.
+            set("posture", "tilt", 35.into());
+            set("posture", "height", 0.3.into());
+            set("posture", "brush", 0.into());
+        }
         if let Some(headway) = terms.iter_mut().find(|term| self == Self::Backwards && term.term == "headway") {
             headway.settings.insert("backwards".into(), true.into());
         }
@@ -140,7 +173,7 @@ impl Movement {
 }
 
 /// What the creature's file asks for, if it asks for anything of its own, or else what a body feels; and a clock.
-fn sensors(own: &[Sensor], movement: Movement, legless: bool) -> Vec<Sensor> {
+fn sensors(own: &[Sensor], period: f32, legless: bool) -> Vec<Sensor> {
     let mut sensors = own.to_vec();
     if sensors == Sensor::defaults() {
         sensors.insert(1, Sensor::TorsoSpin);
@@ -149,7 +182,7 @@ fn sensors(own: &[Sensor], movement: Movement, legless: bool) -> Vec<Sensor> {
         }
     }
     if !sensors.iter().any(|sensor| matches!(sensor, Sensor::Clock { .. })) {
-        sensors.push(Sensor::Clock { period: movement.period() });
+        sensors.push(Sensor::Clock { period });
     }
     sensors
 }

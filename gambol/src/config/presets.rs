@@ -55,13 +55,16 @@ pub const PRESETS: &[Preset] = &[
 ];
 
 /// Variations a user can ask for by name.
-pub const VARIATIONS: [&str; 3] = ["none", "light", "strong"];
+pub const VARIATIONS: [&str; 6] = ["none", "near", "pushed", "light", "strong", "physics"];
 
 /// The variation of this name.
 pub fn variation(name: &str) -> Option<Variation> {
     match name {
         "none" => Some(Variation::default()),
         "light" => Some(Variation::light()),
+        "near" => Some(Variation::near()),
+        "pushed" => Some(Variation::pushed()),
+        "physics" => Some(Variation::physics()),
         "strong" => Some(Variation::strong()),
         _ => None,
     }

@@ -1,11 +1,12 @@
 use super::{Leap, Movement, Verdict, upright::Turn};
 use crate::{Body, Snapshot};
 
-/// What comes after a jump: the time since the first [leap](Leap) of at least 0.35 start heights, and 6 cm, in which the
-/// body stands as it stood at the start (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has
-/// leapt no more than 1.2 s ago, s.
+/// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
+/// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago.
 ///
-/// A term that ends the episode when the body falls is what makes it land on its feet: see [`Posture`](super::Posture).
+/// The time after a leap of 0.38 start heights and 6 cm counts whole; after a lower one, the cube of its share of that; after
+/// one that legs began apart, less. A term that ends the episode when the body falls is what makes it land on its feet: see
+/// [`Posture`](super::Posture).
 #[derive(Clone, Debug, Default)]
 pub struct Landing {
     leap: Leap,
@@ -14,13 +15,17 @@ pub struct Landing {
     turn: Turn,
     start: f32,
     time: f32,
-    /// When the last leap was high enough for the last time.
-    leapt: Option<f32>,
+    /// When the last flight that may be a leap was under way for the last time.
+    leapt: f32,
+    /// What it is worth, 0 to 1.
+    worth: f32,
+    /// What the best so far was worth.
+    best: f32,
     good: f32,
 }
 
 /// Start heights.
-const RISE: f32 = 0.35;
+const RISE: f32 = 0.38;
 /// m.
 const LEAST_RISE: f32 = 0.06;
 /// s.
@@ -50,7 +55,7 @@ impl Movement for Landing {
         self.leap.begin(start);
         self.turn = Turn::from(start.torso());
         (self.start, self.time) = (start.torso().y, start.time);
-        (self.leapt, self.good) = (None, 0.0);
+        (self.leapt, self.worth, self.best, self.good) = (start.time, 0.0, 0.0, 0.0);
     }
 
     fn observe(&mut self, now: &Snapshot) -> Verdict {
@@ -58,13 +63,21 @@ impl Movement for Landing {
         self.turn.follow(now.torso());
         let seconds = now.time - self.time;
         self.time = now.time;
-        if self.leap.under_way(now).is_some_and(|rise| rise >= (RISE * self.start_height).max(LEAST_RISE)) {
-            self.leapt = Some(now.time);
+        if let Some((rise, share)) = self.leap.under_way(now) {
+            let high = (RISE * self.start_height).max(LEAST_RISE);
+            let part = (rise / high).clamp(0.0, 1.0);
+            let worth = share * part * part * part;
+            // The worth of a flight is that of its peak.
+            self.worth = if now.time - self.leapt > 2.0 * seconds { worth } else { self.worth.max(worth) };
+            self.best = self.best.max(self.worth);
+            self.leapt = now.time;
         }
-        if let Some(leapt) = self.leapt
-            && (now.time - leapt <= LEAPS_ON || self.stands(now))
-        {
-            self.good += seconds;
+        if self.best > 0.0 {
+            if now.time - self.leapt <= LEAPS_ON {
+                self.good += seconds * self.worth;
+            } else if self.stands(now) {
+                self.good += seconds * self.best;
+            }
         }
         Verdict::GoOn
     }

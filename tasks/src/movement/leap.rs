@@ -1,8 +1,11 @@
 use super::{Movement, Verdict};
 use crate::{Body, Snapshot};
 
-/// How high the centre of mass rises above its start in a true leap, m: in a flight of at least 0.22 s that all legs began
-/// together, each losing the ground within 0.12 s of the others. 0 without one.
+/// How high the centre of mass rises above its start in a leap, m: in a flight of at least 0.22 s that all legs began
+/// together. 0 without one.
+///
+/// All of the rise counts if each leg lost the ground within 0.1 s of the others, nothing if one did 0.18 s before, and a
+/// share between: a search that earns nothing before all is right never gets there.
 ///
 /// [`Jumping`](super::Jumping) also counts a torso that is lifted by a body that only stretches.
 #[derive(Clone, Debug, Default)]
@@ -12,22 +15,24 @@ pub struct Leap {
     start: f32,
     down: Vec<bool>,
     left: Vec<f32>,
-    /// Since when no part touches the ground, and whether the flight began as a leap.
-    flight: Option<(f32, bool)>,
+    /// Since when no part touches the ground, and how much of a leap the beginning of the flight was, 0 to 1.
+    flight: Option<(f32, f32)>,
     rise: f32,
     best: f32,
 }
 
 /// s.
-const TOGETHER: f32 = 0.12;
+const TOGETHER: f32 = 0.1;
+/// s.
+const APART: f32 = 0.18;
 /// A flight shorter than this is a stumble, s.
 const SHORTEST: f32 = 0.22;
 
 impl Leap {
-    /// How far the flight under way has risen, m, if it began as a leap and lasts long enough to be one.
-    pub(super) fn under_way(&self, now: &Snapshot) -> Option<f32> {
-        let (since, together) = self.flight?;
-        (together && now.time - since >= SHORTEST).then_some(self.rise)
+    /// How far the flight under way has risen, m, and how much of a leap it is, 0 to 1; if it lasts long enough to be one.
+    pub(super) fn under_way(&self, now: &Snapshot) -> Option<(f32, f32)> {
+        let (since, share) = self.flight?;
+        (now.time - since >= SHORTEST).then_some((self.rise, share))
     }
 }
 
@@ -69,11 +74,12 @@ impl Movement for Leap {
             return Verdict::GoOn;
         }
         let first = self.left.iter().copied().fold(f32::INFINITY, f32::min);
-        let (since, together) =
-            *self.flight.get_or_insert((now.time, now.time - first <= TOGETHER || self.feet.is_empty()));
+        let apart = if self.feet.is_empty() { 0.0 } else { now.time - first };
+        let share = ((APART - apart) / (APART - TOGETHER)).clamp(0.0, 1.0);
+        let (since, share) = *self.flight.get_or_insert((now.time, share));
         self.rise = self.rise.max(centre_height(&self.masses, now) - self.start);
-        if together && now.time - since >= SHORTEST {
-            self.best = self.best.max(self.rise);
+        if now.time - since >= SHORTEST {
+            self.best = self.best.max(share * self.rise);
         }
         Verdict::GoOn
     }

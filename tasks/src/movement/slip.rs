@@ -1,7 +1,8 @@
 use super::{Movement, Verdict};
 use crate::{Body, BodyPart, PartState, Snapshot};
 
-/// How far feet slide over the ground, as a mean over all feet, beyond 0.2 m for each metre of way, m. Weigh it negatively.
+/// How far feet slide over the ground, as a mean over all feet, beyond 0.2 m for each metre of way, m; at most half of the
+/// way, so that to get ahead on sliding feet is still worth more than to stand. Weigh it negatively, from −1 to 0.
 ///
 /// The lowest point of a foot counts, while the foot touches the ground. Legless bodies are left alone.
 #[derive(Clone, Debug, Default)]
@@ -21,6 +22,8 @@ struct Foot {
 
 /// m of slip a metre of way.
 const FREE: f64 = 0.2;
+/// The same.
+const MOST: f64 = 0.5;
 
 impl Movement for Slip {
     fn name(&self) -> &str {
@@ -60,7 +63,7 @@ impl Movement for Slip {
             return 0.0;
         }
         let way = f64::from((self.x - self.start).abs());
-        (self.slid / self.feet.len() as f64 - FREE * way).max(0.0)
+        (self.slid / self.feet.len() as f64 - FREE * way).clamp(0.0, MOST * way)
     }
 }
 
