@@ -51,40 +51,34 @@ pub struct Variation {
     pub bumps: f32,
     /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; default `false`:
     /// all have that of the terrain's own seed.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub terrain: bool,
-    /// Whether the first of several trials is in a [near](Self::near) world on level ground, so that the world of the
-    /// settings is never out of sight; default `false`. With one trial alone it has no effect.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    /// Whether the first of several trials is in a [near](Self::near) world, so that the world of the settings is
+    /// never out of sight; bumps and terrain it shares with the others; default `false`. With one trial alone it has no effect.
     pub near_first: bool,
     /// Of gravity.
-    #[serde(skip_serializing_if = "is_zero")]
     pub gravity: f32,
     /// On [`PhysicsSettings::motor_gain`](crate::PhysicsSettings::motor_gain): how hard a motor holds the speed asked for,
     /// within its torque.
-    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    #[serde(deserialize_with = "factors")]
     pub motor_gain: [f32; 2],
     /// The fewest and the most [solver iterations](crate::PhysicsSettings::solver_iterations), all equally likely; from 1 to
     /// 32. Default `null`: as the settings have it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub solver_iterations: Option<[u32; 2]>,
     /// On [`PhysicsSettings::joint_frequency`](crate::PhysicsSettings::joint_frequency): how stiff hinges and their limits
     /// are.
-    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    #[serde(deserialize_with = "factors")]
     pub joint_frequency: [f32; 2],
     /// On [`PhysicsSettings::contact_frequency`](crate::PhysicsSettings::contact_frequency): how stiff the ground is.
-    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    #[serde(deserialize_with = "factors")]
     pub contact_frequency: [f32; 2],
     /// On [`PhysicsSettings::contact_damping_ratio`](crate::PhysicsSettings::contact_damping_ratio): how slowly the ground
     /// pushes out what is in it.
-    #[serde(deserialize_with = "factors", skip_serializing_if = "is_one")]
+    #[serde(deserialize_with = "factors")]
     pub contact_damping: [f32; 2],
     /// The torso begins to turn with up to this much when the clock starts, rad/s, either way. From 0 to 5; default 0.
-    #[serde(skip_serializing_if = "is_zero")]
     pub torso_spin: f32,
     /// The strongest push against the torso, m/s of the whole body; from 0 to 5, default 0, none. A push is from half to all
     /// of it, either way along the ground, and comes 2 to 4 s after the one before, all uniformly drawn, for 120 s.
-    #[serde(skip_serializing_if = "is_zero")]
     pub pushes: f32,
 }
 
@@ -93,16 +87,6 @@ impl Default for Variation {
     fn default() -> Self {
         Self::NONE
     }
-}
-
-// The signature is serde's.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_zero(value: &f32) -> bool {
-    *value == 0.0
-}
-
-fn is_one(factors: &[f32; 2]) -> bool {
-    *factors == [1.0, 1.0]
 }
 
 /// Two factors, or the share they are off 1.
@@ -330,7 +314,7 @@ impl Variation {
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
     pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
-        if self.bumps == 0.0 || self.is_near(seed) {
+        if self.bumps == 0.0 {
             return Vec::new();
         }
         let heights = [0.1 * self.bumps, self.bumps];

@@ -181,8 +181,8 @@ impl Default for MovementCatalogue {
         catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
         catalogue.add_with_settings(
             None,
-            "ends the episode when the torso tilts, sinks or anything but feet touches the ground; 1 if so; settings: tilt, \
-             degrees (40), height (0.65), brush, s (0.06)",
+            "way made tilted, too low or with more than feet on the ground; weigh it negatively; ends the episode when far \
+             out; settings: tilt (40) and margin (20), degrees, height (0.65), brush, s (0.2)",
             Posture::new,
         );
         catalogue.add::<Sway>(None, "standard deviation of the torso's angle beyond 8°; weigh it negatively");

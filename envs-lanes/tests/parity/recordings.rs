@@ -97,7 +97,7 @@ fn every_moment_is_that_of_rapier() {
 
 #[test]
 fn what_goes_wrong_ends_a_play_and_no_other() {
-    let settings = PhysicsSettings { unstable_speed: 2.0, ..PhysicsSettings::default() };
+    let settings = PhysicsSettings { unstable_speed: 4.0, ..PhysicsSettings::default() };
     let scene = Scene::new("tetrapod-1", settings);
     let outcomes = compare(&scene, &networks(&scene.flat.1, 6));
     let failed = outcomes.iter().filter(|outcome| outcome.failure.is_some()).count();

@@ -158,10 +158,11 @@ impl Movement {
             }
         };
         // Two legs that hurry fall.
-        set("haste", "speed", if legs <= 2 { 1.6.into() } else { 2.2.into() });
+        set("haste", "speed", if legs <= 2 { 1.3.into() } else { 2.2.into() });
         if self == Self::Jumping {
             // A jump crouches, and nothing but feet may touch the ground, however shortly.
             set("posture", "tilt", 35.into());
+            set("posture", "margin", 5.into());
             set("posture", "height", 0.3.into());
             set("posture", "brush", 0.into());
         }

@@ -193,7 +193,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
         court.grades(&[one], slow()).0[0]
     };
     let grades: Vec<u8> = (0..=proving::WORLDS).map(grade).collect();
-    assert_eq!(grades, [1, 1, 1, 2, 2, 2, 3, 3, 3, 4, 4, 5, 5]);
+    assert_eq!(grades, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
     // Who is less fit than the champion must be steadier, or it is told as no more than usable.
     court.tried();
     let against = |champion: u8, steady: usize| {
@@ -245,14 +245,14 @@ fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
 #[test]
 fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
     let court = Court::new(nominal, None);
-    let all: Vec<(f64, f64, bool)> = (1..=6).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
+    let all: Vec<(f64, f64, bool)> = (1..=10).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);
-    assert_eq!(court.grades(&all, None), (vec![0; 6], vec![6.0, 5.0, 4.0, 3.0]));
-    assert_eq!(court.grades(&all, standing(HIGHEST, 6.0)), (vec![0; 6], vec![]));
-    assert_eq!(court.grades(&all, standing(HIGHEST, 4.5)), (vec![0; 6], vec![6.0, 5.0]));
+    assert_eq!(court.grades(&all, None), (vec![0; 10], vec![10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0]));
+    assert_eq!(court.grades(&all, standing(HIGHEST, 10.0)), (vec![0; 10], vec![]));
+    assert_eq!(court.grades(&all, standing(HIGHEST, 8.5)), (vec![0; 10], vec![10.0, 9.0]));
     assert_eq!(court.grades(&all[..3], standing(HIGHEST - 1, 100.0)), (vec![0, HIGHEST, 0], vec![3.0, 2.0]));
     let failed = Court::new(failed, None);
-    assert_eq!(failed.grades(&all, None), (vec![0; 6], vec![]), "who failed has no gait");
+    assert_eq!(failed.grades(&all, None), (vec![0; 10], vec![]), "who failed has no gait");
 }
 
 #[test]

@@ -6,8 +6,8 @@ use crate::{Body, BodyHinge, BodyPart, PartState, Snapshot};
 /// ground that is flat at height 0; or which gains, within 0.5 s, over 7 J plus 0.175 × weight × start height more energy
 /// than its motors worked. Its value is 0.
 ///
-/// This is the cheap part of the [audit](crate::gait) that every champion undergoes, looked at every third step, so that
-/// such bodies are no example to others.
+/// This is the cheap part of the [audit](crate::gait) that every champion undergoes, looked at every third step, and the energy at
+/// every step, so that such bodies are no example to others.
 #[derive(Clone, Debug, Default)]
 pub struct Honest {
     hinges: Vec<Hinge>,
@@ -90,6 +90,11 @@ impl Movement for Honest {
         self.steps += 1;
         let time_step = now.time - self.time;
         self.time = now.time;
+        // A gain may last for a step alone.
+        let surplus = self.surplus(now);
+        if self.surplus.gained(surplus, now.time) {
+            return Verdict::Fail("it gains energy from nowhere");
+        }
         if !self.steps.is_multiple_of(EVERY) {
             return Verdict::GoOn;
         }
@@ -113,10 +118,6 @@ impl Movement for Honest {
             if !self.uneven_ground && part.lowest_point(state) < -DEEPEST {
                 return Verdict::Fail("a part sinks into the ground");
             }
-        }
-        let surplus = self.surplus(now);
-        if self.surplus.gained(surplus, now.time) {
-            return Verdict::Fail("it gains energy from nowhere");
         }
         Verdict::GoOn
     }

@@ -4,8 +4,10 @@ use crate::{Body, Snapshot};
 /// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
 /// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago.
 ///
-/// The time after a leap of 0.38 start heights and 6 cm counts whole; after a lower one, the cube of its share of that; after
-/// one that legs began apart, less. A term that ends the episode when the body falls is what makes it land on its feet: see
+/// Only a leap of 0.35 start heights and 6 cm counts, and one that all legs began together: with a share for less, searches
+/// settle for hops.
+///
+/// A term that ends the episode when the body falls is what makes it land on its feet: see
 /// [`Posture`](super::Posture).
 #[derive(Clone, Debug, Default)]
 pub struct Landing {
@@ -25,7 +27,7 @@ pub struct Landing {
 }
 
 /// Start heights.
-const RISE: f32 = 0.38;
+const RISE: f32 = 0.35;
 /// m.
 const LEAST_RISE: f32 = 0.06;
 /// s.
@@ -65,8 +67,7 @@ impl Movement for Landing {
         self.time = now.time;
         if let Some((rise, share)) = self.leap.under_way(now) {
             let high = (RISE * self.start_height).max(LEAST_RISE);
-            let part = (rise / high).clamp(0.0, 1.0);
-            let worth = share * part * part * part;
+            let worth = if rise >= high && share == 1.0 { 1.0 } else { 0.0 };
             // The worth of a flight is that of its peak.
             self.worth = if now.time - self.leapt > 2.0 * seconds { worth } else { self.worth.max(worth) };
             self.best = self.best.max(self.worth);

@@ -4,8 +4,9 @@ use crate::{Body, Snapshot};
 /// How high the centre of mass rises above its start in a leap, m: in a flight of at least 0.22 s that all legs began
 /// together. 0 without one.
 ///
-/// All of the rise counts if each leg lost the ground within 0.1 s of the others, nothing if one did 0.18 s before, and a
-/// share between: a search that earns nothing before all is right never gets there.
+/// All of the rise counts if each leg lost the ground within 0.12 s of the others. Otherwise less than half does, and nothing
+/// if one did 0.4 s before: a search that earns nothing before all is right never gets there, and one that earns much has no
+/// reason to.
 ///
 /// [`Jumping`](super::Jumping) also counts a torso that is lifted by a body that only stretches.
 #[derive(Clone, Debug, Default)]
@@ -22,9 +23,11 @@ pub struct Leap {
 }
 
 /// s.
-const TOGETHER: f32 = 0.1;
+const TOGETHER: f32 = 0.12;
 /// s.
-const APART: f32 = 0.18;
+const APART: f32 = 0.4;
+/// The share of the rise that counts of a leap that legs begin just too far apart.
+const UNEVEN: f32 = 0.4;
 /// A flight shorter than this is a stumble, s.
 const SHORTEST: f32 = 0.22;
 
@@ -75,7 +78,8 @@ impl Movement for Leap {
         }
         let first = self.left.iter().copied().fold(f32::INFINITY, f32::min);
         let apart = if self.feet.is_empty() { 0.0 } else { now.time - first };
-        let share = ((APART - apart) / (APART - TOGETHER)).clamp(0.0, 1.0);
+        let uneven = UNEVEN * ((APART - apart) / (APART - TOGETHER)).max(0.0);
+        let share = if apart <= TOGETHER { 1.0 } else { uneven };
         let (since, share) = *self.flight.get_or_insert((now.time, share));
         self.rise = self.rise.max(centre_height(&self.masses, now) - self.start);
         if now.time - since >= SHORTEST {

@@ -3,11 +3,12 @@ use crate::{Body, Snapshot};
 use ne_core::SettingError;
 use serde::Deserialize;
 
-/// Ends the episode of a body with legs when it loses its posture: when its torso turns too far from its start, sinks too
-/// low, or when anything but a foot touches the ground. Its value is 1 if that happened and 0 if not.
+/// Watches the posture of a body with legs: how far its torso turns from its start, how low it sinks, and whether anything
+/// but a foot touches the ground. Its value is the way the torso made out of posture, m, forwards or backwards; with a weight
+/// of −1 such way earns nothing. It ends the episode of a body that is far out of posture.
 ///
-/// A brush is forgiven, since a gait may brush the ground a little. Legless bodies are left alone. On uneven
-/// ground the torso may sink as low as it likes.
+/// Between the two there is room: a search that ends at the first stumble never learns to run. Legless bodies are left alone.
+/// On uneven ground the torso may sink as low as it likes.
 #[derive(Clone, Debug, Default)]
 pub struct Posture {
     settings: PostureSettings,
@@ -15,11 +16,12 @@ pub struct Posture {
     uneven_ground: bool,
     others: Vec<usize>,
     turn: Turn,
-    lowest: f32,
     time: f32,
+    start: f32,
+    x: f32,
+    way: f32,
     /// How long parts that are no feet have touched the ground since they last left it, s.
     touched: f32,
-    lost: bool,
 }
 
 /// Settings of [`Posture`].
@@ -28,17 +30,23 @@ pub struct Posture {
 pub struct PostureSettings {
     /// The farthest the torso may turn, degrees; above 0, default 40.
     pub tilt: f32,
-    /// The lowest the torso may get, as a share of its start height; from 0 to 1, default 0.65.
+    /// So much farther it may turn before the episode ends, degrees; from 0 to 180, default 20.
+    pub margin: f32,
+    /// The lowest the torso may get, as a share of its start height; from 0 to 1, default 0.65. At three quarters of it the
+    /// episode ends.
     pub height: f32,
-    /// How long a part that is no foot may touch the ground at a time, s; from 0 to 1, default 0.06, a brush.
+    /// How long parts that are no feet may touch the ground at a time before the episode ends, s; from 0 to 1, default 0.2.
     pub brush: f32,
 }
 
 impl Default for PostureSettings {
     fn default() -> Self {
-        Self { tilt: 40.0, height: 0.65, brush: 0.06 }
+        Self { tilt: 40.0, margin: 20.0, height: 0.65, brush: 0.2 }
     }
 }
+
+/// The share of the lowest height at which a body has fallen.
+const LYING: f32 = 0.75;
 
 impl Posture {
     /// With these settings.
@@ -49,6 +57,7 @@ impl Posture {
         if !(settings.tilt.is_finite() && settings.tilt > 0.0) {
             return Err(SettingError::new("tilt", settings.tilt, "finite and above 0"));
         }
+        SettingError::check_range("margin", settings.margin.into(), 0.0, 180.0)?;
         SettingError::check_range("height", settings.height.into(), 0.0, 1.0)?;
         SettingError::check_range("brush", settings.brush.into(), 0.0, 1.0)?;
         Ok(Self { settings, ..Self::default() })
@@ -61,7 +70,7 @@ impl Movement for Posture {
     }
 
     fn unit(&self) -> &str {
-        "1"
+        "m"
     }
 
     fn meet(&mut self, body: &Body) {
@@ -72,8 +81,9 @@ impl Movement for Posture {
 
     fn begin(&mut self, start: &Snapshot) {
         self.turn = Turn::from(start.torso());
-        self.lowest = self.settings.height * start.torso().y;
-        (self.time, self.touched, self.lost) = (start.time, 0.0, false);
+        self.start = start.torso().y;
+        (self.time, self.x) = (start.time, start.torso().x);
+        (self.touched, self.way) = (0.0, 0.0);
     }
 
     fn observe(&mut self, now: &Snapshot) -> Verdict {
@@ -85,13 +95,21 @@ impl Movement for Posture {
         self.time = now.time;
         let touches = self.others.iter().any(|&part| now.parts[part].touching);
         self.touched = if touches { self.touched + seconds } else { 0.0 };
-        self.lost |= self.turn.angle.abs() > self.settings.tilt.to_radians()
-            || (!self.uneven_ground && now.torso().y < self.lowest)
-            || self.touched > self.settings.brush;
-        if self.lost { Verdict::End } else { Verdict::GoOn }
+        let PostureSettings { tilt, margin, height, brush } = self.settings;
+        let turned = self.turn.angle.abs().to_degrees();
+        let share = if self.uneven_ground { 1.0 } else { now.torso().y / self.start };
+        if touches || turned > tilt || share < height {
+            self.way += (now.torso().x - self.x).abs();
+        }
+        self.x = now.torso().x;
+        if turned > tilt + margin || share < LYING * height || self.touched > brush {
+            Verdict::End
+        } else {
+            Verdict::GoOn
+        }
     }
 
     fn value(&self) -> f64 {
-        f64::from(u8::from(self.lost))
+        self.way.into()
     }
 }
