@@ -81,7 +81,8 @@ fn a_creature_that_starts_out_of_balance_is_warned_of() -> Outcome {
             &[
                 "a valid creature",
                 "warning: it settles tilted by ",
-                &format!("° {way}: it starts out of balance; move"),
+                &format!("° {way}, its torso "),
+                " % lower: it starts out of balance; move what it stands on ",
             ],
         );
         assert_says(&printed, &[&format!(" m {side} the points on the ground (x = ")]);
