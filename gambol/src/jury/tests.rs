@@ -200,11 +200,11 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
         let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
         (court.grades(&[one], standing(champion, 2.0)).0[0], court.tried())
     };
-    assert_eq!(against(USABLE, 2), (USABLE, vec![3]));
-    assert_eq!(against(USABLE, 3), (USABLE + 1, vec![3]));
-    assert_eq!(against(USABLE + 2, 9), (USABLE + 3, vec![9]));
-    assert_eq!(against(USABLE + 3, 10), (USABLE, vec![11]));
-    assert_eq!(against(HIGHEST, 12), (0, vec![]), "it could not become champion");
+    assert_eq!(against(USABLE, 3), (USABLE, vec![4]));
+    assert_eq!(against(USABLE, 4), (USABLE + 1, vec![4]));
+    assert_eq!(against(USABLE + 2, 11), (USABLE + 3, vec![11]));
+    assert_eq!(against(USABLE + 3, 13), (USABLE, vec![14]));
+    assert_eq!(against(HIGHEST, 15), (0, vec![]), "it could not become champion");
 }
 
 #[test]

@@ -11,11 +11,11 @@ use std::{path::Path, process::Command, time::Instant};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// The four-legged jumper learns within a few generations. Nothing of the default preset is changed but the population,
+/// The caterpillar learns to jump within a few generations. Nothing of the default preset is changed but the population,
 /// which would take a test too long, and how often the jury sits.
 fn easy(folder: &Path) -> Command {
     let mut train = gambol("train");
-    train.args(["tetrapod-1", "jumping", "--population", "24", "--set", "record.checkpoint_every=4", "--no-report"]);
+    train.args(["apod", "jumping", "--population", "24", "--set", "record.checkpoint_every=4", "--no-report"]);
     train.arg("--out").arg(folder);
     train
 }
@@ -37,7 +37,7 @@ fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
     let told = succeed(easy(&path).args(["--until", "usable", "--generations", "400", "--json"]));
     assert_eq!(result(&told)["reason"], "grade", "the champion is usable before 400 generations are done");
     assert!(grade(&path) >= Some(1));
-    assert_says(&succeed(gambol("gait").arg(&path)), &["tetrapod-1 jumping: usable"]);
+    assert_says(&succeed(gambol("gait").arg(&path)), &["apod jumping: usable"]);
     assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
     // It has ended; with more generations it goes on, and its champion stays usable.
     let before = grade(&path);
