@@ -51,6 +51,7 @@ pub struct Variation {
     pub bumps: f32,
     /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; default `false`:
     /// all have that of the terrain's own seed.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub terrain: bool,
     /// Whether the first of several trials is in a [near](Self::near) world, so that the world of the settings is
     /// never out of sight; bumps and terrain it shares with the others; default `false`. With one trial alone it has no effect.

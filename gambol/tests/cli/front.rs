@@ -95,7 +95,7 @@ fn a_front_holds_what_was_measured() -> Outcome {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("run");
         let again = format!("strategy.nsga2.parents_again={parents_again}");
-        succeed(train_many(&path, 6, 24).args(["--set", &again]));
+        succeed(train_many(&path, 6, 24).args(["--set", &again, "--set", "trials.count=1"]));
         let run = RunFolder::open(&path)?;
         let (config, front) = (run.read_config()?, Front::read(&run.front())?);
         let setup = Setup::new(&config, &MovementCatalogue::default())?;

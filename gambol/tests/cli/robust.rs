@@ -31,8 +31,13 @@ fn worlds_come_from_the_seed_and_not_from_the_threads() -> Outcome {
     let one: Value = serde_json::from_str(&one)?;
     let trials = one["trials"].as_array().expect("a list");
     assert_eq!(trials.len(), 4);
-    assert!(trials.iter().all(|trial| trial["bumps"].as_u64() > Some(0)));
-    assert_ne!(trials[0]["time_step_s"], trials[1]["time_step_s"]);
+    let causes: Vec<_> = trials.iter().map(|trial| trial["cause"].as_str().expect("a name")).collect();
+    assert_eq!(causes, ["bumps", "pushes", "friction", "physics"], "they take turns");
+    let more_than_none = |field: &str| trials.iter().map(|trial| trial[field].as_u64() > Some(0)).collect::<Vec<_>>();
+    assert_eq!(more_than_none("bumps"), [true, false, false, false]);
+    assert_eq!(more_than_none("pushes"), [false, true, false, false]);
+    assert_ne!(trials[2]["friction"], 1.0);
+    assert_ne!(trials[3]["time_step_s"], trials[0]["time_step_s"]);
     // More worlds begin with the same ones.
     let more: Value = serde_json::from_str(&robust(&champion, "5", &[]))?;
     assert_eq!(more["trials"].as_array().expect("a list")[..4], trials[..]);

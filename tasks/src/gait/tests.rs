@@ -210,7 +210,8 @@ fn strides_repeat_themselves() {
     let stumbling = |much: f64| {
         walk(move |step, pose| {
             let stride = (step / STRIDE) as u64;
-            let chance = (stride.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / f64::from(1 << 24) - 0.5;
+            let chance =
+                ((stride * stride).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 40) as f64 / f64::from(1 << 24) - 0.5;
             pose.hips = pose.hips.map(|hip| hip + much * chance);
         })
     };
@@ -264,7 +265,7 @@ fn a_jump_ends_standing_or_goes_on() {
     // A jump every 1.2 s: in the air or crouching in the last second.
     let on = |step: usize| {
         let again = Pose::jumping(50 + step % 60);
-        let work = 100.0 * (1 + (step + 5) / 60) as f64;
+        let work = 100.0 * (step / 60) as f64 + again.work;
         Pose { touching: if step < 5 { [false, true, true] } else { again.touching }, work, ..again }
     };
     assert_eq!(reasons(&report(5.0, Kind::Jumping, on)), NOTHING);
