@@ -26,7 +26,7 @@ impl Scene {
     }
 
     fn worlds(&self, play: usize) -> &(RapierEnvironment, LaneEnvironment) {
-        if play % 3 == 0 { &self.flat } else { &self.bumpy }
+        if play.is_multiple_of(3) { &self.flat } else { &self.bumpy }
     }
 
     fn start(&self, play: usize) -> Settled<LaneEngine> {
