@@ -103,7 +103,7 @@ impl Stage<'_> {
     /// Begins the next play that lasts longer than its start.
     fn seat_next(&mut self, lane: usize, observe: &mut impl FnMut(usize, &Snapshot) -> bool) {
         self.seats[lane] = None;
-        while let Some(index) = self.waiting.next() {
+        for index in self.waiting.by_ref() {
             let Play { network, start, steps } = self.plays[index];
             if !observe(index, &start.snapshot) || steps == 0 {
                 continue;
