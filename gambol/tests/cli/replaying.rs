@@ -12,7 +12,7 @@ use std::{
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// What a run is judged in, and a step.
-const JUDGED_STEPS: usize = 1000;
+const JUDGED_STEPS: usize = 3000;
 const STEP_SECONDS: f64 = 0.02;
 
 fn trained(folder: &Path, creature: &str) -> PathBuf {
@@ -70,8 +70,8 @@ fn a_replay_can_be_shorter_or_longer_and_begins_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     let champion = trained(folder.path(), "biped-1");
     let whole = trajectory(&champion, None)?;
-    let (short, long) = (trajectory(&champion, Some("0.5"))?, trajectory(&champion, Some("25"))?);
-    assert_eq!((short.len(), whole.len(), long.len()), (26 * 3, 3001 * 3, 1251 * 3));
+    let (short, long) = (trajectory(&champion, Some("0.5"))?, trajectory(&champion, Some("65"))?);
+    assert_eq!((short.len(), whole.len(), long.len()), (26 * 3, 3001 * 3, 3251 * 3));
     assert_eq!(short[..], long[..short.len()]);
     assert_eq!(whole[..], long[..whole.len()]);
     Ok(())
@@ -108,7 +108,7 @@ fn a_page_shows_the_replay_and_needs_no_network() -> Outcome {
     succeed(gambol("replay").arg(&champion).arg("--html").arg(&whole));
     let whole = crate::reporting::data(&fs::read_to_string(whole)?);
     assert_eq!(whole["champion"]["replay"]["frames"], JUDGED_STEPS + 1);
-    assert_eq!(whole["gait"]["duration_s"].as_f64().map(|seconds| seconds.round()), Some(20.0));
+    assert_eq!(whole["gait"]["duration_s"].as_f64().map(|seconds| seconds.round()), Some(60.0));
     assert_eq!(replay["data"].as_array().map(Vec::len), Some(101 * 3 * 3));
     Ok(())
 }
