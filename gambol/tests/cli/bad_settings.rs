@@ -73,7 +73,7 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("heats=[{\"steps\":0,\"share\":0.5}]",         &["heats[0].steps = 0: must be from 1 to 500, as many as in training"]),
     ("heats=[{\"steps\":501,\"share\":0.5}]",       &["heats[0].steps = 501: must be from 1 to 500, as many as in training"]),
     ("heats=[{\"trials\":0,\"share\":0.5}]",        &["heats[0].trials = 0: must be from 1 to 3, as many as in training"]),
-    ("heats=[{\"trials\":1,\"share\":0.5}]",        &["heats[0] = 500 steps, trials: 1: must be cheaper than training: fewer steps than 500"]),
+    ("heats=[{\"trials\":3,\"share\":0.5}]",        &["heats[0] = 500 steps, trials: 3: must be cheaper than training: fewer steps than 500 or fewer trials than 3"]),
     ("heats=[{\"steps\":50}]",                      &["heats[0]: missing field `share`"]),
     ("heats=[{\"steps\":50,\"shaer\":0.5}]",        &["heats[0].shaer: unknown field", "did you mean `share`?"]),
     ("heats={\"steps\":50,\"share\":0.5}",          &["heats: invalid type: map"]),
