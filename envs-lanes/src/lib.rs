@@ -52,6 +52,7 @@ mod profile;
 mod recording;
 mod senses;
 mod solver;
+mod stage;
 
 pub use engine::{ENGINE, LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;

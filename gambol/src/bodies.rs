@@ -5,7 +5,7 @@ use crate::{
     setup::{EpisodeParts, SetupError, TrainingTask, difference},
 };
 use creatures::{Channel, Creature};
-use ne_core::{Evaluation, Fitness, Phenotype, Seed, SettingError, Task};
+use ne_core::{Evaluation, Fitness, Phenotype, Seed, SettingError, Task, Threads};
 use tasks::{Combine, MovementCatalogue};
 
 /// The most companions a creature can have.
@@ -63,6 +63,29 @@ impl SeveralBodies {
         }
         all
     }
+
+    /// Evaluates in one body after the other, in each those that have not failed in an earlier one.
+    fn evaluate_in_each(
+        &self,
+        phenotypes: &mut [&mut dyn Phenotype],
+        evaluate: impl Fn(&TrainingTask, &mut [&mut dyn Phenotype]) -> Vec<Evaluation>,
+    ) -> Vec<Evaluation> {
+        let mut evaluations: Vec<Vec<Evaluation>> = vec![Vec::new(); phenotypes.len()];
+        for body in &self.bodies {
+            let fine = |so_far: &[Evaluation]| so_far.last().is_none_or(|last| last.outcome.is_ok());
+            let able: Vec<usize> = (0..phenotypes.len()).filter(|&index| fine(&evaluations[index])).collect();
+            let mut able_phenotypes: Vec<&mut dyn Phenotype> = phenotypes
+                .iter_mut()
+                .enumerate()
+                .filter(|(index, _)| able.binary_search(index).is_ok())
+                .map(|(_, phenotype)| &mut **phenotype)
+                .collect();
+            for (index, evaluation) in able.into_iter().zip(evaluate(body, &mut able_phenotypes)) {
+                evaluations[index].push(evaluation);
+            }
+        }
+        evaluations.iter().map(|evaluations| self.together(evaluations)).collect()
+    }
 }
 
 impl Task for SeveralBodies {
@@ -79,21 +102,16 @@ impl Task for SeveralBodies {
     }
 
     fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
-        let mut evaluations: Vec<Vec<Evaluation>> = vec![Vec::new(); phenotypes.len()];
-        for body in &self.bodies {
-            let fine = |so_far: &[Evaluation]| so_far.last().is_none_or(|last| last.outcome.is_ok());
-            let able: Vec<usize> = (0..phenotypes.len()).filter(|&index| fine(&evaluations[index])).collect();
-            let mut able_phenotypes: Vec<&mut dyn Phenotype> = phenotypes
-                .iter_mut()
-                .enumerate()
-                .filter(|(index, _)| able.binary_search(index).is_ok())
-                .map(|(_, phenotype)| &mut **phenotype)
-                .collect();
-            for (index, evaluation) in able.into_iter().zip(body.evaluate_batch(&mut able_phenotypes, seed)) {
-                evaluations[index].push(evaluation);
-            }
-        }
-        evaluations.iter().map(|evaluations| self.together(evaluations)).collect()
+        self.evaluate_in_each(phenotypes, |body, able| body.evaluate_batch(able, seed))
+    }
+
+    fn evaluate_spread(
+        &self,
+        phenotypes: &mut [&mut dyn Phenotype],
+        seed: Seed,
+        threads: &dyn Threads,
+    ) -> Vec<Evaluation> {
+        self.evaluate_in_each(phenotypes, |body, able| body.evaluate_spread(able, seed, threads))
     }
 
     fn batch_size(&self) -> usize {

@@ -57,9 +57,14 @@ enum Sight {
     ClockCosine,
     /// Something of the whole body.
     Whole,
+    /// How the body tilts, where limbs before and behind have to answer it differently: its next slot is the answer's share
+    /// that goes with the place of the limb.
+    Tilt,
     /// The sign of a limb's joints goes with it.
     Joint,
     Foot,
+    /// All feet as one, each of them so much of it.
+    Feet(f32),
 }
 
 /// The genes of the copies of one net, handed out in order.
@@ -92,7 +97,8 @@ pub(crate) struct Limbs {
 
 /// The topology of a controller for this creature: for each limb a copy of one net.
 ///
-/// The last layer sees what the hidden neurons see, and the hidden neurons.
+/// The last layer sees the hidden neurons alone, if there are any: with fewer genes, and joints that move by the same few
+/// signals, searches find gaits much sooner.
 pub(crate) fn topology(
     blueprint: &Blueprint,
     senses: &Senses,
@@ -111,10 +117,11 @@ pub(crate) fn topology(
     let mut weights = Vec::new();
     let mut output_of = vec![0; motors.len()];
     let inputs = senses.len();
+    let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
         let (joints, kind_name) = (copies[0].1.hinges.len(), copies[0].1.kind_name());
-        let sights: Vec<Sights> = copies.iter().map(|(_, limb)| sees(limb, senses)).collect();
+        let sights: Vec<Sights> = copies.iter().map(|(_, limb)| sees(limb, senses, together)).collect();
         // A copy may lack a sense that another has, but slots are the same in all of them.
         let longest = sights.iter().max_by_key(|sights| sights.slots.len());
         let slots = longest.map_or(&[][..], |sights| &sights.slots);
@@ -124,13 +131,17 @@ pub(crate) fn topology(
             own.collect::<Vec<_>>()
         };
         let hears = |joint: usize| {
-            let heard = (0..hidden).map(|index| format!("{kind_name}, joint {joint}: hidden {index}"));
-            neuron(&format!("joint {joint}")).into_iter().chain(heard).collect::<Vec<_>>()
+            let target = format!("joint {joint}");
+            if hidden == 0 {
+                return neuron(&target);
+            }
+            let heard = (0..hidden).map(|index| format!("hidden {index}"));
+            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard);
+            sources.map(|source| format!("{kind_name}, {target}: {source}")).collect()
         };
         let hidden_genes: Vec<usize> =
             (0..hidden).map(|index| genes.group(neuron(&format!("hidden {index}")))).collect();
         let output_genes: Vec<usize> = (0..joints).map(|joint| genes.group(hears(joint))).collect();
-        let slots = slots.len();
         for ((limb_index, limb), Sights { seen: sights, .. }) in copies.iter().zip(&sights) {
             let first_hidden_node = inputs + neurons.len();
             let turn = |gene: usize| Turn {
@@ -140,6 +151,7 @@ pub(crate) fn topology(
                 phase_genes: vec![(wave, PI * limb.place), (offsets + limb_index, 1.0)],
             };
             let mut neuron = |first: usize, hidden_sources: usize, activation, sign: f32| {
+                let sights: &[(usize, Sight, usize)] = if hidden_sources > 0 { &[] } else { sights };
                 let mut sources: Vec<usize> = sights.iter().map(|&(input, _, _)| input).collect();
                 weights.push(Tie::Sum(vec![(first, sign), (first + 1, sign * limb.place)]));
                 for &(_, sight, slot) in sights {
@@ -150,11 +162,13 @@ pub(crate) fn topology(
                         Sight::ClockCosine => Tie::Cosine(turn_of(gene - 1)),
                         Sight::Joint => Tie::Sum(vec![(gene, sign * limb.sign)]),
                         Sight::Whole | Sight::Foot => Tie::Sum(vec![(gene, sign)]),
+                        Sight::Tilt => Tie::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
+                        Sight::Feet(share) => Tie::Sum(vec![(gene, sign * share)]),
                     });
                 }
                 for index in 0..hidden_sources {
                     sources.push(first_hidden_node + index);
-                    weights.push(Tie::Sum(vec![(first + 2 + slots + index, sign)]));
+                    weights.push(Tie::Sum(vec![(first + 2 + index, sign)]));
                 }
                 neurons.push(GraphNeuron { activation, bias: true, sources });
                 inputs + neurons.len() - 1
@@ -192,8 +206,12 @@ impl Sights {
     }
 }
 
-/// What a limb sees of what is sensed.
-fn sees(limb: &Limb, senses: &Senses) -> Sights {
+/// Of more feet than these, which all come down at another moment, legs that act together feel the mean: each would fall out
+/// of step if it answered its own.
+const FEET_FELT_ALONE: usize = 4;
+
+/// What a limb sees of what is sensed; `together`: how many feet there are, if all legs act together.
+fn sees(limb: &Limb, senses: &Senses, together: Option<usize>) -> Sights {
     let mut sights = Sights::default();
     let (mut angles, mut speeds, mut feet, mut slips) = (None, None, None, None);
     for (input, (probe, channel)) in senses.probes().iter().zip(senses.channels()).enumerate() {
@@ -210,6 +228,10 @@ fn sees(limb: &Limb, senses: &Senses) -> Sights {
             }
             // Arms have no feet.
             Source::Contact(_) | Source::Slip(_) if limb.arm.is_some() => None,
+            Source::Contact(_) if together.is_some_and(|feet| feet > FEET_FELT_ALONE) => {
+                let slot = *feet.get_or_insert_with(|| sights.add(["contact of feet".to_owned()]));
+                together.map(|feet| (Sight::Feet(1.0 / feet as f32), slot))
+            }
             Source::Contact(part) => {
                 let slot = *feet.get_or_insert_with(|| sights.add(["contact of foot".to_owned()]));
                 limb.parts.contains(&part).then_some((Sight::Foot, slot))
@@ -220,6 +242,10 @@ fn sees(limb: &Limb, senses: &Senses) -> Sights {
             }
             Source::ClockSine { .. } => Some((Sight::ClockSine, sights.add([channel.name.clone()]))),
             Source::ClockCosine { .. } => Some((Sight::ClockCosine, sights.add([channel.name.clone()]))),
+            Source::TorsoRotation | Source::TorsoSpin if together.is_some() => {
+                let by_place = format!("{}, by place", channel.name);
+                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place])))
+            }
             _ => Some((Sight::Whole, sights.add([channel.name.clone()]))),
         };
         sights.seen.extend(sight.map(|(sight, slot)| (input, sight, slot)));

@@ -1,7 +1,7 @@
 use crate::{bodies::SeveralBodies, config::EngineChoice};
 use envs_lanes::LaneEpisode;
 use envs_rapier::RapierEnvironment;
-use ne_core::{Evaluation, Phenotype, Seed, Task};
+use ne_core::{Evaluation, Phenotype, Seed, Task, Threads};
 use tasks::Episode;
 
 /// What a population is evaluated on: the same episodes in either engine, with the same results.
@@ -78,6 +78,15 @@ impl Task for TrainingTask {
 
     fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
         self.task().evaluate_batch(phenotypes, seed)
+    }
+
+    fn evaluate_spread(
+        &self,
+        phenotypes: &mut [&mut dyn Phenotype],
+        seed: Seed,
+        threads: &dyn Threads,
+    ) -> Vec<Evaluation> {
+        self.task().evaluate_spread(phenotypes, seed, threads)
     }
 
     fn batch_size(&self) -> usize {

@@ -97,6 +97,7 @@ mod selector;
 mod setting;
 mod strategy;
 mod task;
+mod threads;
 
 #[cfg(feature = "evolution")]
 pub mod archive;
@@ -130,6 +131,7 @@ pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tourn
 pub use setting::SettingError;
 pub use strategy::{FrontPoint, SpeciesReport, Statistic, Strategy};
 pub use task::Task;
+pub use threads::Threads;
 
 #[cfg(feature = "evolution")]
 pub use checkpoint::{CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Checkpoint};

@@ -1,4 +1,4 @@
-use crate::{Evaluation, Failure, Phenotype, Seed};
+use crate::{Evaluation, Failure, Phenotype, Seed, Threads, threads};
 
 /// Scores phenotypes.
 ///
@@ -35,6 +35,20 @@ pub trait Task: Send + Sync {
     /// hand over fewer.
     fn batch_size(&self) -> usize {
         1
+    }
+
+    /// Evaluates a whole generation on several threads: what [`Parallel`](crate::Parallel) calls.
+    ///
+    /// Returns what [`evaluate_batch`](Self::evaluate_batch) would, on however many threads. Without an implementation of its
+    /// own each thread takes batches of at most [`batch_size`](Self::batch_size), which is fine unless the last of them keeps
+    /// the others waiting.
+    fn evaluate_spread(
+        &self,
+        phenotypes: &mut [&mut dyn Phenotype],
+        seed: Seed,
+        threads: &dyn Threads,
+    ) -> Vec<Evaluation> {
+        threads::spread_batches(self, phenotypes, seed, threads)
     }
 
     /// Compares the phenotype's shape with the task's; for implementors to call first.

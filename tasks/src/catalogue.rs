@@ -1,7 +1,7 @@
 use crate::{
     Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Honest, Hopping,
     Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rollovers, Running, Slip, Standing, Sum,
-    Sway, Swimming, TimeAloft, Upright, Vibration, Walking,
+    Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -185,7 +185,6 @@ impl Default for MovementCatalogue {
              out; settings: tilt (40) and margin (20), degrees, height (0.65), brush, s (0.2)",
             Posture::new,
         );
-        catalogue.add::<Sway>(None, "standard deviation of the torso's angle beyond 8°; weigh it negatively");
         catalogue.add::<Slip>(None, "how far feet slide, beyond 0.2 m a metre; weigh it negatively");
         catalogue.add_with_settings(
             None,

@@ -1,4 +1,4 @@
-use crate::{Environment, Movement, Outcome, Snapshot, Tally, Trials, Verdict};
+use crate::{Environment, Movement, Outcome, Snapshot, Tally, Trial, Trials, Verdict};
 use ne_core::{Evaluation, Failure, Phenotype, Seed, SettingError, Task};
 
 /// An environment, a movement and trials: the [`Task`] of a body that learns to move.
@@ -186,7 +186,7 @@ impl<E: Environment> Task for Episode<E> {
         loop {
             let (steps, failure) = stage.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
             let outcome = Outcome { steps, time_step: stage.environment.time_step(), failure };
-            if let Some(evaluation) = tally.add(outcome, &*stage.movement) {
+            if let Some(evaluation) = tally.add(Trial::new(outcome, &*stage.movement)) {
                 return evaluation;
             }
         }

@@ -57,7 +57,7 @@ pub use movement::{
     Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
     GettingUpSettings, Haste, HasteSettings, Headway, HeadwaySettings, Honest, Hopping, Idleness, Jumping, Landing,
     Leap, LongJump, Movement, MovementClone, Objectives, Posture, PostureSettings, Rollovers, Running, Slip, Standing,
-    StandingSettings, Sum, Sway, Swimming, TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
+    StandingSettings, Sum, Swimming, TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
-pub use trials::{Combine, Outcome, Tally, Trials};
+pub use trials::{Combine, Outcome, Tally, Trial, Trials};

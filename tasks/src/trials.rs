@@ -52,8 +52,37 @@ pub struct Outcome {
     pub failure: Option<Failure>,
 }
 
-/// Makes an evaluation of trials, one after the other. What an [`Episode`](crate::Episode) uses, and whoever plays many
-/// at once.
+/// A trial that has been played: how it ended, and what its movement then had to say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trial {
+    outcome: Outcome,
+    value: f64,
+    objectives: Vec<f64>,
+    measurements: Vec<(String, f64)>,
+}
+
+impl Trial {
+    /// A trial that ended so, watched by this movement.
+    pub fn new(outcome: Outcome, movement: &dyn Movement) -> Self {
+        let mut trial = Self { outcome, value: f64::NAN, objectives: Vec::new(), measurements: Vec::new() };
+        if trial.failed() {
+            return trial;
+        }
+        trial.value = movement.value();
+        if trial.value.is_finite() {
+            movement.objectives(&mut |objective| trial.objectives.push(objective));
+            movement.measurements(&mut |name, value| trial.measurements.push((name.to_owned(), value)));
+        }
+        trial
+    }
+
+    /// Whether it failed, which ends its evaluation.
+    pub fn failed(&self) -> bool {
+        self.outcome.failure.is_some()
+    }
+}
+
+/// Makes an evaluation of trials, in their order. What an [`Episode`](crate::Episode) uses, and tasks that play many at once.
 #[derive(Clone, Debug)]
 pub struct Tally {
     trials: Trials,
@@ -77,39 +106,38 @@ impl Tally {
         self.done
     }
 
-    /// Adds a trial, watched by this movement; gives the evaluation once it is complete: after the last trial, and after
-    /// one that failed or has no finite value. The objectives are the means of the trials', however values combine.
-    pub fn add(&mut self, outcome: Outcome, movement: &dyn Movement) -> Option<Evaluation> {
+    /// Adds the next trial; gives the evaluation once it is complete: after the last trial, and after one that failed or has
+    /// no finite value. The objectives are the means of the trials', however values combine.
+    pub fn add(&mut self, trial: Trial) -> Option<Evaluation> {
+        let Trial { outcome, value, objectives, measurements } = trial;
         self.done += 1;
         self.steps += u64::from(outcome.steps);
         if let Some(failure) = outcome.failure {
             return Some(Evaluation::failed(failure).with_steps(self.steps));
         }
-        let value = movement.value();
         if !value.is_finite() {
             return Some(Evaluation::new(value).with_steps(self.steps));
         }
         self.sum += value;
         self.worst = self.worst.min(value);
         let count = f64::from(self.trials.count);
-        let mut index = 0;
-        movement.objectives(&mut |objective| {
+        for (index, objective) in objectives.into_iter().enumerate() {
             match self.objectives.get_mut(index) {
                 Some(mean) => *mean += objective / count,
                 None => self.objectives.push(objective / count),
             }
-            index += 1;
-        });
+        }
         if let Some(index) = self.objectives.iter().position(|objective| !objective.is_finite()) {
             let failure = Failure::NonFinite { what: format!("objective {index}") };
             return Some(Evaluation::failed(failure).with_steps(self.steps));
         }
-        let mut tell = |name: &str, value: f64| match self.measurements.get_mut(name) {
-            Some(mean) => *mean += value / count,
-            None => drop(self.measurements.insert(name.to_owned(), value / count)),
-        };
-        movement.measurements(&mut tell);
-        tell("duration", f64::from(outcome.steps) * f64::from(outcome.time_step));
+        let duration = ("duration".to_owned(), f64::from(outcome.steps) * f64::from(outcome.time_step));
+        for (name, value) in measurements.into_iter().chain([duration]) {
+            match self.measurements.get_mut(&name) {
+                Some(mean) => *mean += value / count,
+                None => drop(self.measurements.insert(name, value / count)),
+            }
+        }
         if self.done < self.trials.count {
             return None;
         }

@@ -2,9 +2,9 @@
 
 use std::f32::consts::TAU;
 use tasks::{
-    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Headway, Honest, Idleness, Jumping, Leap, Movement,
-    MovementCatalogue, MovementSpec, PartState, Running, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration,
-    conformance::check_movement,
+    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Honest, Idleness, Jumping, Landing, Leap,
+    Movement, MovementCatalogue, MovementSpec, PartState, Posture, Running, Slip, Snapshot, Sum, TermSpec, Upright,
+    Verdict, Vibration, conformance::check_movement,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -140,7 +140,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
     // All that fits every body the check shows: one part, that is its own leg.
     let hinge = BodyHinge { limits: [-1.0, 1.0], motor, ..BodyHinge::default() };
     let simple = Body { parts: vec![torso], hinges: vec![hinge], legs: vec![vec![0]], ..Body::default() };
-    let movements: [Box<dyn Movement>; 7] = [
+    let movements: [Box<dyn Movement>; 11] = [
         Box::new(Upright::default()),
         Box::new(Footfalls::default()),
         Box::new(Headway::default()),
@@ -148,6 +148,10 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
         Box::new(Idleness::default()),
         Box::new(Leap::default()),
         Box::new(Honest::default()),
+        Box::new(Posture::default()),
+        Box::new(Haste::default()),
+        Box::new(Slip::default()),
+        Box::new(Landing::default()),
     ];
     let catalogue = MovementCatalogue::default();
     for mut movement in movements {
@@ -190,7 +194,7 @@ fn headway_ends_an_episode_after_a_second_with_too_little_of_it() {
 }
 
 #[test]
-fn footfalls_ends_an_episode_when_a_leg_rests_or_hangs() {
+fn footfalls_ends_an_episode_when_half_of_the_legs_rest_or_hang() {
     /// Lifts its foot so high, m, in every second 0.4 s, from `phase` seconds on.
     fn steps(height: f32, phase: f32) -> impl Fn(f32) -> f32 {
         move |time| if (time + phase) % 0.8 < 0.4 { 0.0 } else { height }
@@ -203,22 +207,83 @@ fn footfalls_ends_an_episode_when_a_leg_rests_or_hangs() {
     let footfalls =
         |left: &dyn Fn(f32) -> f32, right: &dyn Fn(f32) -> f32| watch(Footfalls::default(), &body, &walk(left, right));
     assert_eq!(footfalls(&good, &other), Seen { value: 0.0, end: None });
-    assert_ends(footfalls(&good, &rests), 0.9, 1.0);
-    assert_ends(footfalls(&hangs, &good), 0.9, 1.0);
-    assert_ends(footfalls(&rests, &hangs), 0.9, 2.0);
+    assert_ends(footfalls(&good, &rests), 0.9, 0.0);
+    assert_ends(footfalls(&hangs, &good), 0.9, 0.0);
+    assert_ends(footfalls(&rests, &hangs), 0.9, 0.0);
     // From 2 s on it drags its foot: it was last down at 1.6 s, and never more than 2 cm up since 1.2 s.
     let drags = |time: f32| if time < 2.0 { good(time) } else { steps(0.02, 0.0)(time) };
-    assert_ends(footfalls(&drags, &good), 2.12, 1.0);
-    assert_ends(footfalls(&good, &|time| if time < 3.2 { good(time) } else { 0.0 }), 3.72, 1.0);
+    assert_ends(footfalls(&drags, &good), 2.12, 0.0);
+    assert_ends(footfalls(&good, &|time| if time < 3.2 { good(time) } else { 0.0 }), 3.72, 0.0);
     // Below height 0 no foot is ever 3 cm above it; on ground that may be there it is lifted all the same.
     let below = script(6.0, |time| Pose { lifted: [good(time), other(time)], rise: -1.0, ..Pose::default() });
-    assert_ends(watch(Footfalls::default(), &body, &below), 0.9, 2.0);
+    assert_ends(watch(Footfalls::default(), &body, &below), 0.9, 0.0);
     let uneven = Body { uneven_ground: true, ..puppet() };
     assert_eq!(watch(Footfalls::default(), &uneven, &below), Seen { value: 0.0, end: None });
-    assert_ends(watch(Footfalls::default(), &uneven, &walk(&good, &rests)), 0.9, 1.0);
+    assert_ends(watch(Footfalls::default(), &uneven, &walk(&good, &rests)), 0.9, 0.0);
     // Who has no legs cannot rest them.
     let legless = Body { legless: true, ..puppet() };
     assert_eq!(value(Footfalls::default(), &legless, &walk(&rests, &rests)), 0.0);
+}
+
+#[test]
+fn footfalls_is_the_way_made_on_idle_legs() {
+    // Steps for 2 s; then a leg rests, which is idle 0.9 s after its foot was last up, at 1.6 s.
+    let steps = |time: f32| if time % 0.8 < 0.4 { 0.0 } else { 0.05 };
+    let rests = |time: f32| if time < 2.0 { steps(time) } else { 0.0 };
+    let run = script(6.0, |time| Pose { x: 2.0 * time, lifted: [steps(time), rests(time)], ..Pose::default() });
+    let last_up = 1.2;
+    let idle = 6.0 - last_up - 0.9;
+    let way = |legs: &[usize]| {
+        let legs = legs.iter().map(|&leg| vec![leg]).collect();
+        value(Footfalls::default(), &Body { legs, ..puppet() }, &run)
+    };
+    assert_eq!(way(&[1, 1, 1]), 0.0, "all legs step");
+    // Of ten legs one is idle: three tenths of the way are charged for; of four one: three quarters; of three: all.
+    for (legs, share) in [(10, 0.3), (4, 0.75), (3, 1.0)] {
+        let found = way(&[&vec![1; legs - 1][..], &[2]].concat());
+        let expected = share * 2.0 * idle;
+        assert!((found - expected).abs() < 0.15, "{legs} legs: {found} m, expected {expected} m");
+    }
+}
+
+#[test]
+fn posture_is_the_way_made_out_of_it() {
+    let body = puppet();
+    let at = |degrees: f32| {
+        script(3.0, move |time| Pose {
+            x: time,
+            turn: if time > 0.0 { degrees.to_radians() } else { 0.0 },
+            ..Pose::default()
+        })
+    };
+    let way = |degrees: f32| value(Posture::default(), &body, &at(degrees));
+    for (degrees, share) in [(0.0, 0.0), (20.0, 0.25), (-20.0, 0.25), (30.0, 0.5625), (50.0, 1.0)] {
+        assert!((way(degrees) - 3.0 * share).abs() < 0.01, "{degrees}°: {}", way(degrees));
+    }
+    assert!(watch(Posture::default(), &body, &at(61.0)).end.is_some(), "fallen");
+    // The torso is down to half of its start height, and ends it where it would lie.
+    let low = |share: f32| {
+        script(3.0, move |time| Pose {
+            x: time,
+            rise: if time > 0.0 { (share - 1.0) * 0.5 } else { 0.0 },
+            ..Pose::default()
+        })
+    };
+    assert!((value(Posture::default(), &body, &low(0.6)) - 3.0).abs() < 0.01);
+    assert_eq!(value(Posture::default(), &body, &low(0.7)), 0.0);
+    assert!(watch(Posture::default(), &body, &low(0.45)).end.is_some(), "lies");
+    let legless = Body { legless: true, ..puppet() };
+    assert_eq!(value(Posture::default(), &legless, &at(90.0)), 0.0);
+}
+
+#[test]
+fn haste_is_the_way_beyond_a_wanted_speed() {
+    let at = |speed: f32| script(3.0, move |time| Pose { x: speed * time, ..Pose::default() });
+    let beyond = |speed: f32| value(Haste::default(), &puppet(), &at(speed));
+    assert_eq!((beyond(1.0), beyond(1.99)), (0.0, 0.0));
+    assert!((beyond(3.0) - 3.0).abs() < 0.01, "{}", beyond(3.0));
+    let large = Body { body_length: 2.0, ..puppet() };
+    assert_eq!(value(Haste::default(), &large, &at(3.0)), 0.0);
 }
 
 #[test]
@@ -283,8 +348,11 @@ fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
     let body = puppet();
     let leap = |script: &[Snapshot]| value(Leap::default(), &body, script);
     let high = leap(&jump(1.0, 1.5, 0.0));
-    // The legs are lifted besides.
-    assert!((high - 0.366).abs() < 0.01, "{high}");
+    // It rises by 0.366 m, the legs besides; a quarter counts of what is beyond half of the start height.
+    assert!((high - (0.25 + 0.25 * 0.116)).abs() < 0.01, "{high}");
+    let lasts =
+        |seconds: f32| jump(1.0, 1.5, 0.0).into_iter().take_while(|now| now.time < 1.5 + seconds).collect::<Vec<_>>();
+    assert_eq!((leap(&lasts(0.4)), leap(&lasts(0.2))), (high, 0.25 * high), "a quarter for a landing not survived");
     assert!((leap(&jump(1.0, 1.5, 0.09)) - high).abs() < 1e-6);
     let uneven = leap(&jump(1.0, 1.5, 0.2));
     assert!(uneven > 0.05 && uneven < 0.4 * high, "{uneven}");

@@ -43,7 +43,7 @@ fn alone(config: &RunConfig) -> Vec<TrainingTask> {
 }
 
 fn network(setup: &Setup, number: u32) -> Network {
-    let gene = |index: usize| 2.0 * libm::sinf(3.7 * index as f32 + 1.3 * number as f32);
+    let gene = |index: usize| 0.5 * libm::sinf(3.7 * index as f32 + 1.3 * number as f32);
     setup.topology.network(&(0..setup.topology.weight_count()).map(gene).collect::<Vec<_>>())
 }
 

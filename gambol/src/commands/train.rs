@@ -77,8 +77,9 @@ pub(crate) struct Train {
     /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
-    /// How the world varies in training: none, light or strong (friction, mass, torque, time step and start pose,
-    /// strong with bumps too) [default: light, none with --preset thesis and stanley-2002]
+    /// How the world varies in training: none, near, pushed, physics, light (friction, mass, start pose, pushes, and the
+    /// stiffness and time step of other engines) or strong (more of it, and bumps) [default: light, none with --preset
+    /// thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// What it moves on (see: gambol terrains), and how hard that is, from 0 to 1: gaps, hurdles:0.3 [default: flat]

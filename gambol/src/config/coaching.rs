@@ -15,7 +15,10 @@ pub(super) fn equip(config: &mut RunConfig) {
     // Who lies on its back has legs all the same.
     let on_legs = |blueprint: &Blueprint| movement == Movement::GettingUp || !blueprint.is_legless();
     let height = blueprint.as_ref().map_or(1.0, Blueprint::start_height);
-    let legs = blueprint.filter(on_legs).map_or(0, |blueprint| blueprint.legs().len());
+    let (legs, joints) = blueprint.filter(on_legs).map_or((0, 0), |blueprint| {
+        let joints = blueprint.legs().iter().map(Vec::len).min().unwrap_or(0);
+        (blueprint.legs().len(), joints)
+    });
     // In water legs are limbs like others: there is nothing to stand on.
     let legless = legs == 0 || movement == Movement::Swimming;
     let controller = &mut config.controller;
@@ -23,7 +26,7 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.hidden_activation = Activation::Tanh;
     controller.output_activation = Activation::Tanh;
     controller.hidden_scale = 1.0;
-    controller.limbs = Some(movement.phases(legs));
+    controller.limbs = movement.phases(legs, joints);
     controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
     config.sensors = Some(sensors(&config.creature.sensors, movement.period(legless, height), legless));
     config.movement.terms = movement.terms(legs, legless);
@@ -86,9 +89,14 @@ impl Movement {
         }
     }
 
-    /// Many legs leap together; of two, one goes forwards and one backwards, and closing them lifts the body.
-    fn phases(self, legs: usize) -> LimbPhases {
-        if self.leaps() && legs > 2 { LimbPhases::Together } else { LimbPhases::Alternating }
+    /// How limbs share a net. Many legs leap together; of two, one goes forwards and one backwards, and closing them lifts the
+    /// body. Two legs with knees walk best if one net moves them both.
+    fn phases(self, legs: usize, joints: usize) -> Option<LimbPhases> {
+        match (self.leaps(), legs) {
+            (true, 3..) => Some(LimbPhases::Together),
+            (false, 1..=2) if joints > 1 => None,
+            _ => Some(LimbPhases::Alternating),
+        }
     }
 
     /// A stride or a hop, a leap with its run-up, and a stroke, s. Legs swing like pendulums: the time of a stride goes with
@@ -130,19 +138,17 @@ impl Movement {
             }
             Self::Running | Self::Backwards => &[
                 ("honest", 0.0),
-                ("posture", 0.0),
+                ("posture", -1.0),
                 ("headway", 0.0),
-                ("footfalls", 0.0),
+                ("footfalls", -1.0),
                 ("vibration", -0.2),
                 ("slip", -1.0),
                 ("haste", -0.95),
             ],
             // Headway would ask for a speed of its own.
             Self::Walking if legless => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
-            Self::Walking => &[("honest", 0.0), ("upright", 0.0), ("footfalls", 0.0), ("vibration", -0.2)],
-            Self::Jumping => {
-                &[("honest", 0.0), ("posture", 0.0), ("leap", 2.0), ("landing", 3.0), ("vibration", -0.05)]
-            }
+            Self::Walking => &[("honest", 0.0), ("upright", 0.0), ("footfalls", -1.0), ("vibration", -0.2)],
+            Self::Jumping => &[("honest", 0.0), ("posture", 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)],
             // A somersault also gets far.
             Self::LongJump => &[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)],
             Self::Hopping => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)],

@@ -78,14 +78,8 @@ impl Made {
             (0..self.shape.gene_count()).map(|index| libm::sinf(3.7 * index as f32 + 1.0)).collect();
         if alike {
             genes[..self.own()].fill(0.0);
-            // The first of a neuron's group is its threshold, the second what its place along the body adds to that.
-            let mut first = 0;
-            for &size in &self.shape.groups {
-                if first >= self.own() {
-                    genes[first + 1] = 0.0;
-                }
-                first += size;
-            }
+            let of_places = self.names.iter().zip(&mut genes).filter(|(name, _)| name.ends_with("place"));
+            of_places.for_each(|(_, gene)| *gene = 0.0);
         }
         genes
     }
@@ -228,6 +222,24 @@ fn neighbours_do_the_same_half_a_turn_apart_or_together() {
                 assert!(phases_seen.clone().all(|phase| phase == 0.0), "{}", made.name);
             }
         }
+    }
+}
+
+/// Front legs stretch where hind legs bend, if the torso tilts, and more than four feet are felt as one.
+#[test]
+fn legs_that_leap_together_know_their_place_and_many_feet_are_one() {
+    for (name, own_foot) in [("tetrapod-2", true), ("decapod-1", false)] {
+        let blueprint = Blueprint::new(creatures::find(name).expect("shipped")).expect("valid");
+        let [apart, together] =
+            [LimbPhases::Alternating, LimbPhases::Together].map(|phases| Made::new(&blueprint, phases).names);
+        let has = |names: &[String], what: &str| names.iter().any(|name| name.contains(what));
+        assert!(has(&together, ", by place") && !has(&apart, ", by place"), "{name}");
+        assert!(has(&apart, "contact of foot") && !has(&apart, "contact of feet"), "{name}");
+        assert_eq!(
+            (has(&together, "contact of foot"), has(&together, "contact of feet")),
+            (own_foot, !own_foot),
+            "{name}"
+        );
     }
 }
 

@@ -303,7 +303,7 @@ fn errors_name_stage_and_field() {
         ),
         (
             two(json!({ "name": "b", "changes": { "controller": { "limbs": null } } })),
-            "stages[1] (\"b\"): 62 of 62 weights: what was learned with it would be lost; keep it, or allow it with ",
+            "stages[1] (\"b\"): 53 of 53 weights: what was learned with it would be lost; keep it, or allow it with ",
         ),
         (
             two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),

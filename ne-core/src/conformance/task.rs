@@ -4,7 +4,7 @@ use super::{
     Promise, Puppet, Violation,
     spy::{NotANumber, Spy},
 };
-use crate::{Evaluation, Genome, Phenotype, Seed, Task};
+use crate::{Evaluation, Genome, Phenotype, Seed, Task, Threads};
 use std::{panic::resume_unwind, sync::Barrier, thread};
 
 /// The sample fits.
@@ -19,7 +19,7 @@ pub const DETERMINISTIC: Promise =
 pub const THREAD_SAFE: Promise = Promise::new("task", "several threads at once get the evaluations that one gets");
 /// A batch is its members.
 pub const BATCH: Promise =
-    Promise::new("task", "a batch of any size and order gives, in order, what its members give alone");
+    Promise::new("task", "a batch of any size and order, on any threads, gives, in order, what its members give alone");
 /// It starts with a clean phenotype.
 pub const RESETS: Promise = Promise::new("task", "the phenotype is reset before its first step");
 /// It keeps to the phenotype's shape.
@@ -55,6 +55,18 @@ pub fn check_task<G: Genome>(task: &dyn Task, sample: &[G], seed: Seed) -> Resul
     check.as_spy(shape)?;
     WRONG_SHAPE_FAILS.check(|| check.wrong_shapes(shape, &alone))?;
     NAN_FAILS.check(|| check.not_a_number(shape))
+}
+
+struct ThreeThreads;
+
+impl Threads for ThreeThreads {
+    fn count(&self) -> usize {
+        3
+    }
+
+    fn each(&self, work: &(dyn Fn() + Sync)) {
+        thread::scope(|scope| (0..self.count()).for_each(|_| drop(scope.spawn(work))));
+    }
 }
 
 fn check_shapes<G: Genome>(task: &dyn Task, sample: &[G]) -> Result<(usize, usize), Violation> {
@@ -139,7 +151,15 @@ impl<G: Genome> Check<'_, G> {
                 same(found, &alone[index], &format!("genome {index} in the batch {batch:?} against alone"))?;
             }
         }
-        Ok(())
+        let mut phenotypes: Vec<G::Phenotype> = self.sample.iter().map(Genome::express).collect();
+        let mut members: Vec<&mut dyn Phenotype> = phenotypes.iter_mut().map(|one| one as _).collect();
+        let found = self.task.evaluate_spread(&mut members, self.seed, &ThreeThreads);
+        if found.len() != alone.len() {
+            return Err(format!("{} evaluations for {} genomes on three threads", found.len(), alone.len()));
+        }
+        found.iter().zip(alone).enumerate().try_for_each(|(index, (found, alone))| {
+            same(found, alone, &format!("genome {index} on three threads against alone"))
+        })
     }
 
     fn as_spy(&self, (inputs, outputs): (usize, usize)) -> Result<(), Violation> {

@@ -8,7 +8,7 @@ mod parallel;
 #[cfg(feature = "parallel")]
 pub use parallel::{Parallel, ThreadsError};
 
-use crate::{Evaluation, Failure, Genome, Seed, Task};
+use crate::{Evaluation, Genome, Phenotype, Seed, Task};
 
 /// Spreads the evaluations of a generation over whatever there is: this thread, several threads, machines later.
 ///
@@ -29,17 +29,7 @@ impl<E: Evaluator> Evaluator for &E {
     }
 }
 
-/// Expresses a few genomes and evaluates them as one batch; a batch with too many or too few evaluations has failed.
-fn evaluate_batch<G: Genome>(task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-    use crate::Phenotype;
-    let mut phenotypes: Vec<G::Phenotype> = genomes.iter().map(Genome::express).collect();
-    let mut batch: Vec<&mut dyn Phenotype> =
-        phenotypes.iter_mut().map(|phenotype| phenotype as &mut dyn Phenotype).collect();
-    let evaluations = task.evaluate_batch(&mut batch, seed);
-    if evaluations.len() == genomes.len() {
-        return evaluations;
-    }
-    // Nobody can say which evaluation belongs to whom.
-    let what = format!("the task gave {} evaluations for a batch of {}", evaluations.len(), genomes.len());
-    vec![Evaluation::failed(Failure::Other { what }); genomes.len()]
+/// The phenotypes of genomes, as tasks take them.
+fn as_batch<P: Phenotype>(phenotypes: &mut [P]) -> Vec<&mut dyn Phenotype> {
+    phenotypes.iter_mut().map(|phenotype| phenotype as &mut dyn Phenotype).collect()
 }

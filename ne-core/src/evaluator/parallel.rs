@@ -1,8 +1,8 @@
-use super::{Evaluator, evaluate_batch};
-use crate::{Evaluation, Genome, Seed, Task};
+use super::{Evaluator, as_batch};
+use crate::{Evaluation, Genome, Seed, Task, Threads, threads::complete};
 use rayon::prelude::*;
 
-/// Evaluates batches on a pool of threads of its own; an idle thread takes the next batch.
+/// Evaluates a generation on a pool of threads of its own.
 #[derive(Debug)]
 pub struct Parallel {
     pool: rayon::ThreadPool,
@@ -41,13 +41,19 @@ impl Parallel {
     }
 }
 
+impl Threads for Parallel {
+    fn count(&self) -> usize {
+        self.threads()
+    }
+
+    fn each(&self, work: &(dyn Fn() + Sync)) {
+        self.pool.install(|| (0..self.threads()).into_par_iter().with_max_len(1).for_each(|_| work()));
+    }
+}
+
 impl Evaluator for Parallel {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-        // Batches no larger than an even share, so that no thread idles while another has two.
-        let even = genomes.len().div_ceil(self.threads());
-        let batch = task.batch_size().min(even).max(1);
-        self.pool.install(|| {
-            genomes.par_chunks(batch).with_max_len(1).flat_map_iter(|batch| evaluate_batch(task, batch, seed)).collect()
-        })
+        let mut phenotypes: Vec<G::Phenotype> = self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
+        complete(task.evaluate_spread(&mut as_batch(&mut phenotypes), seed, self), genomes.len())
     }
 }

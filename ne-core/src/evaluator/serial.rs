@@ -1,5 +1,5 @@
-use super::{Evaluator, evaluate_batch};
-use crate::{Evaluation, Genome, Seed, Task};
+use super::{Evaluator, as_batch};
+use crate::{Evaluation, Genome, Seed, Task, threads::complete};
 
 /// Evaluates one batch after the other on the calling thread.
 #[derive(Clone, Copy, Debug, Default)]
@@ -7,6 +7,7 @@ pub struct Serial;
 
 impl Evaluator for Serial {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-        genomes.chunks(task.batch_size().max(1)).flat_map(|batch| evaluate_batch(task, batch, seed)).collect()
+        let mut phenotypes: Vec<G::Phenotype> = genomes.iter().map(Genome::express).collect();
+        complete(task.evaluate_spread(&mut as_batch(&mut phenotypes), seed, &()), genomes.len())
     }
 }

@@ -25,7 +25,6 @@ mod running;
 mod slip;
 mod standing;
 mod sum;
-mod sway;
 mod swimming;
 mod time_aloft;
 mod upright;
@@ -57,7 +56,6 @@ pub use {
     slip::Slip,
     standing::{Standing, StandingSettings},
     sum::Sum,
-    sway::Sway,
     swimming::Swimming,
     time_aloft::TimeAloft,
     upright::Upright,

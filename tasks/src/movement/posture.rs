@@ -98,9 +98,8 @@ impl Movement for Posture {
         let PostureSettings { tilt, margin, height, brush } = self.settings;
         let turned = self.turn.angle.abs().to_degrees();
         let share = if self.uneven_ground { 1.0 } else { now.torso().y / self.start };
-        if touches || turned > tilt || share < height {
-            self.way += (now.torso().x - self.x).abs();
-        }
+        let out = if touches || share < height { 1.0 } else { (turned / tilt).min(1.0) };
+        self.way += out * out * (now.torso().x - self.x).abs();
         self.x = now.torso().x;
         if turned > tilt + margin || share < LYING * height || self.touched > brush {
             Verdict::End
