@@ -1,4 +1,4 @@
-//! Worlds that are almost the one a gait is judged in: who is not usable in them has found a lucky trajectory.
+//! Worlds that are almost the one a gait is judged in. A gait that is not usable in them is a lucky trajectory.
 
 use envs_core::{Conditions, Variation};
 use ne_core::{Purpose, Seed};

@@ -149,7 +149,7 @@ fn lanes_in_worlds_of_different_physics_take_each_step_as_rapier_does() {
         let found = compare(name, everything(), seed);
         let lengths: BTreeSet<u64> = found.iter().map(|evaluation| evaluation.steps).collect();
         assert!(lengths.len() > 12, "{name}: trials must end at different times, not after {lengths:?} steps");
-        assert!(found.iter().any(|evaluation| evaluation.outcome.is_ok()), "{name}: nobody lasts");
+        assert!(found.iter().any(|evaluation| evaluation.outcome.is_ok()), "{name}: no creature lasts");
     }
 }
 

@@ -304,7 +304,7 @@ pub(super) fn carry_out(
         report::write_report(&outcome.folder, &catalogue, Some(outcome.reason))?;
     }
     let until_usable = config.stop.grade.is_some();
-    // Judging takes a whole episode: not where nobody is told.
+    // Judging takes a whole episode, which quiet runs save.
     let judged = outcome.champion.as_ref().filter(|_| !manner.quiet || until_usable);
     let verdict = judged.and_then(|champion| verdict(champion, &catalogue));
     show.result(&outcome, verdict.as_ref(), seconds, !manner.no_report);

@@ -16,7 +16,7 @@ const CLOCK_ERROR: f64 = 1e-5;
 /// | `swimming` | swimming | it gets ahead, and there is neither ground nor up |
 /// | `jumping`, `long-jump` | jumping | what gets far without getting high off all legs is a stride |
 ///
-/// Others are measured and audited, and not judged: how fast a walk has to be is a setting, and hopping, standing and
+/// Others are measured and audited, and not judged: the speed of a walk is a setting, and hopping, standing and
 /// getting up have no rules yet that a game agrees on. Nor are movements of other crates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
