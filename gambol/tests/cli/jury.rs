@@ -80,13 +80,12 @@ fn a_run_that_ends_between_hearings_has_a_champion_and_goes_on_the_same() -> Out
     succeed(&mut small_run(&whole, 24));
     succeed(&mut small_run(&grown, 3));
     let fitness = || json(&grown.join("champion.json"))["content"]["fitness"].as_f64();
-    let mut earlier = fitness();
-    assert!(earlier.is_some());
+    assert!(fitness().is_some());
     assert!(json(&grown.join("checkpoint"))["content"]["champion"].is_null());
     for generations in ["9", "10", "13", "24"] {
         succeed(gambol("resume").arg(&grown).args(["--no-report", "--threads", "1", "--generations", generations]));
-        assert!(fitness() >= earlier, "after {generations} generations");
-        earlier = fitness();
+        // Which may be less than before: those who wait are chosen by the worlds of training.
+        assert!(fitness().is_some(), "after {generations} generations");
     }
     assert_same_run(&whole, &grown);
     let waiting = json(&whole.join("checkpoint"))["content"]["finalists"].as_array().map(Vec::len);
