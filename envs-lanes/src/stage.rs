@@ -67,7 +67,7 @@ pub(crate) fn evaluate(
             };
             // What comes after the end of an evaluation was played in vain, if it was played.
             if evaluation.is_none() {
-                evaluation = played.and_then(|played| tally.add(played));
+                evaluation = played.and_then(|played| tally.add(&played));
             }
         }
         let unplayed = || Evaluation::failed(Failure::Other { what: "it was never played".into() });

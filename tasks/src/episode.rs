@@ -183,10 +183,15 @@ impl<E: Environment> Task for Episode<E> {
         }
         let mut stage = Stage::new(self);
         let mut tally = Tally::new(self.trials);
+        let mut trial: Option<Trial> = None;
         loop {
             let (steps, failure) = stage.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
             let outcome = Outcome { steps, time_step: stage.environment.time_step(), failure };
-            if let Some(evaluation) = tally.add(Trial::new(outcome, &*stage.movement)) {
+            match &mut trial {
+                Some(trial) => trial.renew(outcome, &*stage.movement),
+                None => trial = Some(Trial::new(outcome, &*stage.movement)),
+            }
+            if let Some(evaluation) = trial.as_ref().and_then(|trial| tally.add(trial)) {
                 return evaluation;
             }
         }

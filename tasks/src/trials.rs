@@ -65,15 +65,35 @@ impl Trial {
     /// A trial that ended so, watched by this movement.
     pub fn new(outcome: Outcome, movement: &dyn Movement) -> Self {
         let mut trial = Self { outcome, value: f64::NAN, objectives: Vec::new(), measurements: Vec::new() };
-        if trial.failed() {
-            return trial;
-        }
-        trial.value = movement.value();
-        if trial.value.is_finite() {
-            movement.objectives(&mut |objective| trial.objectives.push(objective));
-            movement.measurements(&mut |name, value| trial.measurements.push((name.to_owned(), value)));
-        }
+        trial.note(movement);
         trial
+    }
+
+    /// Another trial in its place, with what it has allocated.
+    pub(crate) fn renew(&mut self, outcome: Outcome, movement: &dyn Movement) {
+        self.outcome = outcome;
+        self.note(movement);
+    }
+
+    fn note(&mut self, movement: &dyn Movement) {
+        self.value = if self.failed() { f64::NAN } else { movement.value() };
+        self.objectives.clear();
+        let mut count = 0;
+        if self.value.is_finite() {
+            let Self { objectives, measurements, .. } = self;
+            movement.objectives(&mut |objective| objectives.push(objective));
+            movement.measurements(&mut |name, value| {
+                match measurements.get_mut(count) {
+                    Some((known, old)) if known == name => *old = value,
+                    _ => {
+                        measurements.truncate(count);
+                        measurements.push((name.to_owned(), value));
+                    }
+                }
+                count += 1;
+            });
+        }
+        self.measurements.truncate(count);
     }
 
     /// Whether it failed, which ends its evaluation.
@@ -108,20 +128,21 @@ impl Tally {
 
     /// Adds the next trial; gives the evaluation once it is complete: after the last trial, and after one that failed or has
     /// no finite value. The objectives are the means of the trials', however values combine.
-    pub fn add(&mut self, trial: Trial) -> Option<Evaluation> {
+    pub fn add(&mut self, trial: &Trial) -> Option<Evaluation> {
         let Trial { outcome, value, objectives, measurements } = trial;
         self.done += 1;
         self.steps += u64::from(outcome.steps);
-        if let Some(failure) = outcome.failure {
-            return Some(Evaluation::failed(failure).with_steps(self.steps));
+        if let Some(failure) = &outcome.failure {
+            return Some(Evaluation::failed(failure.clone()).with_steps(self.steps));
         }
+        let value = *value;
         if !value.is_finite() {
             return Some(Evaluation::new(value).with_steps(self.steps));
         }
         self.sum += value;
         self.worst = self.worst.min(value);
         let count = f64::from(self.trials.count);
-        for (index, objective) in objectives.into_iter().enumerate() {
+        for (index, objective) in objectives.iter().enumerate() {
             match self.objectives.get_mut(index) {
                 Some(mean) => *mean += objective / count,
                 None => self.objectives.push(objective / count),
@@ -131,11 +152,12 @@ impl Tally {
             let failure = Failure::NonFinite { what: format!("objective {index}") };
             return Some(Evaluation::failed(failure).with_steps(self.steps));
         }
-        let duration = ("duration".to_owned(), f64::from(outcome.steps) * f64::from(outcome.time_step));
-        for (name, value) in measurements.into_iter().chain([duration]) {
-            match self.measurements.get_mut(&name) {
+        let duration = f64::from(outcome.steps) * f64::from(outcome.time_step);
+        let measured = measurements.iter().map(|(name, value)| (name.as_str(), *value));
+        for (name, value) in measured.chain([("duration", duration)]) {
+            match self.measurements.get_mut(name) {
                 Some(mean) => *mean += value / count,
-                None => drop(self.measurements.insert(name, value / count)),
+                None => drop(self.measurements.insert(name.to_owned(), value / count)),
             }
         }
         if self.done < self.trials.count {
