@@ -319,7 +319,7 @@ impl Variation {
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
     pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
-        if self.bumps == 0.0 {
+        if self.bumps == 0.0 || self.is_near(seed) {
             return Vec::new();
         }
         let heights = [0.1 * self.bumps, self.bumps];
@@ -336,4 +336,18 @@ impl Variation {
 fn between(factors: [f32; 2], place: f32) -> f32 {
     let [least, greatest] = factors.map(libm::logf);
     libm::expf(least + (greatest - least) * place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_near_trial_has_no_bumps() {
+        let bumps =
+            |variation: Variation, trial| variation.draw_bumps(Seed::of_run(1).trial(trial), [-0.5, 0.5], 1.0).len();
+        let strong = Variation::strong();
+        assert!(bumps(strong, 0) == 0 && bumps(strong, 1) > 0);
+        assert!(bumps(Variation { near_first: false, ..strong }, 0) > 0, "no trial is near");
+    }
 }

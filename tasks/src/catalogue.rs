@@ -181,8 +181,8 @@ impl Default for MovementCatalogue {
         catalogue.add::<Upright>(None, "ends the episode when the torso turns beyond 60°; 1 if it did");
         catalogue.add_with_settings(
             None,
-            "way made tilted, too low or with more than feet on the ground; weigh it negatively; ends the episode when far \
-             out; settings: tilt (40) and margin (20), degrees, height (0.65), brush, s (0.2)",
+            "way made tilted (by the square of the tilt), too low or with more than feet on the ground; weigh it negatively; \
+             ends the episode when far out; settings: tilt (40) and margin (20), degrees, height (0.65), brush, s (0.2)",
             Posture::new,
         );
         catalogue.add::<Slip>(None, "how far feet slide, beyond 0.2 m a metre; weigh it negatively");
@@ -191,7 +191,11 @@ impl Default for MovementCatalogue {
             "way beyond what a wanted speed gives; weigh it negatively; settings: speed, body lengths/s (2)",
             Haste::new,
         );
-        catalogue.add::<Footfalls>(None, "ends the episode when a leg is not used for 0.9 s; how many were not");
+        catalogue.add::<Footfalls>(
+            None,
+            "way made while legs were not used for 0.9 s, by their share; weigh it negatively; ends the episode when half \
+             of them are idle",
+        );
         catalogue.add_with_settings(
             None,
             "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",
@@ -201,7 +205,10 @@ impl Default for MovementCatalogue {
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
             .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");
-        catalogue.add::<Leap>(None, "rise of the centre of mass in a flight that all legs began together");
+        catalogue.add::<Leap>(
+            None,
+            "rise of the centre of mass in a flight that all legs began together and the body landed",
+        );
         catalogue.add::<Landing>(None, "time after the first leap that the body stands, or leaps on");
         catalogue
     }

@@ -82,6 +82,11 @@ fn any_crew_gets_rapiers_results_in_any_batch() {
                 assert_eq!(found, wanted, "{kind:?} in batches of {size}, {instructions}");
             }
         }
+        for threads in 1..=3 {
+            let pool = Parallel::new(threads).expect("threads start");
+            let mut members: Vec<&mut dyn Phenotype> = crew.iter_mut().map(|one| &mut **one).collect();
+            assert_eq!(lanes.evaluate_spread(&mut members, seed, &pool), wanted, "{kind:?} on {threads} threads");
+        }
         // Another order: 18 and 41 have no divisor in common.
         let order: Vec<usize> = (0..41).map(|place| place * 18 % 41).collect();
         let mut places: Vec<Option<Box<dyn Phenotype>>> = crew.into_iter().map(Some).collect();

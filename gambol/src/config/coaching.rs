@@ -94,7 +94,7 @@ impl Movement {
     fn phases(self, legs: usize, joints: usize) -> Option<LimbPhases> {
         match (self.leaps(), legs) {
             (true, 3..) => Some(LimbPhases::Together),
-            (false, 1..=2) if joints > 1 => None,
+            (false, 1..=2) if joints > 1 && matches!(self, Self::Running | Self::Backwards | Self::Walking) => None,
             _ => Some(LimbPhases::Alternating),
         }
     }
@@ -192,4 +192,29 @@ fn sensors(own: &[Sensor], period: f32, legless: bool) -> Vec<Sensor> {
         sensors.push(Sensor::Clock { period });
     }
     sensors
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::config::{LimbPhases, preset};
+
+    #[test]
+    fn limbs_leap_together_or_alternate_and_bipeds_with_knees_run_with_one_net() {
+        let (alternating, together) = (Some(LimbPhases::Alternating), Some(LimbPhases::Together));
+        for (creature, movement, limbs) in [
+            ("biped-1", "running", alternating),
+            ("biped-2", "running", None),
+            ("biped-2", "walking", None),
+            ("biped-2", "jumping", alternating),
+            ("biped-2", "swimming", alternating),
+            ("tetrapod-2", "running", alternating),
+            ("tetrapod-2", "jumping", together),
+            ("apod", "jumping", alternating),
+        ] {
+            let creature = creatures::find(creature).expect("shipped");
+            let name = creature.name.clone();
+            let config = preset("default").expect("there").config(creature, movement);
+            assert_eq!(config.controller.limbs, limbs, "{name} {movement}");
+        }
+    }
 }

@@ -118,7 +118,7 @@ pub struct ControllerSettings {
     #[serde(default)]
     pub actuation: Actuation,
     /// A copy of one small net for each limb, with the clocks of the limbs like this; `null`: one net for the whole body,
-    /// of which every output hears every sensor.
+    /// which sees every sensor. Joints hear hidden neurons alone, or the sensors if there are none.
     #[serde(default)]
     pub limbs: Option<LimbPhases>,
 }
@@ -129,7 +129,8 @@ pub struct ControllerSettings {
 pub enum LimbPhases {
     /// Half a turn between neighbours, along the body and beside each other: the start of a walk.
     Alternating,
-    /// All alike: the start of a jump.
+    /// All alike: the start of a jump. Limbs before and behind then also answer a tilt of the torso differently, and more
+    /// than four feet are felt as one.
     Together,
 }
 

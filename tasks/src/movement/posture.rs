@@ -4,10 +4,12 @@ use ne_core::SettingError;
 use serde::Deserialize;
 
 /// Watches the posture of a body with legs: how far its torso turns from its start, how low it sinks, and whether anything
-/// but a foot touches the ground. Its value is the way the torso made out of posture, m, forwards or backwards; with a weight
-/// of −1 such way earns nothing. It ends the episode of a body that is far out of posture.
+/// but a foot touches the ground. Its value is the way the torso made out of posture, m, forwards or backwards: all way where
+/// one of the limits is broken, and otherwise the square of the tilt's share of its limit, so that a search is drawn towards
+/// an upright gait before it meets a limit. With a weight of −1 such way earns nothing. It ends the episode of a body that is
+/// far out of posture.
 ///
-/// Between the two there is room: a search that ends at the first stumble never learns to run. Legless bodies are left alone.
+/// Between limit and end there is room: a search that ends at the first stumble never learns to run. Legless bodies are left alone.
 /// On uneven ground the torso may sink as low as it likes.
 #[derive(Clone, Debug, Default)]
 pub struct Posture {
