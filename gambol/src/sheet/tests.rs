@@ -60,6 +60,16 @@ fn a_sheet_is_an_image_of_its_width_and_always_the_same() {
     }
 }
 
+/// A recording of a movement that is not known.
+fn subject<'a>(
+    blueprint: &'a Blueprint,
+    ground: &'a Ground,
+    snapshots: &'a [Snapshot],
+    report: &'a GaitReport,
+) -> Subject<'a> {
+    Subject { blueprint, movement: None, ground, snapshots, report }
+}
+
 /// Every pixel of a frame.
 fn has(canvas: &Canvas, ink: canvas::Ink) -> bool {
     let (width, height) = (canvas.width() as u32, canvas.height() as u32);
@@ -71,13 +81,8 @@ fn frames_mark_what_touches_the_ground() {
     let blueprint = biped();
     let snapshots = hops(&blueprint, 5);
     let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
-    let subject = Subject {
-        blueprint: &blueprint,
-        movement: None,
-        ground: &Ground::flat(),
-        snapshots: &snapshots,
-        report: &report,
-    };
+    let ground = Ground::flat();
+    let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);
     let frames = Frames::new(&subject, &moments);
     let marked = |step: usize| has(&frames.frame(0, step).expect("a frame"), CONTACT);
@@ -92,13 +97,8 @@ fn a_jump_is_shown_from_before_take_off_until_after_landing() {
     let blueprint = biped();
     let snapshots = hops(&blueprint, 5);
     let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
-    let subject = Subject {
-        blueprint: &blueprint,
-        movement: None,
-        ground: &Ground::flat(),
-        snapshots: &snapshots,
-        report: &report,
-    };
+    let ground = Ground::flat();
+    let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);
     assert_eq!(moments.steps.len(), FRAMES);
     assert!(!moments.lies_at_end);
@@ -116,8 +116,7 @@ fn a_body_that_lies_at_the_end_is_shown_there() {
     (torso.cos, torso.sin) = (0.0, 1.0);
     let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
     let ground = Ground::flat();
-    let subject =
-        Subject { blueprint: &blueprint, movement: None, ground: &ground, snapshots: &snapshots, report: &report };
+    let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);
     assert!(moments.lies_at_end);
     assert_eq!((moments.steps.len(), moments.steps.last()), (FRAMES, Some(&last)));
@@ -130,7 +129,7 @@ fn recordings_that_are_not_of_the_creature_are_refused() {
     let report = report(&blueprint, &good, None);
     let ground = Ground::flat();
     let refusal = |snapshots: &[Snapshot]| {
-        let subject = Subject { blueprint: &blueprint, movement: None, ground: &ground, snapshots, report: &report };
+        let subject = subject(&blueprint, &ground, snapshots, &report);
         draw(&subject).expect_err("not a recording").to_string()
     };
     assert_eq!(refusal(&good[..1]), "a sheet needs at least 2 snapshots, there are 1");
@@ -152,7 +151,6 @@ fn a_body_that_flew_apart_can_be_drawn() {
     }
     let report = report(&blueprint, &hops(&blueprint, 1), None);
     let ground = Ground::flat();
-    let subject =
-        Subject { blueprint: &blueprint, movement: None, ground: &ground, snapshots: &snapshots, report: &report };
+    let subject = subject(&blueprint, &ground, &snapshots, &report);
     assert_eq!(size(&draw(&subject).expect("a sheet"))[0], WIDTH);
 }
