@@ -17,7 +17,11 @@ use gambol::{
 };
 use ne_core::StopConditions;
 use ne_statistics::quantile;
-use std::{error::Error, fs, path::Path};
+use std::{
+    error::Error,
+    fs,
+    path::{Path, PathBuf},
+};
 use tasks::{Environment, MovementCatalogue};
 
 /// A champion's gait, as `gambol gait` judges it: 20 s in rapier, without variation.
@@ -35,7 +39,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let seeds = argument(0, "1");
     let (first, last) = seeds.split_once('-').unwrap_or(("1", seeds));
     let (first, last): (u64, u64) = (first.parse()?, last.parse()?);
-    let generations = argument(1, "70").parse()?;
+    let generations = argument(1, "200").parse()?;
     let temporary = tempfile::tempdir()?;
     let folder = arguments.get(2).map_or(temporary.path(), |path| Path::new(path));
 
@@ -50,6 +54,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     for seed in first..=last {
         let path = folder.join(seed.to_string());
         train(&RunConfig { seed, ..config.clone() }, &path)?;
+        if !stage_folder(&path, "02-thrift").exists() {
+            println!("| {seed} | no usable gait to go on with | | | | | |");
+            continue;
+        }
         let [run, thrift] = [judge(&path, "01-run", &catalogue)?, judge(&path, "02-thrift", &catalogue)?];
         let (Some(before), Some(after)) = (run.cost, thrift.cost) else {
             println!("| {seed} | gets nowhere | | | | | |");
@@ -67,8 +75,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         speeds.push(speed);
         costs.push(cost);
     }
-    let median = |values: &[f64]| quantile(values, 0.5).unwrap_or(f64::NAN);
-    println!("\nmedians: {:.0} % of the speed, {:.0} % of the energy a metre", median(&speeds), median(&costs));
+    match (quantile(&speeds, 0.5), quantile(&costs, 0.5)) {
+        (Some(speed), Some(cost)) => {
+            println!("\nmedians: {speed:.0} % of the speed, {cost:.0} % of the energy a metre")
+        }
+        _ => println!("\nno seed to compare"),
+    }
     Ok(())
 }
 
@@ -91,9 +103,13 @@ fn train(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     Ok(fs::rename(part, folder)?)
 }
 
+fn stage_folder(run: &Path, stage: &str) -> PathBuf {
+    run.join("stages").join(stage)
+}
+
 /// What the champion of a stage does.
 fn judge(run: &Path, stage: &str, catalogue: &MovementCatalogue) -> Result<Gait, Box<dyn Error>> {
-    let champion = Champion::read(&run.join("stages").join(stage).join("champion.json"))?;
+    let champion = Champion::read(&stage_folder(run, stage).join("champion.json"))?;
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
     let report = stage.judge(&champion.network).ok_or("its body explodes")?;
     let body = stage.environment().body().ok_or("an unknown body")?;
