@@ -46,7 +46,7 @@ pub trait Engine: Clone + Send + Sync {
     /// Writes where every part is and whether it presses on the ground. As many as the creature has parts.
     fn look(&self, parts: &mut [PartState]);
 
-    /// The torque the motor of a hinge gave at the end of the last step, N·m.
+    /// The torque the motor of a hinge gave at the end of the last step, N·m: as solvers have it, on the parent part.
     fn motor_torque(&self, hinge: usize) -> f32;
 
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is

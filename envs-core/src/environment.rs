@@ -261,9 +261,10 @@ impl<E: Engine> CreatureEnvironment<E> {
         &self.plan.terrain
     }
 
-    /// The torque each motor gave at the end of the last step, N·m, in order of the outputs.
+    /// The torque each motor gave at the end of the last step, N·m, in order of the outputs: positive where it turns the child
+    /// part counter-clockwise. (Solvers give the impulse on the parent.)
     pub fn motor_torques(&self) -> impl Iterator<Item = f32> + '_ {
-        self.plan.actuated.iter().map(|actuated| self.state.engine.motor_torque(actuated.hinge))
+        self.plan.actuated.iter().map(|actuated| -self.state.engine.motor_torque(actuated.hinge))
     }
 
     /// What the creature moves on in the trial with this seed.

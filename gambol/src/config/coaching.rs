@@ -3,7 +3,7 @@
 //! Each piece is a setting of the run like any other, so it can be changed or left out one by one; what each is worth is
 //! measured in `docs/ablation.md`.
 
-use super::{EngineChoice, LimbPhases, RunConfig};
+use super::{EngineChoice, LimbPhases, RunConfig, StrategySettings};
 use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
 use tasks::TermSpec;
@@ -28,16 +28,22 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.hidden_scale = 1.0;
     controller.limbs = movement.phases(legs, joints);
     controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
+    config.physics.motor_gain = MOTOR_GAIN;
+    if let StrategySettings::CmaEs(settings) = &mut config.strategy {
+        settings.starts = movement.starts(legs);
+    }
     config.sensors = Some(sensors(&config.creature.sensors, movement.period(legless, height), legless));
     config.movement.terms = movement.terms(legs, legless);
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
-    // Of one world alone the lucky would be the best: one near world, and two that vary.
-    config.trials.count = 3;
+    config.trials.count = movement.trials(legs);
     // What lanes refuse is trained in rapier rather than not at all.
     if config.creature.self_collision {
         config.engine = EngineChoice::Rapier;
     }
 }
+
+/// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
+const MOTOR_GAIN: f32 = 200.0;
 
 /// What is known of a movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,13 +95,27 @@ impl Movement {
         }
     }
 
-    /// How limbs share a net. Many legs leap together; of two, one goes forwards and one backwards, and closing them lifts the
-    /// body. Two legs with knees walk best if one net moves them both.
+    /// How limbs share a net. Many legs leap together. Two legs leap, and with knees walk, best if one net moves them both.
     fn phases(self, legs: usize, joints: usize) -> Option<LimbPhases> {
         match (self.leaps(), legs) {
             (true, 3..) => Some(LimbPhases::Together),
+            (true, 1..=2) => None,
             (false, 1..=2) if joints > 1 && matches!(self, Self::Running | Self::Backwards | Self::Walking) => None,
             _ => Some(LimbPhases::Alternating),
+        }
+    }
+
+    /// Of one world alone the lucky would be the best: one near world, and two that vary. Many legs leap in few ways, which two
+    /// worlds do not tell apart.
+    fn trials(self, legs: usize) -> u32 {
+        if self.leaps() && legs > 2 { 5 } else { 3 }
+    }
+
+    /// How many searches begin: a body on few legs has many ways to fall, and a search that begins with one seldom leaves it.
+    fn starts(self, legs: usize) -> usize {
+        match (self.leaps(), legs) {
+            (_, 1..=2) | (true, 3..=4) => 4,
+            _ => 1,
         }
     }
 
@@ -199,13 +219,14 @@ mod tests {
     use crate::config::{LimbPhases, preset};
 
     #[test]
-    fn limbs_leap_together_or_alternate_and_bipeds_with_knees_run_with_one_net() {
+    fn limbs_leap_together_or_alternate_and_bipeds_leap_and_with_knees_run_with_one_net() {
         let (alternating, together) = (Some(LimbPhases::Alternating), Some(LimbPhases::Together));
         for (creature, movement, limbs) in [
             ("biped-1", "running", alternating),
             ("biped-2", "running", None),
             ("biped-2", "walking", None),
-            ("biped-2", "jumping", alternating),
+            ("biped-1", "jumping", None),
+            ("biped-2", "jumping", None),
             ("biped-2", "swimming", alternating),
             ("tetrapod-2", "running", alternating),
             ("tetrapod-2", "jumping", together),

@@ -63,7 +63,7 @@ impl Recording {
     ///
     /// `part` is the part's name, quoted where CSV needs it; `angle_rad` is against the world, counter-clockwise, above
     /// −π and up to π; `ground_contact` is 1 while the part presses on the ground, else 0; the torque is that of the motor of
-    /// the hinge on which the part hangs, empty if the controller moves none there. Numbers are as short as gives them back
+    /// the hinge on which the part hangs, positive where it turns the part counter-clockwise, empty if the controller moves none there. Numbers are as short as gives them back
     /// to the bit.
     ///
     /// # Errors

@@ -15,6 +15,9 @@ pub(super) struct History {
 /// The most generations that are kept.
 const LONGEST: usize = 20_000;
 
+/// In worlds that vary the best of one generation is luck: so many generations tell how far a search has got.
+const LAST: usize = 10;
+
 /// A best fitness that differs by no more than this has not changed.
 const EQUAL: f64 = 1e-12;
 
@@ -31,6 +34,13 @@ impl History {
         while self.generations.len() as u64 > length {
             self.generations.pop_front();
         }
+    }
+
+    /// How far the search has got: the median of the best fitnesses of the last generations; `None` before the first.
+    pub(super) fn level(&self) -> Option<Fitness> {
+        let mut bests: Vec<Fitness> = self.generations.iter().rev().take(LAST).map(|[best, _]| *best).collect();
+        bests.sort_unstable();
+        bests.get(bests.len() / 2).copied()
     }
 
     /// Whether the search makes no progress any more: the best has been the same for 10 + ⌈30 n / λ⌉ generations

@@ -28,6 +28,10 @@ pub enum Restart {
     ///
     /// Source: Hansen, *Benchmarking a BI-Population CMA-ES on the BBOB-2009 Function Testbed*, GECCO 2009.
     Bipop,
+    /// By turns as [`Bipop`](Self::Bipop), and back where the best search so far had ended, with a step size that can leave
+    /// it. For landscapes whose best place is found early and can be made better for long, such as gaits in worlds that
+    /// vary: restarts alone spend the rest of a long run in worse places.
+    Returning,
 }
 
 /// The population grows to at most this many times the first: nine doublings, as in the papers.
@@ -56,6 +60,8 @@ pub(super) struct Restarts {
     last_large_evaluations: u64,
     /// The evaluations of the small searches that have ended.
     small_evaluations: u64,
+    /// How many [starts](CmaEsSettings::starts) have ended.
+    pub(super) starts: usize,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -64,6 +70,8 @@ enum Regime {
     First,
     Large,
     Small,
+    /// Where the best search had ended.
+    Return,
 }
 
 impl Restarts {
@@ -80,6 +88,7 @@ impl Restarts {
             large_evaluations: 0,
             last_large_evaluations: 0,
             small_evaluations: 0,
+            starts: 0,
         }
     }
 
@@ -98,19 +107,16 @@ impl Restarts {
         self.evaluation_limit.is_some_and(|limit| self.evaluations >= limit)
     }
 
-    /// Begins the next search; `first` is the population of the first.
+    /// Whether the present search is a place away from the best so far.
+    pub(super) fn is_elsewhere(&self) -> bool {
+        matches!(self.regime, Regime::Large | Regime::Small)
+    }
+
+    /// Begins the next search anew; `first` is the population of the first.
     pub(super) fn next(&mut self, settings: &CmaEsSettings, first: usize, stream: &mut RandomStream) {
-        match self.regime {
-            Regime::First => self.last_large_evaluations = self.evaluations,
-            Regime::Large => {
-                self.last_large_evaluations = self.evaluations;
-                self.large_evaluations += self.evaluations;
-            }
-            Regime::Small => self.small_evaluations += self.evaluations,
-        }
-        self.count += 1;
-        self.evaluations = 0;
-        if settings.restart == Restart::Bipop && self.small_evaluations < self.large_evaluations {
+        self.close();
+        let bipop = matches!(settings.restart, Restart::Bipop | Restart::Returning);
+        if bipop && self.small_evaluations < self.large_evaluations {
             // Hansen 2009, section 2: λ (½ λ_large / λ)^(U²), and 10^(−2U) times the step size.
             let (size, shrink): (f64, f64) = (stream.random(), stream.random());
             let growth = 0.5 * self.large_population as f64 / first as f64;
@@ -126,5 +132,28 @@ impl Restarts {
             self.regime = Regime::Large;
             self.evaluation_limit = None;
         }
+    }
+
+    /// Goes back to a search with this population and first step size.
+    pub(super) fn back(&mut self, population: usize, step_size: f64) {
+        self.close();
+        (self.population, self.step_size) = (population, step_size);
+        self.regime = Regime::Return;
+        self.evaluation_limit = None;
+    }
+
+    /// The present search has ended.
+    fn close(&mut self) {
+        match self.regime {
+            Regime::First => self.last_large_evaluations = self.evaluations,
+            Regime::Large => {
+                self.last_large_evaluations = self.evaluations;
+                self.large_evaluations += self.evaluations;
+            }
+            Regime::Small => self.small_evaluations += self.evaluations,
+            Regime::Return => {}
+        }
+        self.count += 1;
+        self.evaluations = 0;
     }
 }

@@ -21,6 +21,12 @@ pub struct CmaEsSettings {
     pub covariance: CovarianceModel,
     /// When a search that has ended begins anew; default never.
     pub restart: Restart,
+    /// How many searches of `start_generations` begin one after the other, of which only the one that got farthest goes on; from 1
+    /// to 1000; default 1, which goes on in any case. Where a search that begins badly ends badly, a few are cheap insurance. A
+    /// search that is told where to begin has one.
+    pub starts: usize,
+    /// How many generations each of several starts has, from 1 to 1000000; default 20.
+    pub start_generations: u64,
     /// How the mean of the first generation, and of each restart, is drawn; default zeros.
     pub initial_mean: Initialization,
 }
@@ -33,6 +39,8 @@ impl Default for CmaEsSettings {
             least_deviation: 1e-5,
             covariance: CovarianceModel::default(),
             restart: Restart::default(),
+            starts: 1,
+            start_generations: 20,
             initial_mean: Initialization::Uniform { limit: 0.0 },
         }
     }
@@ -53,10 +61,10 @@ impl CmaEsSettings {
         }
     }
 
-    /// For gaits of nets with some dozens of weights: population 64, and restarts in the manner of BIPOP as soon as the search
-    /// gets finer than 0.1 or stagnates, since a search that finds a gait finds it early. Found by experiment.
+    /// For gaits of nets with some dozens of weights: population 64, and as soon as the search gets finer than 0.1 or stagnates,
+    /// another one or the best so far goes on by turns. Found by experiment.
     pub fn gaits() -> Self {
-        Self { population: Some(64), least_deviation: 0.1, restart: Restart::Bipop, ..Self::default() }
+        Self { population: Some(64), least_deviation: 0.1, restart: Restart::Returning, ..Self::default() }
     }
 
     /// The greatest population.
@@ -72,6 +80,8 @@ impl CmaEsSettings {
         }
         SettingError::check_range("step_size", self.step_size, 1e-6, 1000.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-9, self.step_size)?;
+        SettingError::check_range("starts", self.starts as f64, 1.0, 1000.0)?;
+        SettingError::check_range("start_generations", self.start_generations as f64, 1.0, 1e6)?;
         self.initial_mean.validate().map_err(|error| error.within("initial_mean"))
     }
 }

@@ -1,6 +1,6 @@
 use super::{
     CmaEs, CmaEsSettings, CovarianceModel, covariance::Covariance, distribution::Distribution, history::History,
-    restart::Restarts, triangle::Triangle,
+    restart::Restarts, strategy::Kept, triangle::Triangle,
 };
 use crate::{
     StateError,
@@ -20,9 +20,19 @@ pub(super) struct State {
     start: Option<Vec<f32>>,
     restarts: Restarts,
     history: History,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    kept: Option<KeptState>,
     distribution: Option<DistributionState>,
     /// The generation asked and not told yet; empty between generations.
     asked: Vec<Vec<f32>>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct KeptState {
+    distribution: DistributionState,
+    history: History,
+    population: usize,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -46,6 +56,11 @@ impl From<CmaEs> for State {
             start: strategy.start,
             restarts: strategy.restarts,
             history: strategy.history,
+            kept: strategy.kept.map(|kept| KeptState {
+                distribution: kept.distribution.into(),
+                history: kept.history,
+                population: kept.population,
+            }),
             distribution: strategy.distribution.map(DistributionState::from),
             asked: asked.iter().map(|individual| individual.weights().to_vec()).collect(),
         }
@@ -82,6 +97,13 @@ impl TryFrom<State> for CmaEs {
         strategy.restarts = state.restarts;
         strategy.history = state.history;
         let (model, n) = (strategy.settings.covariance, strategy.topology.weight_count());
+        if let Some(kept) = state.kept {
+            let distribution = kept.distribution.check(model, n).map_err(|error| error.within("kept"))?;
+            if !(2..=CmaEsSettings::MAX_POPULATION).contains(&kept.population) {
+                return Err(SettingError::new("kept.population", kept.population, "from 2 to 1000000").into());
+            }
+            strategy.kept = Some(Kept { distribution, history: kept.history, population: kept.population });
+        }
         if let Some(distribution) = state.distribution {
             let checked = distribution.check(model, n).map_err(|error| error.within("distribution"))?;
             strategy.distribution = Some(checked);

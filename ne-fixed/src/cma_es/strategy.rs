@@ -49,6 +49,8 @@ pub struct CmaEs {
     pub(super) start: Option<Vec<f32>>,
     pub(super) restarts: Restarts,
     pub(super) history: History,
+    /// The best search that has ended, while others are tried.
+    pub(super) kept: Option<Kept>,
     /// None before a search begins.
     pub(super) distribution: Option<Distribution>,
     /// The generation last asked. Once told, what stands here is memory to be used again.
@@ -57,9 +59,21 @@ pub struct CmaEs {
     pub(super) asked: bool,
 }
 
+/// A search that has ended and may go on.
+#[derive(Clone, Debug)]
+pub(super) struct Kept {
+    pub(super) distribution: Distribution,
+    pub(super) history: History,
+    pub(super) population: usize,
+}
+
 /// A search that goes on elsewhere begins with a greatest deviation of at least this share of the first step size: what
 /// has settled on one task must be able to leave for the other.
 const REVIVED: f64 = 0.3;
+
+/// A search that is returned to begins with a greatest deviation of at most this many times the first step size: one that
+/// had begun to diverge where it ended has nothing else to say.
+const GREATEST_RETURN: f64 = 3.0;
 
 /// The search diverges when a deviation has grown by this much.
 const GREATEST_GROWTH: f64 = 1e4;
@@ -88,6 +102,7 @@ impl CmaEs {
             topology,
             start: None,
             history: History::default(),
+            kept: None,
             distribution: None,
             population: Vec::new(),
             asked: false,
@@ -178,6 +193,53 @@ impl CmaEs {
             || self.restarts.is_over()
     }
 
+    /// Whether several starts are tried, and the one that goes on is not known yet.
+    fn is_starting(&self) -> bool {
+        self.start.is_none() && self.restarts.starts < self.settings.starts && self.settings.starts > 1
+    }
+
+    /// Remembers the present search, unless the one remembered had got farther.
+    fn keep(&mut self, distribution: Distribution) {
+        let history = std::mem::take(&mut self.history);
+        if distribution.covariance.is_degenerate() {
+            return;
+        }
+        if self.kept.as_ref().is_none_or(|kept| history.level() > kept.history.level()) {
+            self.kept = Some(Kept { distribution, history, population: self.restarts.population });
+        }
+    }
+
+    /// Ends one of several starts. After the last, the best goes on.
+    fn end_start(&mut self, distribution: Distribution) {
+        self.keep(distribution);
+        self.restarts.starts += 1;
+        if self.is_starting() {
+            self.restarts.evaluations = 0;
+        } else if let Some(kept) = self.kept.take() {
+            self.history = kept.history;
+            self.distribution = Some(kept.distribution);
+        }
+    }
+
+    /// Ends a search: the next begins anew, or where the best had ended.
+    fn end_search(&mut self, distribution: Distribution, seed: Seed) {
+        let returning = self.settings.restart == Restart::Returning;
+        if returning {
+            self.keep(distribution);
+        }
+        let best = self.kept.as_ref().filter(|_| returning && self.restarts.is_elsewhere());
+        if let Some(kept) = best {
+            self.restarts.back(kept.population, self.settings.step_size);
+            let mut distribution = kept.distribution.clone();
+            distribution.limit_deviation(REVIVED * self.settings.step_size, GREATEST_RETURN * self.settings.step_size);
+            self.distribution = Some(distribution);
+        } else {
+            let first = Self::first_population(&self.settings, &self.topology);
+            self.restarts.next(&self.settings, first, &mut seed.stream(RESTART));
+        }
+        self.history = History::default();
+    }
+
     /// Keeps a search alive that would have ended.
     fn revive(&self, distribution: &mut Distribution) {
         if distribution.covariance.is_degenerate() {
@@ -238,10 +300,11 @@ impl Strategy for CmaEs {
             let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
             self.history.push(&ranked, n, distribution.updates);
         }
-        if self.settings.restart != Restart::None && self.has_ended(&distribution) {
-            let first = Self::first_population(&self.settings, &self.topology);
-            self.restarts.next(&self.settings, first, &mut seed.stream(RESTART));
-            self.history = History::default();
+        let share = self.settings.start_generations.saturating_mul(self.restarts.population as u64);
+        if self.is_starting() && self.restarts.evaluations >= share {
+            self.end_start(distribution);
+        } else if self.settings.restart != Restart::None && !self.is_starting() && self.has_ended(&distribution) {
+            self.end_search(distribution, seed);
         } else {
             self.revive(&mut distribution);
             self.distribution = Some(distribution);

@@ -38,7 +38,13 @@ fn keeps_the_promises_of_a_strategy() {
         check_strategy(recurrent, &plain).expect("keeps its promises on a graph");
     }
     let varying = StrategyOptions { generations: 40, size_varies: true, ..plain };
-    for settings in [restarting(Restart::Ipop), restarting(Restart::Bipop), CmaEsSettings::pole_balancing()] {
+    for settings in [
+        restarting(Restart::Ipop),
+        restarting(Restart::Bipop),
+        restarting(Restart::Returning),
+        CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) },
+        CmaEsSettings::pole_balancing(),
+    ] {
         check_strategy(|| new(settings.clone()), &varying).expect("keeps its promises with restarts");
     }
 }
@@ -49,6 +55,7 @@ fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(full()), 8);
     assert_resumes(new(CmaEsSettings::default()).with_mean(&[0.5; 26]).expect("26 weights"), 3);
     assert_resumes(new(restarting(Restart::Bipop)), 40);
+    assert_resumes(new(CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) }), 60);
 }
 
 /// Golden: another digest is another run for everyone who recorded one.
@@ -59,23 +66,33 @@ fn runs_are_the_same_for_ever() {
         digest(new(full()), 20),
         digest(new(restarting(Restart::Ipop)), 30),
         digest(new(restarting(Restart::Bipop)), 60),
+        digest(new(CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) }), 60),
         digest(CmaEs::new(full(), recurrent()).expect("valid"), 20),
     ];
     assert_eq!(
         digests,
-        ["1c8bccefe73f6211", "f4492fda2a66342e", "1c670bf21c98d74d", "2da1a24f6c673cfd", "4e82c75fb8364075"]
+        [
+            "1c8bccefe73f6211",
+            "f4492fda2a66342e",
+            "1c670bf21c98d74d",
+            "2da1a24f6c673cfd",
+            "ac848d177aedbbad",
+            "4e82c75fb8364075"
+        ]
     );
 }
 
 #[test]
 fn errors_of_settings_name_the_field() {
     type Change = fn(&mut CmaEsSettings);
-    let changes: [(Change, &str); 7] = [
+    let changes: [(Change, &str); 9] = [
         (|s| s.population = Some(1), "population = 1: must be from 2 to 1000000"),
         (|s| s.population = Some(1_000_001), "population = 1000001: must be from 2 to 1000000"),
         (|s| s.step_size = 0.0, "step_size = 0: must be from 0.000001 to 1000"),
         (|s| s.step_size = f64::NAN, "step_size = NaN: must be from 0.000001 to 1000"),
         (|s| s.least_deviation = 0.6, "least_deviation = 0.6: must be from 0.000000001 to 0.5"),
+        (|s| s.starts = 0, "starts = 0: must be from 1 to 1000"),
+        (|s| s.start_generations = 0, "start_generations = 0: must be from 1 to 1000000"),
         (|s| s.least_deviation = 0.0, "least_deviation = 0: must be from 0.000000001 to 0.5"),
         (
             |s| s.initial_mean = Initialization::Uniform { limit: -1.0 },
@@ -153,6 +170,19 @@ fn damaged_states_are_errors_that_name_the_field() {
                 |s| s["distribution"]["covariance"][7] = json!(0.0),
                 "distribution.covariance = a degenerate matrix: must be positive definite",
             ),
+        ],
+    );
+}
+
+#[test]
+fn damage_to_the_search_that_is_kept_is_found() {
+    let mut strategy = new(CmaEsSettings { starts: 2, start_generations: 1, ..full() });
+    generation(&mut strategy, 1);
+    assert_damages_are_found(
+        &strategy,
+        &[
+            (|s| s["kept"]["population"] = 1.into(), "kept.population = 1: must be from 2 to 1000000"),
+            (|s| s["kept"]["distribution"]["mean"] = json!([1.0]), "kept.mean = 1 numbers: must be 26 numbers"),
         ],
     );
 }
@@ -238,4 +268,49 @@ fn populations_of_restarts_double_or_alternate() {
         }
     }
     assert!(large_searches > 1 && small_searches > 1, "{bipop:?}");
+}
+
+/// Searches far from each other, whose steps are small: a weight tells which one an individual is of.
+fn far_apart(settings: CmaEsSettings) -> CmaEs {
+    let initial_mean = Initialization::Uniform { limit: 100.0 };
+    new(CmaEsSettings { population: Some(6), step_size: 1e-3, least_deviation: 1e-5, initial_mean, ..settings })
+}
+
+/// Which search each generation belongs to, counted in order of their first, if its individuals are worth what is said of its
+/// search and of the generation.
+fn searches(mut strategy: CmaEs, generations: u64, worth: impl Fn(usize, u64) -> f64) -> Vec<usize> {
+    let mut places: Vec<f32> = Vec::new();
+    let mut visited = Vec::new();
+    for number in 1..=generations {
+        let seed = Seed::of_run(3).generation(number);
+        let population = strategy.ask(seed);
+        let (place, size) = (population[0].weights()[0], population.len());
+        let search = places.iter().position(|known| (known - place).abs() < 0.5).unwrap_or_else(|| {
+            places.push(place);
+            places.len() - 1
+        });
+        visited.push(search);
+        let evaluations: Vec<_> =
+            (0..size).map(|index| Evaluation::new(worth(search, number) + 1e-6 * index as f64)).collect();
+        strategy.tell(&evaluations, seed);
+    }
+    visited
+}
+
+#[test]
+fn of_several_starts_the_one_that_got_farthest_goes_on() {
+    let settings = CmaEsSettings { starts: 3, start_generations: 2, ..Default::default() };
+    let visited = searches(far_apart(settings.clone()), 9, |search, _| [1.0, 3.0, 2.0][search]);
+    assert_eq!(visited, [0, 0, 1, 1, 2, 2, 1, 1, 1]);
+    let told = far_apart(settings).with_mean(&[2.5; 26]).expect("26 weights");
+    assert_eq!(searches(told, 9, |_, _| 1.0), [0; 9], "a search that is told where to begin has one start");
+}
+
+#[test]
+fn after_a_search_elsewhere_the_best_so_far_goes_on() {
+    let settings = CmaEsSettings { restart: Restart::Returning, ..Default::default() };
+    // None gets any farther while it lasts, so each ends when it is known to stagnate.
+    let mut visited = searches(far_apart(settings), 4000, |search, _| [2.0, 1.0, 3.0, 1.0, 1.0][search.min(4)]);
+    visited.dedup();
+    assert_eq!(visited[..7], [0, 1, 0, 2, 3, 2, 4], "from 2 on, which got farthest, it comes back to 2");
 }

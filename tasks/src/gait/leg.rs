@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 /// What a leg does. It counts by its foot, its last part.
 ///
 /// A foot that loses contact for no more than 0.03 s has not left the ground: a foot pressed down chatters for a step,
-/// and a dragged foot must not look like a walking one.
+/// and a dragged foot must not look like a walking one. For touchdowns, liftoffs and clearance a foot is down that touches the
+/// ground or, on flat ground, is less than 1 % of the body length above it; stances and slip count contacts alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LegUse {
     /// Name of its foot.
@@ -56,8 +57,9 @@ impl LegUse {
             .map(|stance| Interval::of(trajectory, stance))
             .filter(|stance| stance.seconds() > 0.0)
             .collect();
-        let touchdowns = contact::touchdowns(trajectory, &ranges);
-        let liftoffs = contact::liftoffs(trajectory, &ranges);
+        let downs = contact::downs(trajectory, foot);
+        let touchdowns = contact::touchdowns(trajectory, &downs);
+        let liftoffs = contact::liftoffs(trajectory, &downs);
         let joints = body.hinges.iter().enumerate().filter(|(_, hinge)| leg.contains(&hinge.child));
         let slip: f64 = ranges.iter().map(|stance| slip(trajectory, foot, stance)).sum();
         let distance = trajectory.progress(0, trajectory.steps());
@@ -74,7 +76,7 @@ impl LegUse {
                     range: joint::range(trajectory.hinge_angles(index)),
                 })
                 .collect(),
-            clearance: clearance(trajectory, foot, &ranges),
+            clearance: clearance(trajectory, foot, &downs),
             slip,
             slip_per_distance: Some(slip / distance).filter(|slip| distance > 0.0 && slip.is_finite()),
             stances,
@@ -82,15 +84,14 @@ impl LegUse {
     }
 }
 
-/// The median rise of a foot between its stances, m.
-fn clearance(trajectory: &Trajectory<'_>, foot: usize, stances: &[RangeInclusive<usize>]) -> Option<f64> {
-    let height =
-        |step: usize| f64::from(trajectory.body().parts[foot].lowest_point(&trajectory.snapshots()[step].parts[foot]));
+/// The median rise of a foot in the swings between two times it is down, m.
+fn clearance(trajectory: &Trajectory<'_>, foot: usize, downs: &[RangeInclusive<usize>]) -> Option<f64> {
+    let height = |step: usize| trajectory.lowest_point(foot, step);
     let swing = |pair: &[RangeInclusive<usize>]| {
         let (liftoff, touchdown) = (*pair[0].end(), *pair[1].start());
         (liftoff..=touchdown).map(height).fold(f64::NEG_INFINITY, f64::max) - height(liftoff)
     };
-    let mut swings: Vec<f64> = stances.windows(2).map(swing).collect();
+    let mut swings: Vec<f64> = downs.windows(2).map(swing).collect();
     swings.sort_by(f64::total_cmp);
     swings.get(swings.len() / 2).copied()
 }

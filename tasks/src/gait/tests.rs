@@ -98,7 +98,10 @@ fn one_who_stays_on_the_ground_does_not_jump() {
 fn a_leg_that_never_comes_down_is_named() {
     let hopping = |step: usize| {
         let mut pose = Pose::walking(step);
-        pose.touching[1] &= step < 2900;
+        if step >= 2900 {
+            pose.touching[1] = false;
+            pose.lift[0] = 0.05;
+        }
         pose
     };
     let report = report(60.0, Kind::Running, hopping);
@@ -107,6 +110,22 @@ fn a_leg_that_never_comes_down_is_named() {
         "left leg: did not leave the ground for 2.2 s, at most 1 s allowed",
     ];
     assert_eq!(reasons(&report), expected);
+}
+
+#[test]
+fn a_foot_that_steps_to_within_1_percent_of_the_body_length_of_the_ground_has_come_down() {
+    // The left leg is a little shorter than the right one, and bears nothing. The puppet's soles are 5 cm above 0.
+    let short = |missing: f64| {
+        walk(move |_, pose| {
+            pose.y -= 0.05;
+            pose.touching[1] = false;
+            pose.lift[0] += missing;
+        })
+    };
+    // A standing leg turns on its hip: its foot is up to 1 cm higher at both ends of the stance.
+    assert_eq!(short(0.004), NOTHING);
+    let said = short(0.02);
+    assert!(said[0].starts_with("left leg: no touchdown for 60.0 s"), "{said:?}");
 }
 
 #[test]
@@ -326,6 +345,22 @@ fn a_fast_joint_is_not_usable() {
     };
     let report = report(60.0, Kind::Running, buzzing);
     assert!(reasons(&report).contains(&"left leg: its joint swings at 6.0 Hz, at most 4 Hz allowed".to_string()));
+}
+
+#[test]
+fn a_legless_body_jumps_by_a_quarter_of_its_length() {
+    let body = Body { legless: true, ..body() };
+    let said = |share: f64| {
+        let low = |step: usize| {
+            let pose = Pose::jumping(step);
+            Pose { y: 0.8 + share * (pose.y - 0.8), ..pose }
+        };
+        let report = GaitReport::measure(&body, &film(5.0, low), Some(Kind::Jumping));
+        reasons(&report.expect("a script can be measured"))
+    };
+    // All of it is 0.46 m.
+    assert_eq!(said(0.57), NOTHING);
+    assert!(said(0.52)[0].contains("0.25 m required"), "{:?}", said(0.52));
 }
 
 #[test]

@@ -156,6 +156,11 @@ impl<'a> Trajectory<'a> {
         self.snapshots[step].torso().y.into()
     }
 
+    /// The height of a part's lowest point, m.
+    pub(super) fn lowest_point(&self, part: usize, step: usize) -> f64 {
+        self.body.parts[part].lowest_point(&self.snapshots[step].parts[part]).into()
+    }
+
     /// The height of the centre of mass, m.
     pub(super) fn centre_height(&self, step: usize) -> f64 {
         let parts = self.body.parts.iter().zip(&self.snapshots[step].parts);

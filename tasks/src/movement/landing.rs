@@ -4,7 +4,7 @@ use crate::{Body, Snapshot};
 /// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
 /// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago.
 ///
-/// Only a leap of 0.35 start heights and 6 cm counts, and one that all legs began together: with a share for less, searches
+/// Only a leap of 0.35 start heights and 6 cm (without legs: 0.3 body lengths) counts, and one that all legs began together: with a share for less, searches
 /// settle for hops.
 ///
 /// A term that ends the episode when the body falls is what makes it land on its feet: see
@@ -14,6 +14,8 @@ pub struct Landing {
     leap: Leap,
     body_length: f32,
     start_height: f32,
+    /// What a leap has to rise by, m.
+    high: f32,
     turn: Turn,
     start: f32,
     time: f32,
@@ -30,6 +32,8 @@ pub struct Landing {
 const RISE: f32 = 0.35;
 /// m.
 const LEAST_RISE: f32 = 0.06;
+/// Body lengths.
+const LEGLESS_RISE: f32 = 0.3;
 /// s.
 const LEAPS_ON: f32 = 1.2;
 /// rad.
@@ -51,6 +55,10 @@ impl Movement for Landing {
     fn meet(&mut self, body: &Body) {
         self.leap.meet(body);
         (self.body_length, self.start_height) = (body.body_length, body.start_height);
+        self.high = (RISE * body.start_height).max(LEAST_RISE);
+        if body.legless {
+            self.high = self.high.max(LEGLESS_RISE * body.body_length);
+        }
     }
 
     fn begin(&mut self, start: &Snapshot) {
@@ -66,8 +74,7 @@ impl Movement for Landing {
         let seconds = now.time - self.time;
         self.time = now.time;
         if let Some((rise, share)) = self.leap.under_way(now) {
-            let high = (RISE * self.start_height).max(LEAST_RISE);
-            let worth = if rise >= high && share == 1.0 { 1.0 } else { 0.0 };
+            let worth = if rise >= self.high && share == 1.0 { 1.0 } else { 0.0 };
             // The worth of a flight is that of its peak.
             self.worth = if now.time - self.leapt > 2.0 * seconds { worth } else { self.worth.max(worth) };
             self.best = self.best.max(self.worth);

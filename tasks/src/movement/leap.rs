@@ -8,7 +8,7 @@ use crate::{Body, Snapshot};
 /// if one did 0.4 s before: a search that earns nothing before all is right never gets there, and one that earns much has no
 /// reason to. And all of that counts only of a flight whose landing the body survives: one that is still in its episode 0.3 s
 /// after it touched down, or leaps again. Of the others a quarter does, or searches would leap high and fall. For the same
-/// reason a quarter counts of what is higher than half of the start height.
+/// reason a quarter counts of what is higher than half of the start height, or 0.4 body lengths for a body without legs.
 ///
 /// [`Jumping`](super::Jumping) also counts a torso that is lifted by a body that only stretches.
 #[derive(Clone, Debug, Default)]
@@ -36,6 +36,8 @@ const APART: f32 = 0.4;
 const UNEVEN: f32 = 0.4;
 /// Start heights.
 const ENOUGH: f32 = 0.5;
+/// Of a body without legs, body lengths.
+const ENOUGH_LEGLESS: f32 = 0.4;
 /// The share that counts of what is beyond enough.
 const BEYOND: f32 = 0.25;
 /// A flight shorter than this is a stumble, s.
@@ -69,7 +71,7 @@ impl Movement for Leap {
     }
 
     fn meet(&mut self, body: &Body) {
-        self.enough = ENOUGH * body.start_height;
+        self.enough = if body.legless { ENOUGH_LEGLESS * body.body_length } else { ENOUGH * body.start_height };
         self.masses = body.parts.iter().map(|part| part.mass).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
         self.down = vec![true; self.feet.len()];

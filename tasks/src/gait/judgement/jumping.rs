@@ -9,6 +9,9 @@ const SHORTEST: f64 = 0.2;
 const LOWEST_RISE: f64 = 0.3;
 /// ...and by at least this, m: a flat body is soon over a share of its height.
 const LOWEST_RISE_METRES: f64 = 0.05;
+/// ...and that of a body without legs, which starts next to the ground, by this many body lengths: any wave that runs through a
+/// strong caterpillar throws it up by less.
+const LOWEST_LEGLESS_RISE: f64 = 0.25;
 /// Legs that push off farther apart in time stumble into the air, s.
 const WIDEST_SPREAD: f64 = 0.15;
 /// Beyond this a torso has begun to fall, degrees.
@@ -58,7 +61,9 @@ fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reason> {
     if seconds < SHORTEST - CLOCK_ERROR {
         reasons.push(Reason::ShortFlight { time, seconds, required: SHORTEST });
     }
-    let required = (LOWEST_RISE * trajectory.start_height()).max(LOWEST_RISE_METRES);
+    let body = trajectory.body();
+    let of_length = if body.legless { LOWEST_LEGLESS_RISE * f64::from(body.body_length) } else { 0.0 };
+    let required = (LOWEST_RISE * trajectory.start_height()).max(LOWEST_RISE_METRES).max(of_length);
     if flight.centre_rise < required {
         reasons.push(Reason::LowFlight { time, rise: flight.centre_rise, required });
     }

@@ -60,8 +60,9 @@ impl Kind {
 /// Whether a gait is usable: what a game animator would say of it, by measures and limits.
 ///
 /// **Running** is, if over the second half the mean forward speed is at least 0.5 body lengths/s; the torso gets ahead
-/// in each quarter of the episode and in each quarter of its second half; every leg touches down and lifts off at least
-/// once every second, from the start to the end, and its foot rises by at least 2 % of the body length between; the torso
+/// in each quarter of the episode and in each quarter of its second half; every leg comes down (its foot touches the
+/// ground, or on flat ground is less than 1 % of the body length above it) and lifts off at least once every second, from the
+/// start to the end, and its foot rises by at least 2 % of the body length between; the torso
 /// stays within 45° of its start, with a standard deviation of at most 12° over the second half, and above 0.6 of its start
 /// height on flat ground; parts that are no feet touch the ground for at most 1 % of the time; feet slip by at most
 /// 0.3 m for each metre of way, as a mean over all; no actuated joint's dominant frequency is above 4 Hz; the joints repeat themselves with a
@@ -74,7 +75,7 @@ impl Kind {
 /// and no cheat is flagged. How it is turned does not matter, nor which of its joints it uses.
 ///
 /// **Jumping** is, if in one and the same flight every part is off the ground for at least 0.2 s, the centre of mass rises
-/// at least 0.3 × the start height and 5 cm above its start, and all legs lose contact within 0.15 s before it; if from the
+/// at least 0.3 × the start height and 5 cm above its start (without legs 0.25 body lengths), and all legs lose contact within 0.15 s before it; if from the
 /// take-off of the first such flight to the end the torso stays within 45° and nothing but feet touches the ground; if the
 /// body stands again in the last second, or jumps on; and no cheat is flagged. Legs, tilt and contacts are not asked of a
 /// legless body, which lies at the end as it lay.
