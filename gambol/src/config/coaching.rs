@@ -3,7 +3,7 @@
 //! Each piece is a setting of the run like any other, so it can be changed or left out one by one; what each is worth is
 //! measured in `docs/ablation.md`.
 
-use super::{EngineChoice, LimbPhases, RunConfig, StrategySettings};
+use super::{EngineChoice, LimbPhases, RunConfig};
 use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
 use tasks::TermSpec;
@@ -29,9 +29,6 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.limbs = movement.phases(legs, joints);
     controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
     config.physics.motor_gain = MOTOR_GAIN;
-    if let StrategySettings::CmaEs(settings) = &mut config.strategy {
-        settings.starts = movement.starts(legs);
-    }
     config.sensors = Some(sensors(&config.creature.sensors, movement.period(legless, height), legless));
     config.movement.terms = movement.terms(legs, legless);
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
@@ -109,14 +106,6 @@ impl Movement {
     /// worlds do not tell apart.
     fn trials(self, legs: usize) -> u32 {
         if self.leaps() && legs > 2 { 5 } else { 3 }
-    }
-
-    /// How many searches begin: a body on few legs has many ways to fall, and a search that begins with one seldom leaves it.
-    fn starts(self, legs: usize) -> usize {
-        match (self.leaps(), legs) {
-            (_, 1..=2) | (true, 3..=4) => 4,
-            _ => 1,
-        }
     }
 
     /// A stride or a hop, a leap with its run-up, and a stroke, s. Legs swing like pendulums: the time of a stride goes with

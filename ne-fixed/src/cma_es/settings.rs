@@ -61,10 +61,11 @@ impl CmaEsSettings {
         }
     }
 
-    /// For gaits of nets with some dozens of weights: population 64, and as soon as the search gets finer than 0.1 or stagnates,
-    /// another one or the best so far goes on by turns. Found by experiment.
+    /// For gaits of nets with some dozens of weights: population 64, four starts, and as soon as the search gets finer than 0.1 or
+    /// stagnates, another one or the best so far goes on by turns. Found by experiment.
     pub fn gaits() -> Self {
-        Self { population: Some(64), least_deviation: 0.1, restart: Restart::Returning, ..Self::default() }
+        let restart = Restart::Returning;
+        Self { population: Some(64), least_deviation: 0.1, restart, starts: 4, ..Self::default() }
     }
 
     /// The greatest population.

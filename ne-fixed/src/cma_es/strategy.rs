@@ -140,7 +140,12 @@ impl CmaEs {
             distribution.limit_deviation(REVIVED * first, f64::INFINITY);
             distribution.grown(growth, model, first)
         });
-        Ok(Self { start, distribution, ..next })
+        let mut restarts = next.restarts.clone();
+        if distribution.is_some() {
+            // It has begun: there is nothing to choose from.
+            restarts.starts = next.settings.starts;
+        }
+        Ok(Self { start, restarts, distribution, ..next })
     }
 
     /// The settings.
@@ -159,9 +164,9 @@ impl CmaEs {
         self.distribution.as_ref().map(|distribution| distribution.mean.as_slice())
     }
 
-    /// Whether a restart has left what the first search had found.
+    /// Whether a restart, or the next of several starts, has left what the first search had found.
     pub fn has_begun_anew(&self) -> bool {
-        self.restarts.count > 0
+        self.restarts.count > 0 || (self.is_starting() && self.restarts.starts > 0)
     }
 
     /// The population of the first search.

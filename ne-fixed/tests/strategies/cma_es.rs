@@ -8,6 +8,7 @@ use ne_core::{
     conformance::{StrategyOptions, check_strategy},
 };
 use ne_fixed::{CmaEs, CmaEsSettings, CovarianceModel, Initialization, Restart};
+use ne_net::Growth;
 use serde_json::json;
 
 fn new(settings: CmaEsSettings) -> CmaEs {
@@ -302,6 +303,17 @@ fn of_several_starts_the_one_that_got_farthest_goes_on() {
     let settings = CmaEsSettings { starts: 3, start_generations: 2, ..Default::default() };
     let visited = searches(far_apart(settings.clone()), 9, |search, _| [1.0, 3.0, 2.0][search]);
     assert_eq!(visited, [0, 0, 1, 1, 2, 2, 1, 1, 1]);
+    let mut begun = far_apart(settings.clone());
+    generation(&mut begun, 1);
+    let (place, growth) = (begun.mean().expect("a search")[0], Growth::none(26));
+    let grown = begun.grown(settings.clone(), dense(), &growth).expect("grows by nothing");
+    assert!(!grown.has_begun_anew());
+    let visited = searches(grown.clone(), 5, |_, _| 1.0);
+    assert_eq!(
+        (visited, grown.mean().expect("carried")[0]),
+        (vec![0; 5], place),
+        "a search that is carried on has one start"
+    );
     let told = far_apart(settings).with_mean(&[2.5; 26]).expect("26 weights");
     assert_eq!(searches(told, 9, |_, _| 1.0), [0; 9], "a search that is told where to begin has one start");
 }
