@@ -24,7 +24,7 @@ use std::{
 };
 use tasks::{Environment, MovementCatalogue};
 
-/// A champion's gait, as `gambol gait` judges it: 20 s in rapier, without variation.
+/// A champion's gait, as `gambol gait` judges it: 60 s in rapier, without variation.
 struct Gait {
     /// Body lengths a second.
     speed: f64,

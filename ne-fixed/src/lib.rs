@@ -5,7 +5,7 @@
 //! | strategy | what it is | when |
 //! |---|---|---|
 //! | [`ConventionalNe`] | a generational genetic algorithm, in the form of the thesis ([`thesis`](ConventionalNeSettings::thesis)) and in a better one | to see evolution at work; rugged landscapes |
-//! | [`CmaEs`] | a normal distribution that learns size and shape; restarts with other populations | up to a thousand weights; the fewest evaluations where fitness says much |
+//! | [`CmaEs`] | a normal distribution that learns size and shape; restarts with other populations, or where the best search ended | up to a thousand weights; the fewest evaluations where fitness says much |
 //! | [`OpenEs`] | a centre that climbs an estimated gradient | thousands of weights, noisy fitness, many processors |
 //! | [`Cosyne`] | a subpopulation for each weight, whose members meet in ever new nets | small nets, few evaluations |
 //! | [`Nsga2`] | a genetic algorithm that keeps a front of compromises between objectives | where several things are wanted that cannot all be had |

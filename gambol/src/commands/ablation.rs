@@ -71,6 +71,8 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "full covariance", change: |config| set_cma(config, "covariance", "full") },
     Variant { name: "no restarts", change: |config| set_cma(config, "restart", "none") },
     Variant { name: "restarts as in IPOP", change: |config| set_cma(config, "restart", "ipop") },
+    Variant { name: "restarts as in BIPOP", change: |config| set_cma(config, "restart", "bipop") },
+    Variant { name: "one start", change: |config| set_cma(config, "starts", 1) },
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },
     Variant { name: "CoSyNE", change: |config| search_with(config, "cosyne") },
@@ -101,7 +103,7 @@ fn search_with(config: &mut RunConfig, name: &str) {
 }
 
 /// Changes a choice of CMA-ES by its name in files.
-fn set_cma(config: &mut RunConfig, field: &str, choice: &str) {
+fn set_cma(config: &mut RunConfig, field: &str, choice: impl Into<serde_json::Value>) {
     let StrategySettings::CmaEs(settings) = &config.strategy else { return };
     let changed = serde_json::to_value(settings).and_then(|mut value| {
         value[field] = choice.into();

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// When the search of [`CmaEs`](crate::CmaEs) has ended, whether it begins anew, and how. The mean is drawn again, or
 /// is once more where the search was told to begin ([`with_mean`](crate::CmaEs::with_mean)); nothing else is kept of the
-/// search before.
+/// search before, but with [`Returning`](Self::Returning).
 ///
 /// A search has ended, by the criteria of Hansen's tutorial, appendix B.3, and of Auger & Hansen,
 /// - when no weight deviates by more than the least deviation (TolX), or one by 10,000 times the first (TolXUp);

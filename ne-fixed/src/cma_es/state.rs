@@ -98,7 +98,7 @@ impl TryFrom<State> for CmaEs {
         strategy.history = state.history;
         let (model, n) = (strategy.settings.covariance, strategy.topology.weight_count());
         if let Some(kept) = state.kept {
-            let distribution = kept.distribution.check(model, n).map_err(|error| error.within("kept"))?;
+            let distribution = kept.distribution.check(model, n).map_err(|error| error.within("kept.distribution"))?;
             if !(2..=CmaEsSettings::MAX_POPULATION).contains(&kept.population) {
                 return Err(SettingError::new("kept.population", kept.population, "from 2 to 1000000").into());
             }

@@ -33,7 +33,7 @@ const RESTART: Purpose = Purpose::new("cma-es restart");
 /// - `greatest_deviation`: σ times the deviation of the weight that varies most, in units of the weights;
 /// - `condition_number`: of the covariance matrix; of a full one a lower bound;
 /// - `population`: of the next generation;
-/// - `restarts`: how many there were;
+/// - `restarts`: how many there were, returns to the best search included;
 /// - `evaluations_since_restart`.
 ///
 /// Source: Hansen, *The CMA Evolution Strategy: A Tutorial*, arXiv 1604.00772. It differs in one place: where the tutorial

@@ -183,7 +183,10 @@ fn damage_to_the_search_that_is_kept_is_found() {
         &strategy,
         &[
             (|s| s["kept"]["population"] = 1.into(), "kept.population = 1: must be from 2 to 1000000"),
-            (|s| s["kept"]["distribution"]["mean"] = json!([1.0]), "kept.mean = 1 numbers: must be 26 numbers"),
+            (
+                |s| s["kept"]["distribution"]["mean"] = json!([1.0]),
+                "kept.distribution.mean = 1 numbers: must be 26 numbers",
+            ),
         ],
     );
 }

@@ -4,8 +4,8 @@ use crate::{Body, Snapshot};
 /// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
 /// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago.
 ///
-/// Only a leap of 0.35 start heights and 6 cm (without legs: 0.3 body lengths) counts, and one that all legs began together: with a share for less, searches
-/// settle for hops.
+/// Only a leap of 0.35 start heights and 6 cm (without legs: 0.3 body lengths) counts, and one that all legs began
+/// together: with a share for less, searches settle for hops.
 ///
 /// A term that ends the episode when the body falls is what makes it land on its feet: see
 /// [`Posture`](super::Posture).
@@ -55,10 +55,7 @@ impl Movement for Landing {
     fn meet(&mut self, body: &Body) {
         self.leap.meet(body);
         (self.body_length, self.start_height) = (body.body_length, body.start_height);
-        self.high = (RISE * body.start_height).max(LEAST_RISE);
-        if body.legless {
-            self.high = self.high.max(LEGLESS_RISE * body.body_length);
-        }
+        self.high = if body.legless { LEGLESS_RISE * body.body_length } else { RISE * body.start_height };
     }
 
     fn begin(&mut self, start: &Snapshot) {
@@ -74,7 +71,7 @@ impl Movement for Landing {
         let seconds = now.time - self.time;
         self.time = now.time;
         if let Some((rise, share)) = self.leap.under_way(now) {
-            let worth = if rise >= self.high && share == 1.0 { 1.0 } else { 0.0 };
+            let worth = if rise >= self.high.max(LEAST_RISE) && share == 1.0 { 1.0 } else { 0.0 };
             // The worth of a flight is that of its peak.
             self.worth = if now.time - self.leapt > 2.0 * seconds { worth } else { self.worth.max(worth) };
             self.best = self.best.max(self.worth);
