@@ -104,8 +104,7 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// [`Variation::terrain`] each trial has one of its own seed.
     ///
     /// # Errors
-    /// As [`new`](Self::new), if the terrain is not valid, if it is not flat though there is water, and if bumps are to vary on
-    /// a terrain that is not flat.
+    /// As [`new`](Self::new), if the terrain is not valid, and if it is not flat though there is water.
     pub fn on_terrain(
         blueprint: Blueprint,
         sensors: &[Sensor],
@@ -116,10 +115,6 @@ impl<E: Engine> CreatureEnvironment<E> {
     ) -> Result<Self, EnvironmentError> {
         if let Err(TerrainError { field, found, allowed }) = terrain.validate() {
             return Err(SettingError::new(field, found, allowed).within("terrain").into());
-        }
-        if variation.bumps != 0.0 && !terrain.is_flat() {
-            let allowed = "0 on a terrain that is not flat (\"rough\" has blocks of its own)";
-            return Err(SettingError::new("variation.bumps", variation.bumps, allowed).into());
         }
         let landscape = Landscape::new(&terrain, terrain.seed, &blueprint);
         Self::on_landscape(blueprint, sensors, input_range, settings, variation, landscape, terrain)
@@ -273,16 +268,19 @@ impl<E: Engine> CreatureEnvironment<E> {
         if settings.water.is_some() {
             return Cow::Borrowed(landscape);
         }
+        if !terrain.is_flat() {
+            return match variation.draw_terrain(seed) {
+                Some(seed) => Cow::Owned(Landscape::new(terrain, seed, blueprint)),
+                None => Cow::Borrowed(landscape),
+            };
+        }
         let [left, _, right, _] = blueprint.bounding_box();
         let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
-        if !bumps.is_empty() {
-            let shapes = landscape.ground.shapes.iter().copied().chain(bumps).collect();
-            return Cow::Owned(Ground { shapes }.into());
+        if bumps.is_empty() {
+            return Cow::Borrowed(landscape);
         }
-        match variation.draw_terrain(seed).filter(|_| !terrain.is_flat()) {
-            Some(seed) => Cow::Owned(Landscape::new(terrain, seed, blueprint)),
-            None => Cow::Borrowed(landscape),
-        }
+        let shapes = landscape.ground.shapes.iter().copied().chain(bumps).collect();
+        Cow::Owned(Ground { shapes }.into())
     }
 
     /// What the trial with this seed begins with, and what `reset` puts in place; for those who step many creatures at

@@ -46,8 +46,8 @@ pub struct Variation {
     /// By up to this much, rad, each actuated joint is turned, either way, before the clock starts. Its own motor turns
     /// it, so a leg that bears weight turns less far. From 0 to 1; default 0.
     pub start_pose: f32,
-    /// The highest of the [bumps](crate::bumps()) on the ground, m, for as far as 20 body lengths; the lowest are a tenth
-    /// as high. 0, or from 0.01 to 0.1; default 0, none.
+    /// The highest of the [bumps](crate::bumps()) on flat ground, m, for as far as 20 body lengths; the lowest are a tenth
+    /// as high. A terrain that is not flat has none, nor has water. 0, or from 0.01 to 0.1; default 0, none.
     pub bumps: f32,
     /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; default `false`:
     /// all have that of the terrain's own seed.
@@ -150,8 +150,14 @@ impl Variation {
         }
     }
 
-    /// More than [`light`](Self::light): friction ± 50 %, mass and torque ± 20 %, steps between 0.5 and 1.5 times as long,
-    /// every actuated joint turned by up to 0.1 rad (6°), pushes of up to 0.4 m/s and bumps up to 2 cm high.
+    /// [`light`](Self::light) with bumps up to 2 cm high and up to 8 solver iterations, for gaits that last: who stumbles over a
+    /// bump has to go on, and the more iterations, the harder ground and joints answer.
+    pub const fn bumpy() -> Self {
+        Self { bumps: 0.02, solver_iterations: Some([1, 8]), ..Self::light() }
+    }
+
+    /// More than [`bumpy`](Self::bumpy): friction ± 50 %, mass and torque ± 20 %, steps between 0.5 and 1.5 times as long,
+    /// every actuated joint turned by up to 0.1 rad (6°), pushes of up to 0.4 m/s.
     pub const fn strong() -> Self {
         Self {
             friction: 0.5,
@@ -160,8 +166,7 @@ impl Variation {
             time_step: [0.5, 1.5],
             start_pose: 0.1,
             pushes: 0.4,
-            bumps: 0.02,
-            ..Self::light()
+            ..Self::bumpy()
         }
     }
 

@@ -1,7 +1,7 @@
 use crate::{
     Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Honest, Hopping,
-    Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rollovers, Running, Slip, Standing, Sum,
-    Swimming, TimeAloft, Upright, Vibration, Walking,
+    Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rhythm, Rollovers, Running, Slip,
+    Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -186,6 +186,11 @@ impl Default for MovementCatalogue {
             Posture::new,
         );
         catalogue.add::<Slip>(None, "how far feet slide, beyond 0.2 m a metre; weigh it negatively");
+        catalogue.add_with_settings(
+            None,
+            "way made out of rhythm; weigh it negatively; settings: period, s (0.5), of a stride",
+            Rhythm::new,
+        );
         catalogue.add_with_settings(
             None,
             "way beyond what a wanted speed gives; weigh it negatively; settings: speed, body lengths/s (2)",

@@ -3,8 +3,8 @@
 use std::f32::consts::TAU;
 use tasks::{
     Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Honest, Idleness, Jumping, Landing, Leap,
-    Movement, MovementCatalogue, MovementSpec, PartState, Posture, Running, Slip, Snapshot, Sum, TermSpec, Upright,
-    Verdict, Vibration, conformance::check_movement,
+    Movement, MovementCatalogue, MovementSpec, PartState, Posture, Rhythm, RhythmSettings, Running, Slip, Snapshot,
+    Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -140,7 +140,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
     // All that fits every body the check shows: one part, that is its own leg.
     let hinge = BodyHinge { limits: [-1.0, 1.0], motor, ..BodyHinge::default() };
     let simple = Body { parts: vec![torso], hinges: vec![hinge], legs: vec![vec![0]], ..Body::default() };
-    let movements: [Box<dyn Movement>; 11] = [
+    let movements: [Box<dyn Movement>; 12] = [
         Box::new(Upright::default()),
         Box::new(Footfalls::default()),
         Box::new(Headway::default()),
@@ -151,6 +151,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
         Box::new(Posture::default()),
         Box::new(Haste::default()),
         Box::new(Slip::default()),
+        Box::new(Rhythm::default()),
         Box::new(Landing::default()),
     ];
     let catalogue = MovementCatalogue::default();
@@ -284,6 +285,43 @@ fn haste_is_the_way_beyond_a_wanted_speed() {
     assert!((beyond(3.0) - 3.0).abs() < 0.01, "{}", beyond(3.0));
     let large = Body { body_length: 2.0, ..puppet() };
     assert_eq!(value(Haste::default(), &large, &at(3.0)), 0.0);
+}
+
+#[test]
+fn rhythm_is_the_way_made_out_of_the_rhythm_of_the_clock() {
+    let swing = |frequency: f32, direction: f32| {
+        script(6.0, move |time| Pose {
+            x: direction * time,
+            hips: [0.4 * sine(frequency, time), 0.4 * sine(2.0 * frequency, time)],
+            ..Pose::default()
+        })
+    };
+    let rhythm = |script: &[Snapshot]| value(Rhythm::default(), &puppet(), script);
+    // The stride of the clock is 0.5 s.
+    assert!(rhythm(&swing(2.0, 1.0)) < 0.01, "in time");
+    assert!(rhythm(&swing(4.0, -1.0)) < 0.01, "two strides repeat as well");
+    assert_eq!(rhythm(&swing(0.0, 1.0)), 0.0, "legs that keep still have no rhythm to lose");
+    assert!((rhythm(&swing(1.0, -1.0)) - 6.0).abs() < 0.1, "one leg is where the other one belongs");
+    let one =
+        script(6.0, |time| Pose { x: time, hips: [0.4 * sine(2.0, time), 0.4 * sine(2.5, time)], ..Pose::default() });
+    assert!((rhythm(&one) - 3.0).abs() < 0.1, "one leg of two keeps time: {}", rhythm(&one));
+    assert_eq!(rhythm(&script(0.48, |time| Pose { x: time, ..Pose::default() })), 0.0, "shorter than a stride");
+    let slow = Rhythm::new(RhythmSettings { period: 1.0 }).expect("in range");
+    assert!(value(slow, &puppet(), &swing(1.0, 1.0)) < 0.01);
+    // Three short steps in place of one: the same swing, looked at as often.
+    let fine: Vec<Snapshot> = (0..=1800_u16)
+        .map(|step| f32::from(step) / 300.0)
+        .map(|time| {
+            Pose { x: time, hips: [0.4 * sine(2.0, time), 0.2 * sine(2.5, time)], ..Pose::default() }.snapshot(time)
+        })
+        .collect();
+    let coarse =
+        script(6.0, |time| Pose { x: time, hips: [0.4 * sine(2.0, time), 0.2 * sine(2.5, time)], ..Pose::default() });
+    assert!((rhythm(&fine) - rhythm(&coarse)).abs() < 0.05, "{} {}", rhythm(&fine), rhythm(&coarse));
+    for period in [0.0, 0.04, 5.1, f32::NAN] {
+        let error = Rhythm::new(RhythmSettings { period }).expect_err("out of range").to_string();
+        assert!(error.starts_with("period = ") && error.ends_with("must be from 0.05 to 5"), "{error}");
+    }
 }
 
 #[test]

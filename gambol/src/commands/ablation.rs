@@ -32,6 +32,7 @@ pub(super) const VARIANTS: &[Variant] = &[
         name: "no clock",
         change: |config| keep_sensors(config, |sensor| !matches!(sensor, Sensor::Clock { .. })),
     },
+    Variant { name: "a clock of 0.5 s", change: |config| set_period(config, 0.5) },
     Variant {
         name: "no foot contacts",
         change: |config| keep_sensors(config, |sensor| *sensor != Sensor::FootContacts),
@@ -56,16 +57,26 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "without the term headway", change: |config| drop_term(config, "headway") },
     Variant { name: "without the term footfalls", change: |config| drop_term(config, "footfalls") },
     Variant { name: "without the term upright", change: |config| drop_term(config, "upright") },
+    Variant { name: "without the term posture", change: |config| drop_term(config, "posture") },
+    Variant { name: "without the term slip", change: |config| drop_term(config, "slip") },
+    Variant { name: "without the term haste", change: |config| drop_term(config, "haste") },
+    Variant { name: "without the term rhythm", change: |config| drop_term(config, "rhythm") },
     Variant { name: "without the term vibration", change: |config| drop_term(config, "vibration") },
     Variant { name: "without the term honest", change: |config| drop_term(config, "honest") },
     Variant { name: "without the term idleness", change: |config| drop_term(config, "idleness") },
     Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
+    Variant { name: "without the term landing", change: |config| drop_term(config, "landing") },
     Variant { name: "no terms at all", change: |config| config.movement.terms.clear() },
     Variant { name: "whole episodes in training", change: |config| config.rehearsal = config.movement.steps },
     Variant { name: "a heat of half the steps", change: |config| run_heats(config, &[2]) },
     Variant { name: "heats of a quarter and half the steps", change: |config| run_heats(config, &[4, 2]) },
     Variant { name: "no variation", change: |config| config.variation = Variation::default() },
+    Variant { name: "light variation", change: |config| config.variation = Variation::light() },
+    Variant { name: "bumpy variation", change: |config| config.variation = Variation::bumpy() },
     Variant { name: "strong variation", change: |config| config.variation = Variation::strong() },
+    Variant { name: "one trial", change: |config| config.trials.count = 1 },
+    Variant { name: "five trials", change: |config| config.trials.count = 5 },
+    Variant { name: "motors as soft as in the thesis", change: |config| config.physics.motor_gain = 20.0 },
     Variant { name: "population 16", change: |config| config.strategy.set_population(16) },
     Variant { name: "population 256", change: |config| config.strategy.set_population(256) },
     Variant { name: "full covariance", change: |config| set_cma(config, "covariance", "full") },
@@ -82,6 +93,18 @@ pub(super) const VARIANTS: &[Variant] = &[
 fn keep_sensors(config: &mut RunConfig, keep: fn(&Sensor) -> bool) {
     if let Some(sensors) = &mut config.sensors {
         sensors.retain(keep);
+    }
+}
+
+/// Of the clock, s, and of the rhythm that goes with it.
+fn set_period(config: &mut RunConfig, seconds: f32) {
+    for sensor in config.sensors.iter_mut().flatten() {
+        if let Sensor::Clock { period } = sensor {
+            *period = seconds;
+        }
+    }
+    for term in config.movement.terms.iter_mut().filter(|term| term.term == "rhythm") {
+        term.settings.insert("period".into(), seconds.into());
     }
 }
 

@@ -54,7 +54,7 @@ pub(super) struct Gaits {
     /// The strategy [default: the preset's]
     #[arg(long, value_name = "NAME")]
     strategy: Option<String>,
-    /// How the world varies in training: none, light, strong [default: the preset's]
+    /// How the world varies in training: none, near, pushed, light, bumpy, strong, physics [default: the preset's]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// Leave out the pieces of the default preset one by one, or put others in their place, and say what each is worth
@@ -76,7 +76,7 @@ pub(super) struct Gaits {
 }
 
 /// What came of one run.
-#[derive(Serialize)]
+#[derive(Clone, Serialize)]
 struct Run {
     creature: String,
     movement: String,
@@ -144,8 +144,8 @@ impl Gaits {
 
     /// Every variant on every scenario.
     fn ablation(&self, creatures: &[String]) -> Outcome {
-        say!("{:<34} {:>8} {:>12} {:>9}", "", "usable", "median to it", "quality")?;
-        let mut usual: Vec<f64> = Vec::new();
+        say!("{:<34} {:>8} {:>12} {:>9} {:>7}", "", "usable", "median to it", "quality", "robust")?;
+        let mut usual: Vec<(RunConfig, Run)> = Vec::new();
         for variant in VARIANTS {
             let mut runs = Vec::new();
             for creature in creatures {
@@ -153,20 +153,25 @@ impl Gaits {
                     for seed in 1..=self.seeds {
                         let mut config = self.config(creature, movement, seed)?;
                         (variant.change)(&mut config);
-                        let run = self.measure(config)?;
+                        // What does not concern a scenario would give the same run.
+                        let run = match usual.iter().find(|(known, _)| *known == config) {
+                            Some((_, run)) => run.clone(),
+                            None => self.measure(config.clone())?,
+                        };
                         if self.json {
                             say!("{}", json!({ "variant": variant.name, "run": run }))?;
                         }
-                        runs.push(run);
+                        runs.push((config, run));
                     }
                 }
             }
-            let quality: Vec<f64> = runs.iter().map(|run| run.quality.unwrap_or(0.0).max(0.0)).collect();
             if usual.is_empty() {
-                usual.clone_from(&quality);
+                usual.clone_from(&runs);
             }
             if !self.json {
-                say!("{}", summary(variant, &runs, &quality, &usual))?;
+                let pairs: Vec<(&Run, &Run)> =
+                    runs.iter().zip(&usual).map(|((_, mine), (_, usual))| (mine, usual)).collect();
+                say!("{}", summary(variant, &pairs))?;
             }
         }
         Ok(ExitCode::SUCCESS)
@@ -275,20 +280,25 @@ fn row(runs: &[Run]) -> String {
     row
 }
 
-/// A variant as a line of the table: how many runs are usable, the time to it, and the median of the quality over that of
-/// the same run of the first variant.
-fn summary(variant: &Variant, runs: &[Run], quality: &[f64], usual: &[f64]) -> String {
-    let usable = runs.iter().filter(|run| run.usable).count();
-    let steps: Vec<f64> =
-        runs.iter().map(|run| run.steps_to_usable.filter(|_| run.usable).map_or(f64::INFINITY, |n| n as f64)).collect();
-    let steps = match quantile(&steps, 0.5) {
+/// A variant as a line of the table: how many runs are usable, the time to it, the median of the quality over that of the
+/// same run of the first variant, and the mean share of perturbed worlds. `runs`: each with that of the first variant.
+fn summary(variant: &Variant, runs: &[(&Run, &Run)]) -> String {
+    let usable = runs.iter().filter(|(run, _)| run.usable).count();
+    let steps_of = |run: &Run| run.steps_to_usable.filter(|_| run.usable).map_or(f64::INFINITY, |steps| steps as f64);
+    let steps = match quantile(&runs.iter().map(|(run, _)| steps_of(run)).collect::<Vec<_>>(), 0.5) {
         Some(steps) if steps.is_finite() => format!("{:.2} M", steps / 1e6),
         _ => "–".into(),
     };
-    let ratios: Vec<f64> =
-        quality.iter().zip(usual).filter(|&(_, &usual)| usual > 0.0).map(|(mine, usual)| mine / usual).collect();
-    let ratio = quantile(&ratios, 0.5).map_or_else(|| "–".into(), |ratio| format!("× {ratio:.2}"));
-    format!("{:<34} {:>8} {steps:>12} {ratio:>9}", variant.name, format!("{usable}/{}", runs.len()))
+    let quality = |run: &Run| run.quality.unwrap_or(0.0).max(0.0);
+    let ratios =
+        runs.iter().filter(|(_, usual)| quality(usual) > 0.0).map(|(run, usual)| quality(run) / quality(usual));
+    let ratio = quantile(&ratios.collect::<Vec<_>>(), 0.5).map_or_else(|| "–".into(), |ratio| format!("× {ratio:.2}"));
+    let shares: Vec<f64> = runs.iter().filter_map(|(run, _)| run.robust).collect();
+    let robust = match shares.len() {
+        0 => "–".into(),
+        count => format!("{:.0} %", 100.0 * shares.iter().sum::<f64>() / count as f64),
+    };
+    format!("{:<34} {:>8} {steps:>12} {ratio:>9} {robust:>7}", variant.name, format!("{usable}/{}", runs.len()))
 }
 
 fn above_zero(text: &str) -> Result<f64, String> {

@@ -44,8 +44,9 @@ pub(crate) struct Compare {
     /// What steps the creatures of all runs in training: lanes, rapier [default: what each strategy's settings say]
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
-    /// How the worlds of all runs vary in training: none, light, strong [default: what each strategy's settings file
-    /// says, or none]. In worlds that vary a score is that of the last hearing, up to 10 generations old
+    /// How the worlds of all runs vary in training: none, near, pushed, light, bumpy, strong, physics [default: what
+    /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last hearing, up to 10
+    /// generations old
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// One setting for all runs, such as movement.steps=600; can be given several times

@@ -5,6 +5,7 @@
 
 use super::{EngineChoice, LimbPhases, RunConfig};
 use creatures::{Actuation, Blueprint, Sensor};
+use envs_rapier::Variation;
 use ne_net::Activation;
 use tasks::TermSpec;
 
@@ -29,8 +30,13 @@ pub(super) fn equip(config: &mut RunConfig) {
     controller.limbs = movement.phases(legs, joints);
     controller.actuation = Actuation::Angle { gain: movement.gain(legs) };
     config.physics.motor_gain = MOTOR_GAIN;
-    config.sensors = Some(sensors(&config.creature.sensors, movement.period(legless, height), legless));
-    config.movement.terms = movement.terms(legs, legless);
+    let period = movement.period(if legless { 0 } else { legs }, height);
+    let sensors = sensors(&config.creature.sensors, period, legless);
+    config.movement.terms = movement.terms([legs, joints], legless, clock(&sensors).unwrap_or(period));
+    config.sensors = Some(sensors);
+    if movement.meets_bumps(legs) {
+        config.variation = Variation::bumpy();
+    }
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
     config.trials.count = movement.trials(legs);
     // What lanes refuse is trained in rapier rather than not at all.
@@ -92,14 +98,25 @@ impl Movement {
         }
     }
 
-    /// How limbs share a net. Many legs leap together. Two legs leap, and with knees walk, best if one net moves them both.
+    /// Whether it is about getting far, as fast as it goes.
+    fn runs(self) -> bool {
+        matches!(self, Self::Running | Self::Backwards)
+    }
+
+    /// How limbs share a net. Many legs leap together. Two legs leap and run best if one net moves them both: they skip, the
+    /// same leg always first, and a skip bears a stumble that an even stride does not. With knees they walk best so, too.
     fn phases(self, legs: usize, joints: usize) -> Option<LimbPhases> {
         match (self.leaps(), legs) {
             (true, 3..) => Some(LimbPhases::Together),
             (true, 1..=2) => None,
-            (false, 1..=2) if joints > 1 && matches!(self, Self::Running | Self::Backwards | Self::Walking) => None,
+            (false, 1..=2) if self.runs() || (self == Self::Walking && joints > 1) => None,
             _ => Some(LimbPhases::Alternating),
         }
+    }
+
+    /// Whether training has bumps. Many legs bridge them by themselves, and jumps are over before.
+    fn meets_bumps(self, legs: usize) -> bool {
+        self.runs() && (1..=4).contains(&legs)
     }
 
     /// Of one world alone the lucky would be the best: one near world, and two that vary. Many legs leap in few ways, which two
@@ -109,8 +126,8 @@ impl Movement {
     }
 
     /// A stride or a hop, a leap with its run-up, and a stroke, s. Legs swing like pendulums: the time of a stride goes with
-    /// the root of the height, m, at which they carry the torso.
-    fn period(self, legless: bool, height: f32) -> f32 {
+    /// the root of the height, m, at which they carry the torso. Two legs that skip are quicker. `legs`: 0 where none carry it.
+    fn period(self, legs: usize, height: f32) -> f32 {
         let pendulum = |seconds: f32| {
             let period = seconds * libm::sqrtf(height / 0.8).clamp(0.7, 1.4);
             // A round number: it stands in files.
@@ -118,9 +135,10 @@ impl Movement {
         };
         match self {
             Self::Swimming => 0.35,
-            Self::Jumping | Self::LongJump if legless => 1.0,
+            Self::Jumping | Self::LongJump if legs == 0 => 1.0,
             Self::Jumping | Self::LongJump => pendulum(1.0),
-            _ if legless => 0.5,
+            _ if legs == 0 => 0.5,
+            _ if self.runs() && legs <= 2 => pendulum(0.39),
             _ => pendulum(0.5),
         }
     }
@@ -139,7 +157,7 @@ impl Movement {
         }
     }
 
-    fn terms(self, legs: usize, legless: bool) -> Vec<TermSpec> {
+    fn terms(self, [legs, joints]: [usize; 2], legless: bool, period: f32) -> Vec<TermSpec> {
         let terms: &[(&str, f64)] = match self {
             // What ends an episode is charged for by the distance it then cannot cover.
             Self::Running | Self::Backwards if legless => {
@@ -153,6 +171,7 @@ impl Movement {
                 ("vibration", -0.2),
                 ("slip", -1.0),
                 ("haste", -0.95),
+                ("rhythm", -1.0),
             ],
             // Headway would ask for a speed of its own.
             Self::Walking if legless => &[("honest", 0.0), ("upright", 0.0), ("vibration", -0.2), ("idleness", -5.0)],
@@ -166,7 +185,10 @@ impl Movement {
             Self::GettingUp => &[("honest", 0.0), ("vibration", -0.01)],
             Self::Other => &[],
         };
-        let mut terms: Vec<_> = terms.iter().map(|&(term, weight)| TermSpec::new(term, weight)).collect();
+        // Many legs keep time by themselves; legs with knees find a rhythm of their own, and are not helped by another.
+        let needed = |&&(term, _): &&(&str, f64)| term != "rhythm" || (legs <= 4 && joints == 1);
+        let mut terms: Vec<_> =
+            terms.iter().filter(needed).map(|&(term, weight)| TermSpec::new(term, weight)).collect();
         let mut set = |name: &str, field: &str, value: serde_json::Value| {
             if let Some(term) = terms.iter_mut().find(|term| term.term == name) {
                 term.settings.insert(field.into(), value);
@@ -174,6 +196,8 @@ impl Movement {
         };
         // Two legs that hurry fall.
         set("haste", "speed", if legs <= 2 { 1.3.into() } else { 2.2.into() });
+        // As short in a file as it is meant.
+        set("rhythm", "period", (f64::from(libm::roundf(1000.0 * period)) / 1000.0).into());
         if self == Self::Jumping {
             // A jump crouches, and nothing but feet may touch the ground, however shortly.
             set("posture", "tilt", 35.into());
@@ -197,10 +221,18 @@ fn sensors(own: &[Sensor], period: f32, legless: bool) -> Vec<Sensor> {
             sensors.extend([Sensor::FootContacts, Sensor::TorsoVelocity, Sensor::TorsoHeight]);
         }
     }
-    if !sensors.iter().any(|sensor| matches!(sensor, Sensor::Clock { .. })) {
+    if clock(&sensors).is_none() {
         sensors.push(Sensor::Clock { period });
     }
     sensors
+}
+
+/// The period of the first clock, s.
+fn clock(sensors: &[Sensor]) -> Option<f32> {
+    sensors.iter().find_map(|sensor| match *sensor {
+        Sensor::Clock { period } => Some(period),
+        _ => None,
+    })
 }
 
 #[cfg(test)]
@@ -208,10 +240,10 @@ mod tests {
     use crate::config::{LimbPhases, preset};
 
     #[test]
-    fn limbs_leap_together_or_alternate_and_bipeds_leap_and_with_knees_run_with_one_net() {
+    fn limbs_leap_together_or_alternate_and_bipeds_leap_and_run_with_one_net() {
         let (alternating, together) = (Some(LimbPhases::Alternating), Some(LimbPhases::Together));
         for (creature, movement, limbs) in [
-            ("biped-1", "running", alternating),
+            ("biped-1", "running", None),
             ("biped-2", "running", None),
             ("biped-2", "walking", None),
             ("biped-1", "jumping", None),

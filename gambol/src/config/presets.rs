@@ -55,7 +55,7 @@ pub const PRESETS: &[Preset] = &[
 ];
 
 /// Variations a user can ask for by name.
-pub const VARIATIONS: [&str; 6] = ["none", "near", "pushed", "light", "strong", "physics"];
+pub const VARIATIONS: [&str; 7] = ["none", "near", "pushed", "light", "bumpy", "strong", "physics"];
 
 /// The variation of this name.
 pub fn variation(name: &str) -> Option<Variation> {
@@ -65,6 +65,7 @@ pub fn variation(name: &str) -> Option<Variation> {
         "near" => Some(Variation::near()),
         "pushed" => Some(Variation::pushed()),
         "physics" => Some(Variation::physics()),
+        "bumpy" => Some(Variation::bumpy()),
         "strong" => Some(Variation::strong()),
         _ => None,
     }

@@ -302,8 +302,8 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): \"rotation of torso\", ",
         ),
         (
-            two(json!({ "name": "b", "changes": { "controller": { "limbs": null } } })),
-            "stages[1] (\"b\"): 53 of 53 weights: what was learned with it would be lost; keep it, or allow it with ",
+            two(json!({ "name": "b", "changes": { "controller": { "limbs": "alternating" } } })),
+            "stages[1] (\"b\"): 58 of 58 weights: what was learned with it would be lost; keep it, or allow it with ",
         ),
         (
             two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),

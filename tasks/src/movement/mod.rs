@@ -20,6 +20,7 @@ mod leap;
 mod long_jump;
 mod objectives;
 mod posture;
+mod rhythm;
 mod rollovers;
 mod running;
 mod slip;
@@ -51,6 +52,7 @@ pub use {
     long_jump::LongJump,
     objectives::Objectives,
     posture::{Posture, PostureSettings},
+    rhythm::{Rhythm, RhythmSettings},
     rollovers::Rollovers,
     running::Running,
     slip::Slip,
