@@ -31,12 +31,19 @@ pub(crate) fn evaluate(
     let starts = spread(threads, count as usize, |trial| episode.environment().settled(seed.trial(trial as u32)));
     let cast = Cast::of(phenotypes);
     let done: Mutex<Vec<(usize, u32, Trial)>> = Mutex::default();
-    for trials in alike(&starts) {
-        let programme = Programme::new(&cast, &starts, &fit, trials);
+    let programmes: Vec<_> =
+        alike(&starts).into_iter().map(|trials| Programme::new(&cast, &starts, &fit, trials)).collect();
+    // Copies of a net can be in several programmes at once.
+    let at_once = if matches!(cast, Cast::Nets { .. }) { programmes.len() } else { 1 };
+    for programmes in programmes.chunks(at_once.max(1)) {
         threads.each(&|| {
-            let played = Stage::play(episode, &programme);
-            done.lock().unwrap_or_else(PoisonError::into_inner).extend(played);
+            while let Some(programme) = neediest(programmes) {
+                let played = Stage::play(episode, programme);
+                done.lock().unwrap_or_else(PoisonError::into_inner).extend(played);
+            }
         });
+    }
+    for programme in &programmes {
         tracing::debug!(
             trials = programme.jobs.len(),
             occupancy = programme.occupancy(),
@@ -89,6 +96,12 @@ fn alike(starts: &[Start]) -> Vec<Vec<u32>> {
         }
     }
     groups.into_iter().map(|(_, group)| group).collect()
+}
+
+/// Of these, the programme with the most jobs left for each thread that plays it, and one more; `None` if none is left.
+fn neediest<'p, 'a, 'b>(programmes: &'p [Programme<'a, 'b>]) -> Option<&'p Programme<'a, 'b>> {
+    let waiting = programmes.iter().filter(|programme| programme.left() > 0);
+    waiting.max_by_key(|programme| programme.left() / (programme.players.load(Relaxed) + 1))
 }
 
 /// Does `count` things on these threads; their results in order.
@@ -158,6 +171,8 @@ struct Programme<'a, 'b> {
     trials: Vec<u32>,
     jobs: Vec<Job>,
     next: AtomicUsize,
+    /// Threads that play it.
+    players: AtomicUsize,
     /// For each individual the first trial that failed, after which no other counts.
     failed: Vec<AtomicU32>,
     /// Steps of lanes, and those of lanes that played.
@@ -182,7 +197,13 @@ impl<'a, 'b> Programme<'a, 'b> {
         let individuals = fit.last().map_or(0, |last| last + 1);
         let failed = (0..individuals).map(|_| AtomicU32::new(u32::MAX)).collect();
         let [stepped, played] = [AtomicU64::new(0), AtomicU64::new(0)];
-        Self { cast, starts, trials, jobs, next: AtomicUsize::new(0), failed, stepped, played }
+        let [next, players] = [AtomicUsize::new(0), AtomicUsize::new(0)];
+        Self { cast, starts, trials, jobs, next, players, failed, stepped, played }
+    }
+
+    /// How many jobs have not been handed out.
+    fn left(&self) -> usize {
+        self.jobs.len().saturating_sub(self.next.load(Relaxed))
     }
 
     /// The next job that is worth doing.
@@ -239,6 +260,7 @@ impl<'a, 'b> Stage<'a, 'b> {
         let Some(Ok(settled)) = programme.trials.first().map(|&first| &programme.starts[first as usize]) else {
             return Vec::new();
         };
+        programme.players.fetch_add(1, Relaxed);
         let herd = Herd::new(episode.environment(), settled, programme.cast.topology(), episode.instructions());
         let seat = || Seat { playing: None, movement: episode.movement.clone(), snapshot: Snapshot::default() };
         let seats = (0..LANES).map(|_| seat()).collect();
@@ -261,6 +283,7 @@ impl<'a, 'b> Stage<'a, 'b> {
                 }
             }
         }
+        programme.players.fetch_sub(1, Relaxed);
         programme.stepped.fetch_add(stepped, Relaxed);
         programme.played.fetch_add(played, Relaxed);
         stage.done

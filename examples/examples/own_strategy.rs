@@ -73,7 +73,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         creatures: vec!["biped-1".into()],
         movements: vec!["running".into()],
         seeds: vec![1, 2, 3],
-        budget: StopConditions { evaluations: Some(400), ..Default::default() },
+        budget: StopConditions { evaluations: Some(2000), ..Default::default() },
         set: vec!["movement.steps=200".into()],
         ..PlanRequest::default()
     };

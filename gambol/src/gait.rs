@@ -123,8 +123,9 @@ impl Stage {
         self.judge(network).is_some_and(|report| is_usable(&report))
     }
 
-    /// The first of these controllers whose gait is usable, on the threads of the current pool. In lanes first, all at once;
-    /// only what is usable there is tried in near worlds, and then confirmed by rapier.
+    /// The first of these controllers whose gait is usable, on the threads of the current pool. All are played at once, in
+    /// lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the jury to ask: it
+    /// has a champion's episode played again by rapier.
     pub fn first_usable(&self, networks: &[Network]) -> Option<usize> {
         let Some(nominal) = Worlds::nominal(self) else {
             return networks.iter().position(|network| self.is_usable(network));
@@ -132,9 +133,7 @@ impl Stage {
         let verdicts = nominal.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
         networks.iter().zip(verdicts).position(|(network, verdict)| {
             let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
-            let near = Some(self.try_near_worlds(network));
-            let confirmed = || self.measure_alone(network).is_some_and(|gait| is_usable(&gait.report));
-            with_near_worlds(verdict, near).usable && confirmed()
+            with_near_worlds(verdict, Some(self.try_near_worlds(network))).usable
         })
     }
 

@@ -1,7 +1,7 @@
 //! The jury of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
 //! whole episode of the creature, in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, gait::USABLE, proving, setup::Nominal};
+use crate::{config::EngineChoice, gait::USABLE, proving::Trial, setup::Nominal};
 use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
@@ -25,16 +25,25 @@ pub(crate) struct NominalJury {
 /// Says which of these controllers is the first whose gait is usable.
 type FirstUsable = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
 
-/// Says in how many perturbed worlds the gait of a controller is usable; `None` if in less than so many.
-type Steadiness = dyn Fn(&dyn Phenotype, usize) -> Option<usize> + Send + Sync;
+/// Says in how many perturbed worlds of a trial the gait of a controller is usable.
+type Steadiness = dyn Fn(&dyn Phenotype, Trial) -> usize + Send + Sync;
 
-/// In how many of the [`proving::WORLDS`] a gait must be usable for one grade above [`USABLE`], for two and so on: a quarter,
-/// half, three quarters, all but one. Finer ones would have a slow champion that is usable in one world more stand above one
-/// twice as fast.
-const STEADY: [usize; 4] = [4, 8, 11, proving::WORLDS - 1];
+/// In how many worlds of which trial a gait must be usable for one grade above [`USABLE`], for two and so on; one that fails
+/// at a step is not tried at those above. First a quarter of the worlds, half, three quarters, all but one. Finer steps would
+/// have a slow champion that is usable in one world more stand above one twice as fast.
+const STEPS: [(Trial, usize); 8] = [
+    (Trial::Short, 4),
+    (Trial::Short, 8),
+    (Trial::Short, 11),
+    (Trial::Short, Trial::Short.worlds() - 1),
+    (Trial::Long, 8),
+    (Trial::Long, 11),
+    (Trial::Long, 13),
+    (Trial::Long, Trial::Long.worlds() - 1),
+];
 
 /// The highest grade.
-const HIGHEST: u8 = USABLE + STEADY.len() as u8;
+const HIGHEST: u8 = USABLE + STEPS.len() as u8;
 
 /// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
 const JUDGED: usize = 8;
@@ -95,9 +104,8 @@ impl NominalJury {
             }),
             steadiness: nominal.proving.clone().map(|ground| {
                 let evaluator = evaluator.clone();
-                let steadiness = move |phenotype: &dyn Phenotype, least| {
-                    let network = network_of(phenotype)?;
-                    Some(evaluator.install(|| ground.usable(&network))).filter(|&usable| usable >= least)
+                let steadiness = move |phenotype: &dyn Phenotype, trial| {
+                    network_of(phenotype).map_or(0, |network| evaluator.install(|| ground.usable(&network, trial)))
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
@@ -148,11 +156,19 @@ impl NominalJury {
     /// The grade of a usable finalist, of whom up to `hoped` is hoped. Less than `enough` is no use, and told as
     /// [`USABLE`].
     fn steady<G: Genome>(&self, finalist: &G, enough: u8, hoped: u8) -> u8 {
-        let Some(steadiness) = self.steadiness.as_ref().filter(|_| hoped > USABLE) else { return USABLE };
-        let least = usize::from(enough - USABLE).checked_sub(1).map_or(0, |step| STEADY[step]);
-        let count = steadiness(&finalist.express(), least).unwrap_or(0);
-        let steps = STEADY.iter().filter(|&&worlds| count >= worlds).count();
-        (USABLE + steps as u8).min(hoped)
+        let Some(steadiness) = &self.steadiness else { return USABLE };
+        let controller = finalist.express();
+        let (mut grade, mut last) = (USABLE, None);
+        for &(trial, worlds) in &STEPS[..usize::from(hoped - USABLE)] {
+            let known = last.filter(|&(known, _)| known == trial);
+            let (_, usable) = known.unwrap_or_else(|| (trial, steadiness(&controller, trial)));
+            last = Some((trial, usable));
+            if usable < worlds {
+                break;
+            }
+            grade += 1;
+        }
+        if grade < enough { USABLE } else { grade }
     }
 
     /// How much of its fitness each keeps in varied worlds; little for whoever has less than half of the best fitness here,

@@ -1,6 +1,10 @@
 //! Where it is tried whether a finalist's gait would be usable in worlds that are not quite the one it is judged in.
 
-use crate::{gait::Stage, perturbation::World, worlds::Worlds};
+use crate::{
+    gait::Stage,
+    perturbation::{Cause, World},
+    worlds::Worlds,
+};
 use envs_core::{Conditions, Landscape};
 use ne_core::{Purpose, Seed};
 use ne_net::Network;
@@ -9,44 +13,83 @@ use std::sync::{Arc, OnceLock};
 
 const PROVING_GROUND: Purpose = Purpose::new("proving ground");
 
-/// Perturbed worlds a candidate is tried in: as many of each cause, and no more than lanes play at once.
-pub(crate) const WORLDS: usize = 15;
+/// Which perturbed worlds a candidate is tried in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Trial {
+    /// As many of each cause, for at most 15 s: most of what fails in a minute fails by then.
+    Short,
+    /// All causes together, for as long as a gait is judged.
+    Long,
+}
 
-/// Gaits are played for so long there, s: most of what fails in a minute fails by then.
-const SECONDS: f64 = 15.0;
+impl Trial {
+    const ALL: [Self; 2] = [Self::Short, Self::Long];
 
-/// So many body lengths the bumps reach: a quarter of what a fast gait covers. Beyond it the
-/// ground is flat, and physics faster.
-const REACH: f32 = 15.0;
+    /// In how many worlds: no more than lanes play at once.
+    pub(crate) const fn worlds(self) -> usize {
+        match self {
+            Self::Short => 15,
+            Self::Long => 16,
+        }
+    }
+
+    /// Gaits are played for so long, s.
+    fn seconds(self) -> f64 {
+        match self {
+            Self::Short => 15.0,
+            Self::Long => f64::INFINITY,
+        }
+    }
+
+    /// So many body lengths the bumps reach: a quarter of what a fast gait covers in the short trial. Beyond it the ground
+    /// is flat, and physics faster.
+    fn reach(self) -> f32 {
+        match self {
+            Self::Short => 15.0,
+            Self::Long => 60.0,
+        }
+    }
+
+    /// Which world, of those that [`World::draw`] numbers: causes take turns there, and those together come last.
+    fn world(self, index: u32) -> u32 {
+        let causes = Cause::ALL.len() as u32;
+        match self {
+            Self::Short => index,
+            Self::Long => Self::Short.worlds() as u32 + causes * index + causes - 1,
+        }
+    }
+}
 
 /// A few worlds, always the same, of the kind that [`robustness`](crate::robust::robustness) is measured in.
 #[derive(Clone)]
 pub struct ProvingGround {
     stage: Stage,
     seed: Seed,
-    /// Built when they are first needed.
-    worlds: Arc<OnceLock<Worlds>>,
+    /// For each trial, built when they are first needed.
+    worlds: [Arc<OnceLock<Worlds>>; Trial::ALL.len()],
 }
 
 impl ProvingGround {
     pub(crate) fn new(stage: Stage, seed: Seed) -> Self {
-        Self { stage, seed, worlds: Arc::default() }
+        Self { stage, seed, worlds: Default::default() }
     }
 
     /// In how many of the worlds a controller's gait is usable, on the threads of the current pool.
-    pub(crate) fn usable(&self, network: &Network) -> usize {
-        self.worlds.get_or_init(|| Worlds::new(&self.stage, &self.draw()).shortened(SECONDS)).usable(network)
+    pub(crate) fn usable(&self, network: &Network, trial: Trial) -> usize {
+        let build = || Worlds::new(&self.stage, &self.draw(trial)).shortened(trial.seconds());
+        self.worlds[trial as usize].get_or_init(build).usable(network)
     }
 
-    fn draw(&self) -> Vec<(Conditions, Landscape)> {
-        let reach = REACH * self.stage.environment().blueprint().body_length();
+    fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
+        let reach = trial.reach() * self.stage.environment().blueprint().body_length();
         // Other worlds than those robustness is measured in, whatever the run's seed.
         let lot: u64 = self.seed.stream(PROVING_GROUND).random();
         let world = |index| {
-            let World { conditions, landscape, .. } = World::draw(Seed::of_run(lot), index, &self.stage, reach);
+            let World { conditions, landscape, .. } =
+                World::draw(Seed::of_run(lot), trial.world(index), &self.stage, reach);
             (conditions, landscape)
         };
-        (0..WORLDS as u32).map(world).collect()
+        (0..trial.worlds() as u32).map(world).collect()
     }
 }
 
@@ -60,6 +103,7 @@ mod tests {
         perturbation::tests::stage,
         training::{TrainOptions, train},
     };
+    use envs_core::Ground;
     use ne_core::{StopConditions, StopSignal};
     use tasks::MovementCatalogue;
 
@@ -84,13 +128,14 @@ mod tests {
     #[test]
     fn a_gait_is_tried_in_every_world() {
         let counts: Vec<usize> = (1..=3)
-            .map(|seed| {
+            .flat_map(|seed| Trial::ALL.map(|trial| (seed, trial)))
+            .map(|(seed, trial)| {
                 let (champion, catalogue) = (champion(seed), MovementCatalogue::default());
                 let stage = Stage::new(champion.episode_parts(), &catalogue).expect("builds");
                 let proving = ProvingGround::new(stage.clone(), Seed::of_run(seed));
-                let count = proving.usable(&champion.network);
+                let count = proving.usable(&champion.network, trial);
                 let stage = stage.in_rapier();
-                let one_by_one = proving.draw().into_iter().map(|world| Worlds::new(&stage, &[world]));
+                let one_by_one = proving.draw(trial).into_iter().map(|world| Worlds::new(&stage, &[world]));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network)).sum::<usize>(), count);
                 count
             })
@@ -101,9 +146,17 @@ mod tests {
     #[test]
     fn every_run_has_worlds_of_its_own() {
         let stage = stage("biped-1", "jumping");
-        let worlds = |seed| ProvingGround::new(stage.clone(), Seed::of_run(seed)).draw();
-        assert_eq!(worlds(1).len(), WORLDS);
-        assert_eq!(worlds(1), worlds(1));
-        assert_ne!(worlds(1), worlds(2));
+        let worlds = |seed, trial| ProvingGround::new(stage.clone(), Seed::of_run(seed)).draw(trial);
+        for trial in Trial::ALL {
+            assert_eq!(worlds(1, trial).len(), trial.worlds());
+            assert_eq!(worlds(1, trial), worlds(1, trial));
+            assert_ne!(worlds(1, trial), worlds(2, trial));
+        }
+        let short = worlds(1, Trial::Short);
+        for (conditions, landscape) in worlds(1, Trial::Long) {
+            let flat = Landscape::from(Ground::flat());
+            assert!(landscape != flat && conditions.gravity != 1.0 && !conditions.pushes.is_empty(), "all together");
+            assert!(short.iter().all(|(known, _)| *known != conditions), "another world");
+        }
     }
 }

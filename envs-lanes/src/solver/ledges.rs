@@ -10,6 +10,8 @@ use parry2d::{
 pub(super) struct Ledges {
     /// In the order of the ground.
     ledges: Vec<Ledge>,
+    /// Of the highest, m.
+    top: f32,
     /// Where the first cell begins, m.
     left: f32,
     /// Cells a metre.
@@ -48,7 +50,8 @@ impl Ledges {
             true => (left, cells_per_metre, count),
             false => (0.0, 0.0, 1),
         };
-        let mut ground = Self { ledges, left, cells_per_metre, cells: vec![Vec::new(); count] };
+        let top = ledges.iter().map(Ledge::top).fold(f32::NEG_INFINITY, f32::max);
+        let mut ground = Self { ledges, top, left, cells_per_metre, cells: vec![Vec::new(); count] };
         for index in 0..ground.ledges.len() {
             let [from, to] = ground.ledges[index].span().map(|end| ground.cell(end));
             for cell in &mut ground.cells[from..=to] {
@@ -66,24 +69,33 @@ impl Ledges {
         (place as usize).min(self.cells.len() - 1)
     }
 
-    /// The shapes, in order, with their indices, among which all are that come within `reach` of a point at x, m.
-    #[inline(always)]
-    pub(super) fn near(&self, x: f32, reach: f32) -> impl Iterator<Item = (usize, &Ledge)> {
+    /// The indices, in order, among which those of all shapes are that come within `reach` of a point at x, m.
+    pub(super) fn near(&self, x: f32, reach: f32) -> impl Iterator<Item = usize> {
         let margin = reach + MARGIN;
         let [from, to] = [x - margin, x + margin].map(|end| self.cell(end));
         // One that is in several of these cells is taken where it is first met, and the cells are merged by index.
-        Merge { cells: &self.cells[from..=to], next: 0 }.map(|index| (index, &self.ledges[index]))
+        Merge { cells: &self.cells[from..=to], next: 0 }
     }
 
-    /// Where a shape is.
-    pub(super) fn place(&self, ledge: usize) -> Pose {
-        self.ledges[ledge].place
+    /// Whether nothing within `reach` of a point at y is as low as the highest of the shapes, m.
+    #[inline(always)]
+    pub(super) fn are_below(&self, y: f32, reach: f32) -> bool {
+        y > self.top + (reach + MARGIN)
+    }
+
+    /// The shape with this index.
+    #[inline(always)]
+    pub(super) fn ledge(&self, index: usize) -> &Ledge {
+        &self.ledges[index]
     }
 
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is further.
     pub(super) fn distance_along_ray(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
         let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
-        let distance = |(_, ledge): (usize, &Ledge)| ledge.shape.cast_ray(&ledge.place, &ray, length, true);
+        let distance = |index: usize| {
+            let ledge = &self.ledges[index];
+            ledge.shape.cast_ray(&ledge.place, &ray, length, true)
+        };
         self.near(x, length).filter_map(distance).fold(length, f32::min)
     }
 }
@@ -98,7 +110,6 @@ struct Merge<'a> {
 impl Iterator for Merge<'_> {
     type Item = usize;
 
-    #[inline(always)]
     fn next(&mut self) -> Option<usize> {
         let least = |cell: &Vec<usize>| cell.iter().copied().find(|&index| index >= self.next);
         let index = self.cells.iter().filter_map(least).min()?;
@@ -141,6 +152,11 @@ impl Ledge {
         }
         let below = half_width.is_finite() && -y > half_height + margin;
         y > half_height + margin || below || x.abs() > half_width + margin
+    }
+
+    /// How high it reaches, m.
+    fn top(&self) -> f32 {
+        self.place.translation.y + self.half[1] + self.radius
     }
 
     /// From where to where it reaches, m.

@@ -37,6 +37,10 @@ pub(super) struct UnevenContact<const W: usize> {
 #[derive(Clone, Debug)]
 struct Lane {
     ledges: Arc<Ledges>,
+    /// The shapes that may come within reach while the part is where `stay` says, in the order of the ground.
+    nearby: Vec<usize>,
+    /// From where to where the part's centre may move until `nearby` has to be looked up again, m.
+    stay: [f32; 2],
     /// The shapes that are within reach, in the order of the ground.
     footings: Vec<Footing>,
 }
@@ -60,6 +64,9 @@ struct Impulses {
     friction: f32,
 }
 
+/// How far a part moves before what is near it is looked up again, m.
+const STAY: f32 = 0.2;
+
 /// What finding contacts needs to know of a body in a lane.
 struct Placed {
     pose: Pose,
@@ -76,7 +83,7 @@ impl<const W: usize> UnevenContact<W> {
             Shape::Circle { radius } => (SharedShape::ball(radius), radius),
             Shape::Capsule { length, radius } => (SharedShape::capsule_y(length * 0.5, radius), length * 0.5 + radius),
         };
-        let lane = Lane { ledges, footings: Vec::new() };
+        let lane = Lane { ledges, nearby: Vec::new(), stay: [f32::INFINITY; 2], footings: Vec::new() };
         let (lanes, friction) = (vec![lane; W], Lanes::ZERO);
         Self { part, radius, lanes, friction, rows: Vec::new(), active: Vec::new() }
     }
@@ -118,10 +125,25 @@ impl<const W: usize> UnevenContact<W> {
     }
 
     /// Finds the points that are within `reach` m of the ground, or will be after a step of this many seconds.
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn find(&mut self, body: &Body<W>, reach: f32, time_step: &Lanes<W>) {
+        self.look_for_points(body, reach, time_step);
+        for (rows, &active) in self.rows.iter_mut().zip(&self.active) {
+            if active[0].or(active[1]).any() {
+                rows.begin(body, active);
+            } else if rows.near {
+                rows.rest();
+            }
+        }
+    }
+
+    // Not inlined, unlike all else in a step: it goes lane by lane, and wide instructions are of no use to it.
+
+    #[inline(never)]
+    fn look_for_points(&mut self, body: &Body<W>, reach: f32, time_step: &Lanes<W>) {
         self.remember();
         self.active.fill([Mask::NONE; 2]);
+        let around = self.radius + reach;
         for lane in 0..W {
             let placed = Placed {
                 pose: Pose {
@@ -131,10 +153,16 @@ impl<const W: usize> UnevenContact<W> {
                 velocity: Vector::new(body.velocity_x.0[lane], body.velocity_y.0[lane]),
                 spin: body.spin.0[lane],
             };
-            let Lane { ledges, footings } = &mut self.lanes[lane];
+            if self.lanes[lane].ledges.are_below(placed.pose.translation.y, around) {
+                self.lanes[lane].footings.clear();
+                continue;
+            }
+            self.lanes[lane].look_around(placed.pose.translation.x, around);
+            let Lane { ledges, nearby, footings, .. } = &mut self.lanes[lane];
             let mut next = 0;
-            for (index, ledge) in ledges.near(placed.pose.translation.x, self.radius + reach) {
-                if ledge.is_out_of_reach(placed.pose.translation, self.radius + reach) {
+            for &index in nearby.iter() {
+                let ledge = ledges.ledge(index);
+                if ledge.is_out_of_reach(placed.pose.translation, around) {
                     continue;
                 }
                 // What is known and stands before it in the order is out of reach by now.
@@ -149,40 +177,31 @@ impl<const W: usize> UnevenContact<W> {
             }
             footings.truncate(next);
             self.assign_rows(lane);
-            let Lane { ledges, footings } = &self.lanes[lane];
+            let Lane { ledges, footings, .. } = &self.lanes[lane];
             for footing in footings {
                 if let Some(row) = footing.row {
-                    let ground = ledges.place(footing.ledge);
+                    let ground = ledges.ledge(footing.ledge).place;
                     footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed, &ground);
                 }
             }
         }
-        for (rows, &active) in self.rows.iter_mut().zip(&self.active) {
-            if active[0].or(active[1]).any() {
-                rows.begin(body, active);
-            } else if rows.near {
-                rows.rest();
-            }
-        }
     }
 
-    // Not inlined, unlike all else in a step: finding contacts one by one is what takes the time here.
-
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn prepare(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
         for rows in self.rows.iter_mut().rev() {
             rows.prepare(body, pace);
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn solve(&mut self, body: &mut Body<W>) {
         for rows in self.rows.iter_mut().rev() {
             rows.solve(body);
         }
     }
 
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn relax(&mut self, body: &mut Body<W>, pace: &Pace<W>) {
         for rows in self.rows.iter_mut().rev() {
             rows.relax(body, pace);
@@ -234,6 +253,20 @@ impl<const W: usize> UnevenContact<W> {
         rows.friction = self.friction;
         self.rows.push(rows);
         self.active.push([Mask::NONE; 2]);
+    }
+}
+
+impl Lane {
+    /// Looks up the shapes around x again, if the part has left the place it did so last.
+    #[inline(always)]
+    fn look_around(&mut self, x: f32, around: f32) {
+        let [from, to] = self.stay;
+        if from <= x && x <= to {
+            return;
+        }
+        self.nearby.clear();
+        self.nearby.extend(self.ledges.near(x, around + STAY));
+        self.stay = [x - STAY, x + STAY];
     }
 }
 

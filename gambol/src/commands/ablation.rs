@@ -83,6 +83,8 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "no restarts", change: |config| set_cma(config, "restart", "none") },
     Variant { name: "restarts as in IPOP", change: |config| set_cma(config, "restart", "ipop") },
     Variant { name: "restarts as in BIPOP", change: |config| set_cma(config, "restart", "bipop") },
+    Variant { name: "steps that begin with 0.5", change: |config| set_cma(config, "step_size", 0.5) },
+    Variant { name: "steps that begin with 0.2", change: |config| set_cma(config, "step_size", 0.2) },
     Variant { name: "one start", change: |config| set_cma(config, "starts", 1) },
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },

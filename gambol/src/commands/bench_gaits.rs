@@ -57,9 +57,10 @@ pub(super) struct Gaits {
     /// How the world varies in training: none, near, pushed, light, bumpy, strong, physics [default: the preset's]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
-    /// Leave out the pieces of the default preset one by one, or put others in their place, and say what each is worth
-    #[arg(long)]
-    ablate: bool,
+    /// Leave out the pieces of the default preset one by one, or put others in their place, and say what each is worth;
+    /// with a text, only those whose names contain it, such as "the term"
+    #[arg(long, value_name = "TEXT", num_args = 0..=1, default_missing_value = "")]
+    ablate: Option<String>,
     /// One setting, such as controller.limbs=null; can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
@@ -103,8 +104,8 @@ impl Gaits {
     pub(super) fn run(self) -> Outcome {
         let shipped = || creatures::shipped().iter().map(|creature| creature.name.to_owned()).collect();
         let creatures = if self.creatures.is_empty() { shipped() } else { self.creatures.clone() };
-        if self.ablate {
-            return self.ablation(&creatures);
+        if let Some(text) = &self.ablate {
+            return self.ablation(&creatures, text);
         }
         if !self.json {
             let until = if self.whole { "" } else { ", or until usable" };
@@ -142,11 +143,16 @@ impl Gaits {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Every variant on every scenario.
-    fn ablation(&self, creatures: &[String]) -> Outcome {
+    /// Every variant whose name contains the text, and the preset itself, on every scenario.
+    fn ablation(&self, creatures: &[String], text: &str) -> Outcome {
+        let chosen = |(index, variant): &(usize, &Variant)| *index == 0 || variant.name.contains(text);
+        let variants: Vec<&Variant> = VARIANTS.iter().enumerate().filter(chosen).map(|(_, variant)| variant).collect();
+        if let [_] = variants[..] {
+            return Err(format!("no variant has \"{text}\" in its name").into());
+        }
         say!("{:<34} {:>8} {:>12} {:>9} {:>7}", "", "usable", "median to it", "quality", "robust")?;
         let mut usual: Vec<(RunConfig, Run)> = Vec::new();
-        for variant in VARIANTS {
+        for variant in variants {
             let mut runs = Vec::new();
             for creature in creatures {
                 for movement in &self.movements {

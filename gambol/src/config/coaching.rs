@@ -3,7 +3,7 @@
 //! Each piece is a setting of the run like any other, so it can be changed or left out one by one; what each is worth is
 //! measured in `docs/ablation.md`.
 
-use super::{EngineChoice, LimbPhases, RunConfig};
+use super::{EngineChoice, LimbPhases, RunConfig, StrategySettings};
 use creatures::{Actuation, Blueprint, Sensor};
 use envs_rapier::Variation;
 use ne_net::Activation;
@@ -38,7 +38,12 @@ pub(super) fn equip(config: &mut RunConfig) {
         config.variation = Variation::bumpy();
     }
     (config.movement.steps, config.rehearsal) = movement.steps().unzip();
-    config.trials.count = movement.trials(legs);
+    config.trials.count = TRIALS;
+    if let StrategySettings::CmaEs(settings) = &mut config.strategy
+        && movement == Movement::Jumping
+    {
+        settings.step_size = STEP_SIZE_OF_JUMPS;
+    }
     // What lanes refuse is trained in rapier rather than not at all.
     if config.creature.self_collision {
         config.engine = EngineChoice::Rapier;
@@ -47,6 +52,13 @@ pub(super) fn equip(config: &mut RunConfig) {
 
 /// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
 const MOTOR_GAIN: f32 = 200.0;
+
+/// Of one world alone the lucky would be the best: one near world, and two that vary.
+const TRIALS: u32 = 3;
+
+/// Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves the
+/// ground and lands.
+const STEP_SIZE_OF_JUMPS: f64 = 0.2;
 
 /// What is known of a movement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,12 +131,6 @@ impl Movement {
         self.runs() && (1..=4).contains(&legs)
     }
 
-    /// Of one world alone the lucky would be the best: one near world, and two that vary. Many legs leap in few ways, which two
-    /// worlds do not tell apart.
-    fn trials(self, legs: usize) -> u32 {
-        if self.leaps() && legs > 2 { 5 } else { 3 }
-    }
-
     /// A stride or a hop, a leap with its run-up, and a stroke, s. Legs swing like pendulums: the time of a stride goes with
     /// the root of the height, m, at which they carry the torso. Two legs that skip are quicker. `legs`: 0 where none carry it.
     fn period(self, legs: usize, height: f32) -> f32 {
@@ -185,8 +191,11 @@ impl Movement {
             Self::GettingUp => &[("honest", 0.0), ("vibration", -0.01)],
             Self::Other => &[],
         };
-        // Many legs keep time by themselves; legs with knees find a rhythm of their own, and are not helped by another.
-        let needed = |&&(term, _): &&(&str, f64)| term != "rhythm" || (legs <= 4 && joints == 1);
+        // Many legs keep time by themselves; two legs with knees find a rhythm of their own, and are not helped by another.
+        let needed = |&&(term, _): &&(&str, f64)| match term {
+            "rhythm" => legs <= 4 && (legs > 2 || joints == 1),
+            _ => true,
+        };
         let mut terms: Vec<_> =
             terms.iter().filter(needed).map(|&(term, weight)| TermSpec::new(term, weight)).collect();
         let mut set = |name: &str, field: &str, value: serde_json::Value| {
@@ -237,7 +246,13 @@ fn clock(sensors: &[Sensor]) -> Option<f32> {
 
 #[cfg(test)]
 mod tests {
-    use crate::config::{LimbPhases, preset};
+    use crate::config::{LimbPhases, RunConfig, StrategySettings, preset};
+    use creatures::{Actuation, Sensor};
+
+    fn config(creature: &str, movement: &str) -> RunConfig {
+        let creature = creatures::find(creature).expect("shipped");
+        preset("default").expect("there").config(creature, movement)
+    }
 
     #[test]
     fn limbs_leap_together_or_alternate_and_bipeds_leap_and_run_with_one_net() {
@@ -253,10 +268,37 @@ mod tests {
             ("tetrapod-2", "jumping", together),
             ("apod", "jumping", alternating),
         ] {
-            let creature = creatures::find(creature).expect("shipped");
-            let name = creature.name.clone();
-            let config = preset("default").expect("there").config(creature, movement);
-            assert_eq!(config.controller.limbs, limbs, "{name} {movement}");
+            assert_eq!(config(creature, movement).controller.limbs, limbs, "{creature} {movement}");
+        }
+    }
+
+    /// What docs/gaits.md says of them.
+    #[test]
+    fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
+        for (creature, movement, period, gain, step_size, bumps) in [
+            ("biped-1", "running", 0.39, 10.0, 0.5, true),
+            ("biped-2", "backwards", 0.39, 10.0, 0.5, true),
+            ("biped-1", "walking", 0.5, 10.0, 0.5, false),
+            ("tetrapod-1", "running", 0.5, 10.0, 0.5, true),
+            ("decapod-1", "running", 0.42, 10.0, 0.5, false),
+            ("apod", "running", 0.5, 20.0, 0.5, false),
+            ("biped-1", "jumping", 1.0, 20.0, 0.2, false),
+            ("decapod-1", "jumping", 0.84, 15.0, 0.2, false),
+            ("apod", "jumping", 1.0, 20.0, 0.2, false),
+        ] {
+            let config = config(creature, movement);
+            let name = format!("{creature} {movement}");
+            let StrategySettings::CmaEs(settings) = &config.strategy else { panic!("{name}: another strategy") };
+            assert_eq!((settings.step_size, settings.starts), (step_size, 4), "{name}");
+            assert_eq!((config.physics.motor_gain, config.trials.count), (200.0, 3), "{name}");
+            assert!(matches!(config.controller.actuation, Actuation::Angle { gain: found } if found == gain), "{name}");
+            assert_eq!(config.variation.bumps > 0.0, bumps, "{name}");
+            let clock = |sensor: &Sensor| match *sensor {
+                Sensor::Clock { period } => Some(period),
+                _ => None,
+            };
+            let found = config.sensors.iter().flatten().find_map(clock).expect("a clock");
+            assert!((found - period).abs() < 0.1, "{name}: a clock of {found} s");
         }
     }
 }

@@ -11,8 +11,8 @@ struct Candidate {
     /// In varied worlds; NaN fails there.
     varied: f64,
     usable: bool,
-    /// In how many perturbed worlds its gait is usable.
-    steady: usize,
+    /// In how many perturbed worlds of the short and the long trial its gait is usable.
+    steady: [usize; 2],
 }
 
 impl Genome for Candidate {
@@ -64,11 +64,11 @@ impl Task for Fake {
     }
 }
 
-/// A jury, those whose gaits it has looked at, and those it has tried, with how steady they had to be.
+/// A jury, those whose gaits it has looked at, and the trials it has held.
 struct Court {
     jury: NominalJury,
     seen: Arc<Mutex<Vec<Candidate>>>,
-    tried: Arc<Mutex<Vec<usize>>>,
+    tried: Arc<Mutex<Vec<Trial>>>,
 }
 
 impl Court {
@@ -82,11 +82,11 @@ impl Court {
                 candidate.usable
             })
         };
-        let tried: Arc<Mutex<Vec<usize>>> = Arc::default();
+        let tried: Arc<Mutex<Vec<Trial>>> = Arc::default();
         let register = tried.clone();
-        let steadiness = move |phenotype: &dyn Phenotype, least: usize| {
-            register.lock().expect("no test panics here").push(least);
-            Some(candidate(phenotype).steady).filter(|&steady| steady >= least)
+        let steadiness = move |phenotype: &dyn Phenotype, trial: Trial| {
+            register.lock().expect("no test panics here").push(trial);
+            candidate(phenotype).steady[trial as usize]
         };
         let jury = NominalJury {
             task: Box::new(Fake(lanes)),
@@ -107,8 +107,8 @@ impl Court {
         (grades, seen.iter().map(|candidate| candidate.nominal).collect())
     }
 
-    /// How steady those who were tried had to be.
-    fn tried(&self) -> Vec<usize> {
+    /// The trials that were held.
+    fn tried(&self) -> Vec<Trial> {
         std::mem::take(&mut *self.tried.lock().expect("no test panics here"))
     }
 }
@@ -123,7 +123,7 @@ fn failed(_: &Candidate) -> Evaluation {
 
 /// Fitness without variation and with it, and whether the gait is usable; if so, then in every perturbed world.
 fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
-    let steady = |usable| if usable { proving::WORLDS } else { 0 };
+    let steady = |usable| if usable { [15, 16] } else { [0, 0] };
     all.iter().map(|&(nominal, varied, usable)| Candidate { nominal, varied, usable, steady: steady(usable) }).collect()
 }
 
@@ -182,7 +182,7 @@ fn the_first_usable_champion_is_not_tried() {
         assert!(court.tried().is_empty());
     }
     assert_eq!(court.grades(&all, slow()).0, [0, HIGHEST]);
-    assert_eq!(court.tried(), [0], "fitter than the champion: of any grade it is better");
+    assert_eq!(court.tried(), [Trial::Short, Trial::Long]);
 }
 
 #[test]
@@ -192,19 +192,28 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
         let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
         court.grades(&[one], slow()).0[0]
     };
-    let grades: Vec<u8> = (0..=proving::WORLDS).map(grade).collect();
-    assert_eq!(grades, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
-    // Who is less fit than the champion must be steadier, or it is told as no more than usable.
+    let short: Vec<u8> = (0..=15).map(|worlds| grade([worlds, 0])).collect();
+    assert_eq!(short, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
+    let long: Vec<u8> = (0..=16).map(|worlds| grade([14, worlds])).collect();
+    assert_eq!(long, [5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9]);
     court.tried();
-    let against = |champion: u8, steady: usize| {
+    // Who is less fit than the champion must be steadier, or it is told as no more than usable.
+    let against = |champion: u8, steady| {
         let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
         (court.grades(&[one], standing(champion, 2.0)).0[0], court.tried())
     };
-    assert_eq!(against(USABLE, 3), (USABLE, vec![4]));
-    assert_eq!(against(USABLE, 4), (USABLE + 1, vec![4]));
-    assert_eq!(against(USABLE + 2, 11), (USABLE + 3, vec![11]));
-    assert_eq!(against(USABLE + 3, 13), (USABLE, vec![14]));
-    assert_eq!(against(HIGHEST, 15), (0, vec![]), "it could not become champion");
+    assert_eq!(
+        against(USABLE, [3, 16]),
+        (USABLE, vec![Trial::Short]),
+        "the long trial is for those who pass the short one"
+    );
+    assert_eq!(against(USABLE, [4, 16]), (USABLE + 1, vec![Trial::Short]));
+    assert_eq!(against(USABLE + 2, [11, 16]), (USABLE + 3, vec![Trial::Short]));
+    assert_eq!(against(USABLE + 3, [13, 16]), (USABLE, vec![Trial::Short]));
+    assert_eq!(against(USABLE + 3, [14, 7]), (USABLE + 4, vec![Trial::Short, Trial::Long]));
+    assert_eq!(against(USABLE + 4, [14, 7]), (USABLE, vec![Trial::Short, Trial::Long]));
+    assert_eq!(against(USABLE + 4, [14, 8]), (USABLE + 5, vec![Trial::Short, Trial::Long]));
+    assert_eq!(against(HIGHEST, [15, 16]), (0, vec![]), "it could not become champion");
 }
 
 #[test]
