@@ -1,5 +1,6 @@
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
+use tasks::gait::GroundProfile;
 
 /// What a creature moves on: shapes that never move, in metres. Where they overlap, the ground is their union.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -86,9 +87,46 @@ impl Ground {
         }
         Ok(())
     }
+
+    /// How high it is over a range of x, m.
+    pub fn profile(&self, range: [f64; 2]) -> GroundProfile {
+        let mut profile = GroundProfile::flat(f32::NEG_INFINITY, range);
+        for shape in &self.shapes {
+            shape.raise(&mut profile);
+        }
+        profile
+    }
 }
 
 impl GroundShape {
+    fn raise(&self, profile: &mut GroundProfile) {
+        const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
+        match *self {
+            Self::HalfSpace => profile.raise(EVERYWHERE, |_| 0.0),
+            Self::Floor { y } => profile.raise(EVERYWHERE, |_| y),
+            Self::Box { x, y, width, height } => {
+                profile.raise(around(x, 0.5 * f64::from(width)), |_| y + 0.5 * height);
+            }
+            Self::Slab { x, y, width, height, angle } => {
+                let (sin, cos) = libm::sincos(f64::from(angle));
+                let (along, across) = (0.5 * f64::from(width), 0.5 * f64::from(height));
+                // Where the line above x leaves the two strips of which the rectangle is made.
+                let leaves = |slope: f64, ahead: f64, half: f64| match slope {
+                    0.0 => f64::INFINITY,
+                    _ => (half - ahead * slope.signum()) / slope.abs(),
+                };
+                profile.raise(around(x, cos.abs() * along + sin.abs() * across), |place| {
+                    let ahead = place - f64::from(x);
+                    y + leaves(sin, cos * ahead, along).min(leaves(cos, -sin * ahead, across)) as f32
+                });
+            }
+            Self::Circle { x, y, radius } => profile.raise(around(x, radius.into()), |place| {
+                let (ahead, radius) = (place - f64::from(x), f64::from(radius));
+                y + libm::sqrt((radius * radius - ahead * ahead).max(0.0)) as f32
+            }),
+        }
+    }
+
     fn validate(&self) -> Result<(), SettingError> {
         let place = |field, place: f32| match place.is_finite() {
             true => Ok(()),
@@ -111,5 +149,35 @@ impl GroundShape {
                 .and(place("angle", angle)),
             Self::Circle { x, y, radius } => place("x", x).and(place("y", y)).and(size("radius", radius)),
         }
+    }
+}
+
+fn around(x: f32, reach: f64) -> [f64; 2] {
+    [f64::from(x) - reach, f64::from(x) + reach]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_profile_is_the_top_of_the_shapes() {
+        let shapes = vec![
+            GroundShape::Floor { y: -2.0 },
+            GroundShape::Box { x: 0.0, y: -0.5, width: 2.0, height: 1.0 },
+            GroundShape::Circle { x: 0.0, y: -0.4, radius: 0.5 },
+            // A square on its corner.
+            GroundShape::Slab { x: 3.0, y: 0.0, width: 2.0, height: 2.0, angle: std::f32::consts::FRAC_PI_4 },
+        ];
+        let profile = Ground { shapes }.profile([-2.0, 5.0]);
+        let top = std::f64::consts::SQRT_2;
+        for (x, height) in
+            [(-1.5, -2.0), (-0.9, 0.0), (0.0, 0.1), (0.2, 0.05826), (3.0, top), (3.5, top - 0.5), (2.0, 0.41421)]
+        {
+            let found = profile.height(x).expect("ground");
+            assert!((found - height).abs() < 1e-4, "{found} at {x}, not {height}");
+        }
+        assert_eq!(Ground::flat().profile([0.0, 1.0]).height(0.5), Some(0.0));
+        assert_eq!(Ground::none().profile([0.0, 1.0]).height(0.5), None);
     }
 }

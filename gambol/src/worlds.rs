@@ -30,6 +30,9 @@ enum World {
     InRapier(Box<Episode<RapierEnvironment>>),
 }
 
+/// Feet are no longer than this, m.
+const MARGIN: f64 = 5.0;
+
 /// A controller in a world.
 type Pair<'a, W> = (usize, &'a Network, &'a W);
 
@@ -151,9 +154,16 @@ pub(crate) fn measure<E: Engine>(
 ) -> Option<Gait> {
     let body = environment.body()?;
     let trajectory = Trajectory::new(body, snapshots).ok()?;
-    let trajectory = if body.uneven_ground { trajectory.on_terrain() } else { trajectory };
+    let ground = || environment.landscape().ground.profile(extent(snapshots));
+    let trajectory = if body.uneven_ground { trajectory.on_terrain(ground()) } else { trajectory };
     let report = GaitReport::of(&trajectory, kind);
     Some(Gait { report, obstacles: ObstaclesPassed::count(environment.landscape(), snapshots) })
+}
+
+/// From where to where parts have been, with room for their size, m.
+fn extent(snapshots: &[Snapshot]) -> [f64; 2] {
+    let places = || snapshots.iter().flat_map(|snapshot| &snapshot.parts).map(|part| f64::from(part.x));
+    [places().fold(f64::INFINITY, f64::min) - MARGIN, places().fold(f64::NEG_INFINITY, f64::max) + MARGIN]
 }
 
 /// Whether what was measured is a usable gait; never for a movement that is not judged.

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 /// A foot that is off the ground no longer than this, in s, has not left it: pressed feet chatter for a step.
 const CHATTER: f64 = 0.03;
-/// A foot that is lower than this share of the body length over flat ground has come down, whether it presses or not. Of ten
+/// A foot that is lower than this share of the body length over the ground has come down, whether it presses or not. Of ten
 /// feet on stiff ground the longest legs bear the weight, and the others step to within a few millimetres of it: the eye sees
 /// no difference.
 const DOWN: f64 = 0.01;
@@ -60,7 +60,7 @@ pub(super) fn downs(trajectory: &Trajectory<'_>, foot: usize) -> Vec<RangeInclus
     let near = DOWN * f64::from(trajectory.body().body_length);
     let down = |step: usize| {
         let touches = trajectory.snapshots()[step].parts[foot].touching;
-        touches || trajectory.is_flat() && trajectory.lowest_point(foot, step) < near
+        touches || trajectory.clearance(foot, step).is_some_and(|clearance| clearance < near)
     };
     joined(trajectory, ranges((0..=trajectory.steps()).map(down)))
 }
@@ -102,4 +102,42 @@ pub(super) fn longest_gap(trajectory: &Trajectory<'_>, events: &[f64]) -> f64 {
         last = event;
     }
     longest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gait::{
+        GroundProfile,
+        synthetic::{Pose, body, film},
+    };
+
+    #[test]
+    fn a_foot_a_hair_above_the_ground_is_down_on_flat_ground_and_on_a_mound() {
+        // Nothing touches; the lowest points of the feet come as low as 4 mm above the ground, every second, by 5 cm.
+        let hovering = |ground: f64| {
+            film(3.0, move |step| {
+                let phase = step as f64 * super::super::synthetic::TIME_STEP * std::f64::consts::TAU;
+                let lift = 0.029 + 0.025 * libm::cos(phase);
+                Pose { y: 0.75 + ground, touching: [false; 3], lift: [lift; 2], ..Pose::standing() }
+            })
+        };
+        let body = body();
+        let counted = |snapshots: &[crate::Snapshot], mound: Option<f32>| {
+            let trajectory = Trajectory::new(&body, snapshots).expect("a script");
+            let mounds = |height| {
+                let mut ground = GroundProfile::flat(0.0, [-5.0, 5.0]);
+                ground.raise([-1.0, 1.0], |_| height);
+                ground
+            };
+            let trajectory = match mound {
+                Some(height) => trajectory.on_terrain(mounds(height)),
+                None => trajectory,
+            };
+            downs(&trajectory, 1).len()
+        };
+        let (flat, raised) = (hovering(0.0), hovering(0.02));
+        assert_eq!([counted(&flat, None), counted(&raised, None)], [3, 0]);
+        assert_eq!([counted(&raised, Some(0.02)), counted(&flat, Some(-0.1)), counted(&raised, Some(0.0))], [3, 3, 0]);
+    }
 }

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 ///
 /// A foot that loses contact for no more than 0.03 s has not left the ground: a foot pressed down chatters for a step,
 /// and a dragged foot must not look like a walking one. For touchdowns, liftoffs and clearance a foot is down that touches the
-/// ground or, on flat ground, is less than 1 % of the body length above it; stances and slip count contacts alone.
+/// ground or is less than 1 % of the body length above it; stances and slip count contacts alone.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LegUse {
     /// Name of its foot.

@@ -1,4 +1,4 @@
-use super::GaitError;
+use super::{GaitError, GroundProfile};
 use crate::{Body, BodyHinge, PartState, Snapshot};
 use std::{
     borrow::Cow,
@@ -20,9 +20,19 @@ pub struct Trajectory<'a> {
     tilts: Vec<f64>,
     hinge_angles: Vec<Vec<f64>>,
     work_known: bool,
-    flat: bool,
+    ground: Surface,
     backwards: bool,
     swimming: bool,
+}
+
+/// What the body moves on.
+#[derive(Clone, Debug)]
+enum Surface {
+    /// Ground at height 0, without end.
+    Flat,
+    Uneven(GroundProfile),
+    /// Water is deep.
+    None,
 }
 
 impl<'a> Trajectory<'a> {
@@ -63,10 +73,11 @@ impl<'a> Trajectory<'a> {
         Self { work_known: false, ..self }
     }
 
-    /// The same, on ground that is not flat: parts below height 0 are no tunnelling then.
+    /// The same, on ground that is not flat: parts below height 0 are no tunnelling then, and feet are down where they are as
+    /// good as on this ground.
     #[must_use]
-    pub fn on_terrain(self) -> Self {
-        Self { flat: false, ..self }
+    pub fn on_terrain(self, ground: GroundProfile) -> Self {
+        Self { ground: Surface::Uneven(ground), ..self }
     }
 
     /// The same, with backwards as the way ahead.
@@ -78,7 +89,7 @@ impl<'a> Trajectory<'a> {
     /// The same, of a swimmer: what gets ahead is its centre of mass, and there is no ground.
     #[must_use]
     pub(super) fn swimming(self) -> Self {
-        Self { swimming: true, flat: false, ..self }
+        Self { swimming: true, ground: Surface::None, ..self }
     }
 
     fn checked(body: &'a Body, snapshots: Cow<'a, [Snapshot]>, work_known: bool) -> Result<Self, GaitError> {
@@ -94,7 +105,7 @@ impl<'a> Trajectory<'a> {
             tilts,
             hinge_angles,
             work_known,
-            flat: true,
+            ground: Surface::Flat,
             backwards: false,
             swimming: false,
         })
@@ -161,6 +172,18 @@ impl<'a> Trajectory<'a> {
         self.body.parts[part].lowest_point(&self.snapshots[step].parts[part]).into()
     }
 
+    /// How far a part's lowest point is above the ground, m; of uneven ground what is below each corner counts. `None` where
+    /// the ground is not known.
+    pub(super) fn clearance(&self, part: usize, step: usize) -> Option<f64> {
+        let Surface::Uneven(ground) = &self.ground else {
+            return self.is_flat().then(|| self.lowest_point(part, step));
+        };
+        let (part, state) = (&self.body.parts[part], &self.snapshots[step].parts[part]);
+        let corners = part.corners.iter().map(|&corner| in_world(state, corner));
+        let clearances = corners.filter_map(|[x, y]| Some(y - f64::from(part.radius) - ground.height(x)?));
+        clearances.min_by(f64::total_cmp)
+    }
+
     /// The height of the centre of mass, m.
     pub(super) fn centre_height(&self, step: usize) -> f64 {
         let parts = self.body.parts.iter().zip(&self.snapshots[step].parts);
@@ -196,7 +219,7 @@ impl<'a> Trajectory<'a> {
 
     /// Whether the ground is flat, at height 0.
     pub(super) fn is_flat(&self) -> bool {
-        self.flat
+        matches!(self.ground, Surface::Flat)
     }
 
     /// m/s².

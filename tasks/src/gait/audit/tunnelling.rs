@@ -34,7 +34,10 @@ pub(super) fn find(trajectory: &Trajectory<'_>) -> Vec<Cheat> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gait::synthetic::{Pose, body, film};
+    use crate::gait::{
+        GroundProfile,
+        synthetic::{Pose, body, film},
+    };
 
     #[test]
     fn a_foot_deep_in_the_ground_is_flagged() {
@@ -49,6 +52,7 @@ mod tests {
     #[test]
     fn on_terrain_the_ground_may_be_lower() {
         let sunk = film(1.0, |step| Pose { y: 0.3, ..Pose::walking(step) });
-        assert_eq!(find(&Trajectory::new(&body(), &sunk).expect("a script").on_terrain()), []);
+        let pit = GroundProfile::flat(-1.0, [-1.0, 9.0]);
+        assert_eq!(find(&Trajectory::new(&body(), &sunk).expect("a script").on_terrain(pit)), []);
     }
 }
