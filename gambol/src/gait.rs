@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::sync::{Arc, OnceLock};
 use tasks::{
     Episode, Movement, MovementCatalogue, MovementSpec, Trials,
-    gait::{GaitReport, Judgement, Kind, NearWorlds},
+    gait::{GaitReport, Judgement, NearWorlds, Rules},
 };
 
 /// The world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
@@ -26,7 +26,7 @@ use tasks::{
 pub struct Stage {
     episode: Episode<RapierEnvironment>,
     movement: Box<dyn Movement>,
-    kind: Option<Kind>,
+    rules: Option<Arc<dyn Rules>>,
     /// The creature in the same world in lanes, which have rapier's bits; `None` if they cannot simulate it.
     lanes: Option<LaneEnvironment>,
     /// Built when they are first needed.
@@ -47,15 +47,15 @@ impl Stage {
     /// If a field is out of range or the movement is unknown.
     pub fn new(parts: EpisodeParts<'_>, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
         parts.physics.validate().map_err(|error| error.within("physics"))?;
-        let kind = Kind::of(&parts.movement.name);
-        let steps = Some(judged_steps(kind, parts.physics.time_step));
+        let rules = catalogue.rules(&parts.movement.name);
+        let steps = Some(steps_of(judged_seconds(rules.as_deref()), parts.physics.time_step));
         let movement = MovementSpec { steps, terms: Vec::new(), objectives: Vec::new(), ..parts.movement.clone() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
         let episode = parts.build(catalogue)?;
         let movement = catalogue.build(&movement)?;
         let lanes = parts.build_lanes(catalogue).ok().map(|episode| episode.environment().clone());
-        Ok(Self { episode, movement, kind, lanes, near: Arc::default() })
+        Ok(Self { episode, movement, rules, lanes, near: Arc::default() })
     }
 
     /// The creature in this world.
@@ -77,9 +77,14 @@ impl Stage {
         self.episode.steps()
     }
 
-    /// How a gait is judged here, if it is.
-    pub fn kind(&self) -> Option<Kind> {
-        self.kind
+    /// By which rules a gait is judged here, if it is.
+    pub fn rules(&self) -> Option<&Arc<dyn Rules>> {
+        self.rules.as_ref()
+    }
+
+    /// How long a gait is played here, s.
+    pub(crate) fn seconds(&self) -> f64 {
+        judged_seconds(self.rules.as_deref())
     }
 
     /// What a controller does here. A body that explodes, and a controller of another shape, leave a short recording.
@@ -105,7 +110,7 @@ impl Stage {
 
     /// The same, judged here alone.
     pub fn measure_alone(&self, network: &Network) -> Option<Gait> {
-        worlds::measure(self.environment(), self.kind, &self.record(network).snapshots)
+        worlds::measure(self.environment(), self.rules.as_deref(), &self.record(network).snapshots)
     }
 
     /// In how many near worlds a controller's gait is usable, on the threads of the current pool.
@@ -171,13 +176,8 @@ pub struct Gait {
 }
 
 /// How long an episode must be for the judgement, s.
-pub(crate) fn judged_seconds(kind: Option<Kind>) -> f64 {
-    kind.map_or(UNJUDGED_SECONDS, Kind::judged_seconds)
-}
-
-/// The steps of an episode as long as the judgement asks for.
-pub(crate) fn judged_steps(kind: Option<Kind>, time_step: f32) -> u32 {
-    steps_of(judged_seconds(kind), time_step)
+fn judged_seconds(rules: Option<&dyn Rules>) -> f64 {
+    rules.map_or(UNJUDGED_SECONDS, Rules::seconds)
 }
 
 /// The steps of an episode of so many seconds.

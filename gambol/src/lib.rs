@@ -1,6 +1,7 @@
 //! Gambol: evolves controllers for 2D creatures, shows the gait, and saves it for a game.
 //!
-//! This library ties the others together: it is what the `gambol` program, a studio or a test calls. Its one decision:
+//! This library ties the others together: it is what the `gambol` program, a studio or a test calls, and the program itself is
+//! in it: [`program`], for everybody's movements. Its one decision:
 //! **a run is a folder.** Everything that happens is a file in it, written whole or not at all, and everything that
 //! looks at a run (resuming, reporting, verifying, replaying) reads those files and nothing else. So viewers attach and
 //! detach as they like, and a run can be killed at any moment.
@@ -52,6 +53,7 @@
 
 mod bodies;
 pub mod champion;
+mod commands;
 pub mod compare;
 pub mod config;
 pub mod dot;
@@ -67,6 +69,7 @@ pub mod obstacles;
 mod perturbation;
 mod proving;
 mod recorder;
+mod registry;
 pub mod report;
 pub mod reproduce;
 pub mod robust;
@@ -83,4 +86,6 @@ pub mod trajectory;
 pub mod worlds;
 pub mod yardsticks;
 
+pub use commands::program;
+pub use registry::Registry;
 pub use setup::Setup;

@@ -43,7 +43,7 @@ impl Nominal {
         stage: Stage,
         seed: Seed,
     ) -> Self {
-        let stage = Some(stage).filter(|stage| stage.kind().is_some());
+        let stage = Some(stage).filter(|stage| stage.rules().is_some());
         let tried = stage.clone().filter(|_| proof.is_some());
         let proving = tried.map(|stage| ProvingGround::new(stage, seed));
         Self { task, episode, seed, proof, stage, proving, last: Arc::default() }

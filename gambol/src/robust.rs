@@ -19,7 +19,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use tasks::{
     MovementCatalogue,
-    gait::{GaitReport, Kind},
+    gait::{GaitReport, View},
 };
 
 pub use crate::perturbation::{BUMP_HEIGHTS, Cause, FRICTION, MASS, TORQUE};
@@ -33,8 +33,10 @@ const BEYOND: f32 = 5.0;
 /// What is left of a champion's gait.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Robustness {
-    /// As what its gaits are judged.
-    pub kind: Kind,
+    /// The name of the rules by which its gaits are judged.
+    pub judged_as: String,
+    /// How they look at them.
+    pub view: View,
     /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world, nor has water.
     #[serde(skip)]
     pub bumpy: bool,
@@ -72,7 +74,7 @@ pub struct CauseShare {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ReasonShare {
     /// Its name.
-    pub reason: &'static str,
+    pub reason: String,
     /// Share of the perturbed worlds, 0 to 1.
     pub share: f64,
 }
@@ -111,7 +113,7 @@ pub struct PerturbedTrial {
     #[serde(rename = "progress_m")]
     pub progress: f64,
     /// What speaks against it.
-    pub reasons: Vec<&'static str>,
+    pub reasons: Vec<String>,
 }
 
 /// The reason where there is nothing to measure: the body explodes, or does not come to rest at the start.
@@ -128,10 +130,12 @@ pub enum RobustnessError {
     #[error(transparent)]
     Setting(#[from] SettingError),
     /// There is no telling what is usable.
-    #[error("the movement \"{movement}\" is not judged: only {} are", Kind::JUDGED.join(", "))]
+    #[error("the movement \"{movement}\" is not judged: only {} are", judged.join(", "))]
     NotJudged {
         /// Its name.
         movement: String,
+        /// Those that are.
+        judged: Vec<String>,
     },
 }
 
@@ -148,10 +152,12 @@ pub fn robustness(
 ) -> Result<Robustness, RobustnessError> {
     SettingError::check_range("perturbations", perturbations.into(), 1.0, MOST.into())?;
     let stage = Stage::new(champion.episode_parts(), catalogue)?;
-    let not_judged = || RobustnessError::NotJudged { movement: champion.movement.name.clone() };
-    let kind = stage.kind().ok_or_else(not_judged)?;
+    let rules = stage.rules().ok_or_else(|| RobustnessError::NotJudged {
+        movement: champion.movement.name.clone(),
+        judged: catalogue.judged().map(str::to_owned).collect(),
+    })?;
     let unperturbed = stage.judge(&champion.network);
-    let progress_unperturbed = unperturbed.as_ref().map_or(0.0, |report| progress(kind, report));
+    let progress_unperturbed = unperturbed.as_ref().map_or(0.0, GaitReport::progress);
     let reach = progress_unperturbed.abs() as f32 + BEYOND;
     let indices: Vec<u32> = (0..perturbations).collect();
     let trials: Vec<PerturbedTrial> = indices
@@ -162,12 +168,13 @@ pub fn robustness(
             let places: Vec<_> =
                 worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
             let reports = Worlds::new(&stage, &places).judge(&champion.network);
-            worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, kind, report))
+            worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, report))
         })
         .collect();
     let share = |count: usize| count as f64 / f64::from(perturbations);
     Ok(Robustness {
-        kind,
+        judged_as: rules.name().to_owned(),
+        view: rules.view(),
         bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
         usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
         progress_unperturbed,
@@ -177,18 +184,10 @@ pub fn robustness(
             .then(|| median(trials.iter().map(|trial| trial.progress / progress_unperturbed).collect())),
         reasons: reasons(&trials)
             .into_iter()
-            .map(|(reason, count)| ReasonShare { reason, share: share(count) })
+            .map(|(reason, count)| ReasonShare { reason: reason.to_owned(), share: share(count) })
             .collect(),
         trials,
     })
-}
-
-/// What the movement is about, m.
-fn progress(kind: Kind, report: &GaitReport) -> f64 {
-    match kind {
-        Kind::Running | Kind::Backwards | Kind::Swimming => report.travel.distance,
-        Kind::Jumping => report.aloft.highest.unwrap_or(0.0),
-    }
 }
 
 /// How each cause is borne.
@@ -203,8 +202,8 @@ fn causes(trials: &[PerturbedTrial]) -> Vec<CauseShare> {
 }
 
 /// How many trials each reason speaks against, the most first.
-fn reasons(trials: &[PerturbedTrial]) -> Vec<(&'static str, usize)> {
-    let mut counts: BTreeMap<&'static str, usize> = BTreeMap::new();
+fn reasons(trials: &[PerturbedTrial]) -> Vec<(&str, usize)> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for reason in trials.iter().flat_map(|trial| &trial.reasons) {
         *counts.entry(reason).or_default() += 1;
     }
@@ -221,12 +220,12 @@ fn median(mut values: Vec<f64>) -> f64 {
 }
 
 impl PerturbedTrial {
-    fn new(world: &World, kind: Kind, report: Option<GaitReport>) -> Self {
+    fn new(world: &World, report: Option<GaitReport>) -> Self {
         let Conditions { friction, mass, torque, gravity, motor_gain, solver_iterations, joint_frequency, .. } =
             world.conditions;
         let mut reasons: Vec<_> = match report.as_ref().and_then(|report| report.verdict.as_ref()) {
-            Some(verdict) => verdict.reasons.iter().map(tasks::gait::Reason::name).collect(),
-            None => vec![UNMEASURABLE],
+            Some(verdict) => verdict.reasons.iter().map(|reason| reason.name().to_owned()).collect(),
+            None => vec![UNMEASURABLE.to_owned()],
         };
         // Two legs may have the same reason.
         reasons.sort_unstable();
@@ -245,7 +244,7 @@ impl PerturbedTrial {
             time_step: world.time_step,
             bumps: world.bumps,
             usable: report.as_ref().is_some_and(is_usable),
-            progress: report.as_ref().map_or(0.0, |report| progress(kind, report)),
+            progress: report.as_ref().map_or(0.0, GaitReport::progress),
             reasons,
         }
     }
@@ -263,7 +262,7 @@ mod tests {
 
     #[test]
     fn reasons_are_told_by_how_often_they_hold() {
-        let trial = |reasons: &[&'static str]| PerturbedTrial {
+        let trial = |reasons: &[&str]| PerturbedTrial {
             cause: Cause::Friction,
             gravity: 1.0,
             motor_gain: 1.0,
@@ -278,7 +277,7 @@ mod tests {
             bumps: 0,
             usable: false,
             progress: 0.0,
-            reasons: reasons.to_vec(),
+            reasons: reasons.iter().map(|&reason| reason.to_owned()).collect(),
         };
         let trials = [trial(&["slow"]), trial(&["slow", "tilted"]), trial(&[]), trial(&["fall", "tilted", "slow"])];
         assert_eq!(reasons(&trials), [("slow", 3), ("tilted", 2), ("fall", 1)]);

@@ -13,9 +13,7 @@ use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variatio
 use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
-use tasks::{
-    Combine, Episode, Movement, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials, gait::Kind,
-};
+use tasks::{Combine, Episode, Movement, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials};
 
 pub use crate::{bodies::SeveralBodies, nominal::Nominal, training_task::TrainingTask};
 
@@ -264,10 +262,11 @@ impl Setup {
             }
         };
         if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+            let judged: Vec<&str> = catalogue.judged().collect();
             let allowed = format!(
                 "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
                  rehearsal or companions",
-                Kind::JUDGED.join(", ")
+                judged.join(", ")
             );
             return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
         }

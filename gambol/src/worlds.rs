@@ -1,6 +1,6 @@
 //! Worlds in which gaits are judged, each by itself.
 
-use crate::gait::{Gait, Stage, judged_seconds, judged_steps, record, steps_of};
+use crate::gait::{Gait, Stage, record, steps_of};
 use crate::obstacles::ObstaclesPassed;
 use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Landscape};
 use envs_lanes::{LANES, LaneEnvironment, Play};
@@ -8,16 +8,17 @@ use envs_rapier::RapierEnvironment;
 use ne_core::Seed;
 use ne_net::Network;
 use rayon::prelude::*;
+use std::sync::Arc;
 use tasks::{
     Environment, Episode, Snapshot, Trials,
-    gait::{GaitReport, Kind, Reason, Trajectory},
+    gait::{GaitReport, Reason, Rules, Trajectory},
 };
 
 /// Worlds of one creature, built once. Controllers are played in them in lanes, many at once, where lanes can simulate them,
 /// and else in rapier; what comes out is the same.
 #[derive(Clone)]
 pub struct Worlds {
-    kind: Option<Kind>,
+    rules: Option<Arc<dyn Rules>>,
     /// How long gaits are played, s.
     seconds: f64,
     /// `None`: the creature does not come to rest there.
@@ -40,11 +41,7 @@ impl Worlds {
     /// Builds worlds under these conditions and in these landscapes, on the threads of the current pool.
     pub fn new(stage: &Stage, worlds: &[(Conditions, Landscape)]) -> Self {
         let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(stage, conditions, landscape);
-        Self {
-            kind: stage.kind(),
-            seconds: judged_seconds(stage.kind()),
-            worlds: worlds.par_iter().map(build).collect(),
-        }
+        Self { rules: stage.rules().cloned(), seconds: stage.seconds(), worlds: worlds.par_iter().map(build).collect() }
     }
 
     /// The same worlds, in which gaits are played for at most so many seconds: enough to choose between candidates, and too
@@ -57,7 +54,7 @@ impl Worlds {
     /// The stage's own world alone, in lanes; `None` if they cannot simulate it.
     pub(crate) fn nominal(stage: &Stage) -> Option<Self> {
         let world = World::InLanes(Box::new(stage.lanes()?.clone()));
-        Some(Self { kind: stage.kind(), seconds: judged_seconds(stage.kind()), worlds: vec![Some(world)] })
+        Some(Self { rules: stage.rules().cloned(), seconds: stage.seconds(), worlds: vec![Some(world)] })
     }
 
     /// How many worlds there are.
@@ -89,7 +86,8 @@ impl Worlds {
         }
         let measured_in_rapier = in_rapier.into_par_iter().map(|(place, network, episode)| {
             let steps = steps_of(self.seconds, episode.environment().settings().time_step);
-            (place, measure(episode.environment(), self.kind, &record(&episode.shortened(steps), network).snapshots))
+            let recording = record(&episode.shortened(steps), network);
+            (place, measure(episode.environment(), self.rules.as_deref(), &recording.snapshots))
         });
         let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs));
         let mut reports: Vec<Vec<Option<GaitReport>>> = vec![vec![None; self.len()]; networks.len()];
@@ -122,7 +120,7 @@ impl Worlds {
         });
         // A recording may have megabytes: each goes as soon as it is measured.
         let measured = |((place, _, world), snapshots): (&Pair<'_, LaneEnvironment>, Vec<Snapshot>)| {
-            (*place, measure(*world, self.kind, &snapshots))
+            (*place, measure(*world, self.rules.as_deref(), &snapshots))
         };
         let pairs: Vec<&Pair<'_, LaneEnvironment>> = begun.iter().map(|(pair, _)| *pair).collect();
         pairs.into_par_iter().zip(recordings).map(measured).collect()
@@ -137,7 +135,7 @@ impl World {
             // What lanes refuse rapier may simulate.
             None | Some(Err(EnvironmentError::Unsupported { .. })) => {
                 let environment = stage.environment().under(conditions, landscape.clone()).ok()?;
-                let steps = judged_steps(stage.kind(), environment.settings().time_step);
+                let steps = steps_of(stage.seconds(), environment.settings().time_step);
                 let episode = Episode::new(environment, stage.movement(), steps, Trials::default()).ok()?;
                 Some(Self::InRapier(Box::new(episode)))
             }
@@ -149,14 +147,14 @@ impl World {
 /// Measures a recording of a world; `None` for one that breaks off at once.
 pub(crate) fn measure<E: Engine>(
     environment: &CreatureEnvironment<E>,
-    kind: Option<Kind>,
+    rules: Option<&dyn Rules>,
     snapshots: &[Snapshot],
 ) -> Option<Gait> {
     let body = environment.body()?;
     let trajectory = Trajectory::new(body, snapshots).ok()?;
     let ground = || environment.landscape().ground.profile(extent(snapshots));
     let trajectory = if body.uneven_ground { trajectory.on_terrain(ground()) } else { trajectory };
-    let report = GaitReport::of(&trajectory, kind);
+    let report = GaitReport::of(&trajectory, rules);
     Some(Gait { report, obstacles: ObstaclesPassed::count(environment.landscape(), snapshots) })
 }
 

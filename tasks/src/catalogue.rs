@@ -1,3 +1,4 @@
+use crate::gait::{JumpingRules, Rules, RunningRules, SwimmingRules};
 use crate::{
     Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Honest, Hopping,
     Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rhythm, Rollovers, Running, Slip,
@@ -35,6 +36,8 @@ pub struct MovementEntry {
     /// How many steps its episodes last unless the settings say otherwise; `None` for a term that only makes sense
     /// beside a movement.
     pub steps: Option<u32>,
+    /// By which rules its gaits are judged; `None` if they are measured and audited alone.
+    pub rules: Option<Arc<dyn Rules>>,
     make: Arc<Make>,
 }
 
@@ -147,8 +150,12 @@ impl Default for MovementCatalogue {
         let mut catalogue = Self { entries: Vec::new() };
         let running = "distance the torso covers, forwards";
         let jumping = "height the torso reaches above its start";
-        catalogue.add::<Running>(Some(2000), running).add::<Jumping>(Some(500), jumping);
-        catalogue.add::<LongJump>(Some(500), "distance the torso covers in its longest flight");
+        // The speed of a walk is a setting, and hopping, standing and getting up have no rules yet that a game agrees on.
+        catalogue.add::<Running>(Some(2000), running).judged_by(RunningRules::default());
+        catalogue.add::<Jumping>(Some(500), jumping).judged_by(JumpingRules);
+        // What gets far without getting high off all legs is a stride.
+        let longest = "distance the torso covers in its longest flight";
+        catalogue.add::<LongJump>(Some(500), longest).judged_by(JumpingRules);
         catalogue.add::<Hopping>(Some(1000), "heights of all hops on the spot, added up");
         catalogue.add_with_settings(
             Some(2000),
@@ -160,20 +167,25 @@ impl Default for MovementCatalogue {
             "distance at a wanted speed, discounted by its cost of transport; settings: speed, body lengths/s (2)",
             Cruising::new,
         );
+        catalogue.judged_by(RunningRules::default());
         catalogue.add_with_settings(
             Some(1000),
             "time it stands still and upright; settings: after, s (2), from when on",
             Standing::new,
         );
-        catalogue.add::<Climbing>(Some(2000), "height of the ground the feet reach, and a fifth of the distance");
+        let climbing = "height of the ground the feet reach, and a fifth of the distance";
+        catalogue.add::<Climbing>(Some(2000), climbing).judged_by(RunningRules::default());
         catalogue.add_with_settings(
             Some(1000),
             "how far a creature that starts lying is up at the end; settings: turn, degrees (180), to upright",
             GettingUp::new,
         );
-        catalogue.add::<Carrying>(Some(2000), "distance covered with a torso that neither tilts nor shakes");
-        catalogue.add::<Backwards>(Some(2000), "distance the torso covers, backwards");
-        catalogue.add::<Swimming>(Some(1000), "distance the centre of mass covers in water, forwards");
+        let carrying = "distance covered with a torso that neither tilts nor shakes";
+        catalogue.add::<Carrying>(Some(2000), carrying).judged_by(RunningRules::default());
+        let backwards = "distance the torso covers, backwards";
+        catalogue.add::<Backwards>(Some(2000), backwards).judged_by(RunningRules { backwards: true });
+        let swimming = "distance the centre of mass covers in water, forwards";
+        catalogue.add::<Swimming>(Some(1000), swimming).judged_by(SwimmingRules);
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");
         catalogue.add::<Rollovers>(None, "how often the torso turned over; weigh it negatively");
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");
@@ -298,8 +310,26 @@ impl MovementCatalogue {
     fn insert(&mut self, sample: &dyn Movement, steps: Option<u32>, description: &str, make: Arc<Make>) -> &mut Self {
         let (name, unit) = (sample.name().to_owned(), sample.unit().to_owned());
         self.entries.retain(|entry| entry.name != name);
-        self.entries.push(MovementEntry { name, description: description.into(), unit, steps, make });
+        self.entries.push(MovementEntry { name, description: description.into(), unit, steps, rules: None, make });
         self
+    }
+
+    /// Has the gaits of the movement that was added last judged by these rules.
+    pub fn judged_by(&mut self, rules: impl Rules + 'static) -> &mut Self {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.rules = Some(Arc::new(rules));
+        }
+        self
+    }
+
+    /// The rules by which gaits of the movement of this name are judged; `None` if they are not, or there is none.
+    pub fn rules(&self, name: &str) -> Option<Arc<dyn Rules>> {
+        self.find(name)?.rules.clone()
+    }
+
+    /// The movements whose gaits are judged.
+    pub fn judged(&self) -> impl Iterator<Item = &str> {
+        self.entries.iter().filter(|entry| entry.rules.is_some()).map(|entry| &*entry.name)
     }
 
     /// All entries, in the order they were added.

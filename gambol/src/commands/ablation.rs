@@ -1,8 +1,8 @@
 //! The pieces of the default preset, left out one by one or replaced.
 
+use crate::config::{HeatSettings, LimbPhases, RunConfig, StrategySettings, strategy};
 use creatures::{Actuation, Sensor};
 use envs_rapier::Variation;
-use gambol::config::{HeatSettings, LimbPhases, RunConfig, StrategySettings, strategy};
 use ne_net::Activation;
 
 /// A change to a configuration.

@@ -1,10 +1,11 @@
 use super::{Outcome, bench_gaits::Gaits, bench_training::Training};
-use clap::{Args, Subcommand};
-use gambol::{
+use crate::{
+    Registry,
     config::{STRATEGIES, strategy},
     suggest,
     yardsticks::{PUBLISHED, Yardstick, contestants, measure, render},
 };
+use clap::{Args, Subcommand};
 use serde_json::json;
 use std::process::ExitCode;
 
@@ -54,11 +55,11 @@ struct Yardsticks {
 }
 
 impl Bench {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         match self.what {
             What::Yardsticks(yardsticks) => yardsticks.run(),
-            What::Training(training) => training.run(),
-            What::Gaits(gaits) => gaits.run(),
+            What::Training(training) => training.run(registry),
+            What::Gaits(gaits) => gaits.run(registry),
         }
     }
 }

@@ -2,21 +2,22 @@ use super::{
     Outcome,
     ablation::{VARIANTS, Variant},
 };
-use clap::Args;
-use creatures::Blueprint;
-use gambol::{
+use crate::{
+    Registry,
     champion::Champion,
     config::{PRESETS, Request, RunConfig},
     gait,
     robust::robustness,
     training::{TrainOptions, train},
 };
+use clap::Args;
+use creatures::Blueprint;
 use ne_core::StopConditions;
 use ne_statistics::quantile;
 use serde::Serialize;
 use serde_json::json;
 use std::{error::Error, process::ExitCode, time::Instant};
-use tasks::{MovementCatalogue, gait::Kind};
+use tasks::{MovementCatalogue, gait::Goal};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -101,11 +102,11 @@ struct Run {
 }
 
 impl Gaits {
-    pub(super) fn run(self) -> Outcome {
+    pub(super) fn run(self, registry: &Registry) -> Outcome {
         let shipped = || creatures::shipped().iter().map(|creature| creature.name.to_owned()).collect();
         let creatures = if self.creatures.is_empty() { shipped() } else { self.creatures.clone() };
         if let Some(text) = &self.ablate {
-            return self.ablation(&creatures, text);
+            return self.ablation(&creatures, text, registry);
         }
         if !self.json {
             let until = if self.whole { "" } else { ", or until usable" };
@@ -129,14 +130,14 @@ impl Gaits {
             for movement in &self.movements {
                 let mut runs = Vec::new();
                 for seed in 1..=self.seeds {
-                    let run = self.measure(self.config(creature, movement, seed)?)?;
+                    let run = self.measure(self.config(creature, movement, seed, registry)?, registry)?;
                     if self.json {
                         say!("{}", json!(run))?;
                     }
                     runs.push(run);
                 }
                 if !self.json {
-                    say!("{}", row(&runs))?;
+                    say!("{}", row(&runs, registry))?;
                 }
             }
         }
@@ -144,7 +145,7 @@ impl Gaits {
     }
 
     /// Every variant whose name contains the text, and the preset itself, on every scenario.
-    fn ablation(&self, creatures: &[String], text: &str) -> Outcome {
+    fn ablation(&self, creatures: &[String], text: &str, registry: &Registry) -> Outcome {
         let chosen = |(index, variant): &(usize, &Variant)| *index == 0 || variant.name.contains(text);
         let variants: Vec<&Variant> = VARIANTS.iter().enumerate().filter(chosen).map(|(_, variant)| variant).collect();
         if let [_] = variants[..] {
@@ -157,12 +158,12 @@ impl Gaits {
             for creature in creatures {
                 for movement in &self.movements {
                     for seed in 1..=self.seeds {
-                        let mut config = self.config(creature, movement, seed)?;
+                        let mut config = self.config(creature, movement, seed, registry)?;
                         (variant.change)(&mut config);
                         // What does not concern a scenario would give the same run.
                         let run = match usual.iter().find(|(known, _)| *known == config) {
                             Some((_, run)) => run.clone(),
-                            None => self.measure(config.clone())?,
+                            None => self.measure(config.clone(), registry)?,
                         };
                         if self.json {
                             say!("{}", json!({ "variant": variant.name, "run": run }))?;
@@ -183,7 +184,13 @@ impl Gaits {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn config(&self, creature: &str, movement: &str, seed: u64) -> Result<RunConfig, Box<dyn Error>> {
+    fn config(
+        &self,
+        creature: &str,
+        movement: &str,
+        seed: u64,
+        registry: &Registry,
+    ) -> Result<RunConfig, Box<dyn Error>> {
         let request = Request {
             creature: Some(creature.into()),
             movement: Some(movement.into()),
@@ -193,7 +200,7 @@ impl Gaits {
             set: self.set.clone(),
             ..Request::default()
         };
-        let mut config = request.resolve(&MovementCatalogue::default())?;
+        let mut config = request.resolve(&registry.movements)?;
         config.seed = seed;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
         let grade = (!self.whole).then_some(gait::USABLE);
@@ -201,8 +208,8 @@ impl Gaits {
         Ok(config)
     }
 
-    fn measure(&self, config: RunConfig) -> Result<Run, Box<dyn Error>> {
-        let catalogue = MovementCatalogue::default();
+    fn measure(&self, config: RunConfig, registry: &Registry) -> Result<Run, Box<dyn Error>> {
+        let catalogue = registry.movements.clone();
         let folder = tempfile::tempdir()?;
         let began = Instant::now();
         let mut first = None;
@@ -245,16 +252,15 @@ impl Gaits {
             run.reasons = verdict.reasons.iter().map(ToString::to_string).collect();
         }
         let start_height = f64::from(Blueprint::new(champion.creature.clone())?.start_height());
-        run.quality = match report.kind {
-            Some(Kind::Running | Kind::Backwards | Kind::Swimming) => Some(report.travel.second_half_relative_speed),
-            Some(Kind::Jumping) => Some(report.best_flight().map_or(0.0, |flight| flight.rise / start_height)),
-            None => None,
-        };
+        run.quality = report.verdict.is_some().then(|| match report.view.goal {
+            Goal::Distance => report.travel.second_half_relative_speed,
+            Goal::Height => report.best_flight().map_or(0.0, |flight| flight.rise / start_height),
+        });
         // A run whose champion is usable at the last hearing only, after the last generation.
         if run.usable && run.seconds_to_usable.is_none() {
             (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
         }
-        if self.robust && report.kind.is_some() {
+        if self.robust && report.verdict.is_some() {
             run.robust = Some(robustness(champion, catalogue, 100, 1)?.usable_share);
         }
         Ok(())
@@ -262,7 +268,7 @@ impl Gaits {
 }
 
 /// The runs of a scenario as a line of the table.
-fn row(runs: &[Run]) -> String {
+fn row(runs: &[Run], registry: &Registry) -> String {
     let Some(Run { creature, movement, .. }) = runs.first() else { return String::new() };
     let usable = runs.iter().filter(|run| run.usable).count();
     let middle = |numbers: Vec<f64>| quantile(&numbers, 0.5);
@@ -270,7 +276,8 @@ fn row(runs: &[Run]) -> String {
     let slowest = seconds.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
     let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| "–".into(), |n| format!("{n:.2}{unit}"));
     let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
-    let unit = if movement == "running" { " bl/s" } else { " sh" };
+    let goal = registry.movements.rules(movement).map(|rules| rules.view().goal);
+    let unit = if goal == Some(Goal::Height) { " sh" } else { " bl/s" };
     let robust = middle(runs.iter().filter_map(|run| run.robust).collect());
     let robust = robust.map_or_else(|| "–".into(), |share| format!("{:.0} %", 100.0 * share));
     let mut row = format!(

@@ -1,14 +1,14 @@
 use super::Outcome;
-use clap::Args;
-use gambol::{
+use crate::{
+    Registry,
     config::Request,
     training::{TrainOptions, train},
 };
+use clap::Args;
 use ne_core::Parallel;
 use serde::Serialize;
 use serde_json::json;
 use std::{error::Error, process::ExitCode, time::Instant};
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -58,7 +58,7 @@ struct Run {
 }
 
 impl Training {
-    pub(super) fn run(self) -> Outcome {
+    pub(super) fn run(self, registry: &Registry) -> Outcome {
         let usual = ["biped-1", "apod", "tetrapod-2", "decapod-2"].map(String::from);
         let creatures = if self.creature.is_empty() { usual.into() } else { self.creature.clone() };
         let threads = Parallel::new(self.threads)?.threads();
@@ -68,7 +68,7 @@ impl Training {
             if !self.json {
                 eprintln!("{creature} learns running");
             }
-            runs.push(self.measure(creature, threads)?);
+            runs.push(self.measure(creature, threads, registry)?);
         }
         if self.json {
             say!("{}", json!({ "engine": engine, "threads": threads, "episode_steps": steps, "runs": runs }))?;
@@ -96,8 +96,8 @@ impl Training {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn measure(&self, creature: String, threads: usize) -> Result<Run, Box<dyn Error>> {
-        let catalogue = MovementCatalogue::default();
+    fn measure(&self, creature: String, threads: usize, registry: &Registry) -> Result<Run, Box<dyn Error>> {
+        let catalogue = registry.movements.clone();
         let request = Request {
             creature: Some(creature.clone()),
             movement: Some("running".into()),

@@ -1,15 +1,15 @@
 use super::{Outcome, balance};
-use clap::Args;
-use creatures::{Blueprint, Creature, DEFAULT_INPUT_RANGE, Motors, Senses};
-use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
-use envs_lanes::LaneEngine;
-use gambol::{
-    Setup,
+use crate::{
+    Registry, Setup,
     champion::{CHAMPION_FORMAT, Champion},
     config::Request,
     shaping::Stages,
     source,
 };
+use clap::Args;
+use creatures::{Blueprint, Creature, DEFAULT_INPUT_RANGE, Motors, Senses};
+use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
+use envs_lanes::LaneEngine;
 use ne_core::CHECKPOINT_FORMAT;
 use serde_json::{Map, Value};
 use std::{
@@ -38,7 +38,7 @@ pub(crate) struct Check {
 }
 
 impl Check {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let path = &self.file;
         if let Some(name) = path.to_str().filter(|name| !path.exists() && !name.contains(['/', '\\', '.'])) {
             check_creature(path, source::creature(name)?)?;
@@ -49,13 +49,13 @@ impl Check {
         let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };
         let value: Value = serde_json::from_str(&text).unwrap_or_else(unreadable);
         match value.get("format").and_then(Value::as_str) {
-            Some(CHAMPION_FORMAT) => check_champion(path)?,
+            Some(CHAMPION_FORMAT) => check_champion(path, &registry.movements)?,
             Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),
             Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?)?,
             _ if !value.is_object() || value.get("parts").is_some() => {
                 check_creature(path, source::creature_file(path)?)?
             }
-            _ => check_config(path, &value)?,
+            _ => check_config(path, &value, &registry.movements)?,
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -95,9 +95,9 @@ fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-fn check_champion(path: &Path) -> Result<(), Box<dyn Error>> {
+fn check_champion(path: &Path, catalogue: &MovementCatalogue) -> Result<(), Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    champion.episode(&MovementCatalogue::default()).map_err(|error| format!("{}: {error}", path.display()))?;
+    champion.episode(catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
     let (creature, movement) = (&champion.creature.name, &champion.movement.name);
     say!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness)?;
     say!("  to prove that it still does the same: gambol verify {}", path.display())?;
@@ -105,19 +105,18 @@ fn check_champion(path: &Path) -> Result<(), Box<dyn Error>> {
 }
 
 /// A configuration may leave out creature and movement, which are then given to `train`.
-fn check_config(path: &Path, value: &Value) -> Result<(), Box<dyn Error>> {
+fn check_config(path: &Path, value: &Value, catalogue: &MovementCatalogue) -> Result<(), Box<dyn Error>> {
     let fields = value.get("content").unwrap_or(value);
     let missing = |pointer: &str, stand_in: &str| fields.pointer(pointer).is_none().then(|| stand_in.to_owned());
-    let catalogue = MovementCatalogue::default();
     let request = Request {
         creature: missing("/creature", "biped-1"),
         movement: missing("/movement/name", "running"),
         config: Some(path.into()),
         ..Request::default()
     };
-    let config = request.resolve(&catalogue)?;
-    Setup::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    let stages = Stages::new(&config, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let config = request.resolve(catalogue)?;
+    Setup::new(&config, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let stages = Stages::new(&config, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
     say!("{}: a valid configuration{}", path.display(), super::in_bodies(config.bodies()))?;
     for (index, (stage, config)) in stages.configs().enumerate() {
         let rule = stage.promotion.as_ref().map_or_else(|| "the run ends".into(), ToString::to_string);

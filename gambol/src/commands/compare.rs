@@ -1,11 +1,11 @@
 use super::{INTERRUPTED, Outcome};
-use clap::Args;
-use gambol::compare::{
+use crate::Registry;
+use crate::compare::{
     ComparisonFolder, Method, Part, PlanRequest, Progress, Runners, WorkOptions, merge, table, work, write_outcome,
 };
+use clap::Args;
 use ne_core::{StopConditions, StopSignal};
 use std::{path::PathBuf, process::ExitCode, time::Instant};
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -72,8 +72,8 @@ pub(crate) struct Compare {
 }
 
 impl Compare {
-    pub(crate) fn run(self) -> Outcome {
-        let catalogue = MovementCatalogue::default();
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        let catalogue = registry.movements.clone();
         let request = PlanRequest {
             methods: self.strategies.clone(),
             creatures: self.creatures.clone(),

@@ -1,14 +1,15 @@
 use super::{NOT_USABLE, Outcome, gait_text};
-use clap::Args;
-use creatures::Blueprint;
-use envs_core::Ground;
-use gambol::{
+use crate::{
+    Registry,
     champion::Champion,
     gait,
     run_folder::RunFolder,
-    sheet, source,
+    sheet, source, suggest,
     trajectory::{CsvTrajectory, read_csv},
 };
+use clap::Args;
+use creatures::Blueprint;
+use envs_core::Ground;
 use ne_core::archive;
 use std::{
     error::Error,
@@ -18,7 +19,7 @@ use std::{
 };
 use tasks::{
     MovementCatalogue,
-    gait::{GaitError, GaitReport, Kind},
+    gait::{GaitError, GaitReport},
 };
 
 #[derive(Args)]
@@ -48,7 +49,7 @@ pub(crate) struct Gait {
     #[arg(long, value_name = "NAME|FILE")]
     creature: Option<String>,
     /// As what a trajectory is judged [default: it is measured alone]
-    #[arg(long, value_parser = Kind::JUDGED)]
+    #[arg(long, value_name = "NAME")]
     movement: Option<String>,
     /// Draw a contact sheet of the gait, a PNG image
     #[arg(long, value_name = "FILE")]
@@ -70,12 +71,13 @@ struct Measured {
 }
 
 impl Gait {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         self.check_sheet()?;
+        let catalogue = &registry.movements;
         let with_sheet = self.sheet.is_some();
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         let Measured { gait, name, sheet } = match &self.creature {
-            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet)?,
+            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet, catalogue)?,
             None if is_csv => {
                 let path = self.gait.display();
                 return Err(format!("{path} does not say whose trajectory it is: give --creature NAME or FILE").into());
@@ -83,7 +85,7 @@ impl Gait {
             None if self.movement.is_some() => {
                 return Err("--movement is for trajectories: a champion says itself what it has learned".into());
             }
-            None => of_champion(&champion_file(&self.gait)?, with_sheet)?,
+            None => of_champion(&champion_file(&self.gait)?, with_sheet, catalogue)?,
         };
         if let (Some(path), Some(sheet)) = (&self.sheet, &sheet) {
             archive::write_whole(path, sheet).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
@@ -91,7 +93,7 @@ impl Gait {
         if self.json {
             say!("{}", serde_json::to_string(&gait)?)?;
         } else {
-            say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles).trim_end())?;
+            say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles, catalogue).trim_end())?;
             if let Some(path) = &self.sheet {
                 say!("\ncontact sheet: {}", path.display())?;
             }
@@ -119,11 +121,10 @@ pub(super) fn champion_file(path: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(if path.is_dir() { RunFolder::open(path)?.champion() } else { path.into() })
 }
 
-fn of_champion(path: &Path, with_sheet: bool) -> Result<Measured, Box<dyn Error>> {
+fn of_champion(path: &Path, with_sheet: bool, catalogue: &MovementCatalogue) -> Result<Measured, Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    let catalogue = MovementCatalogue::default();
-    let gait = gait::measure(&champion, &catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    let sheet = with_sheet.then(|| sheet::of_champion(&champion, &gait.report, &catalogue)).transpose()?;
+    let gait = gait::measure(&champion, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let sheet = with_sheet.then(|| sheet::of_champion(&champion, &gait.report, catalogue)).transpose()?;
     Ok(Measured { gait, name: format!("{} {}", champion.creature.name, champion.movement.name), sheet })
 }
 
@@ -132,13 +133,17 @@ fn of_trajectory(
     creature: &str,
     movement: Option<&str>,
     with_sheet: bool,
+    catalogue: &MovementCatalogue,
 ) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
     let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
     let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;
     let trajectory = read.trajectory(&body).map_err(|error| located(path, &read, &error))?;
-    let report = GaitReport::of(&trajectory, movement.and_then(Kind::of));
+    let judged = || catalogue.judged().collect::<Vec<_>>();
+    let unknown = |movement| suggest::unknown("movement whose gaits are judged", movement, &judged());
+    let rules = movement.map(|movement| catalogue.rules(movement).ok_or_else(|| unknown(movement))).transpose()?;
+    let report = GaitReport::of(&trajectory, rules.as_deref());
     let subject = sheet::Subject {
         blueprint: &blueprint,
         movement,

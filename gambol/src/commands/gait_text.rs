@@ -1,8 +1,11 @@
 //! A gait report as text for people.
 
-use gambol::obstacles::ObstaclesPassed;
+use crate::obstacles::ObstaclesPassed;
 use std::fmt::Write;
-use tasks::gait::{GaitReport, JointUse, Kind, LegUse, NearWorlds};
+use tasks::{
+    MovementCatalogue,
+    gait::{GaitReport, JointUse, LegUse, NearWorlds},
+};
 
 /// How much of the end the footfall diagram shows, s.
 const DIAGRAM_SECONDS: f64 = 3.0;
@@ -10,8 +13,13 @@ const DIAGRAM_SECONDS: f64 = 3.0;
 const DIAGRAM_WIDTH: usize = 60;
 
 /// The verdict first, then what was measured, legs, joints and footfalls.
-pub(super) fn describe(name: &str, report: &GaitReport, obstacles: &[ObstaclesPassed]) -> String {
-    let mut text = verdict(name, report);
+pub(super) fn describe(
+    name: &str,
+    report: &GaitReport,
+    obstacles: &[ObstaclesPassed],
+    catalogue: &MovementCatalogue,
+) -> String {
+    let mut text = verdict(name, report, catalogue);
     text.push('\n');
     for (label, value) in measurements(report) {
         line(&mut text, &format!("  {label:<18} {value}"));
@@ -32,10 +40,13 @@ fn line(text: &mut String, line: &str) {
     let _ = writeln!(text, "{}", line.trim_end());
 }
 
-fn verdict(name: &str, report: &GaitReport) -> String {
+fn verdict(name: &str, report: &GaitReport, catalogue: &MovementCatalogue) -> String {
     let mut text = String::new();
     match &report.verdict {
-        None => line(&mut text, &format!("{name}: not judged; only {} are", Kind::JUDGED.join(", "))),
+        None => {
+            let judged: Vec<&str> = catalogue.judged().collect();
+            line(&mut text, &format!("{name}: not judged; only {} are", judged.join(", ")));
+        }
         Some(verdict) if verdict.usable => {
             line(&mut text, &format!("{name}: usable"));
             line(
@@ -71,7 +82,7 @@ fn measurements(report: &GaitReport) -> Vec<(&'static str, String)> {
     let rollovers = if torso.rollovers == 1.0 { "rollover" } else { "rollovers" };
     let mut rows = vec![
         (
-            if report.kind == Some(Kind::Backwards) { "way back" } else { "distance" },
+            if report.view.backwards { "way back" } else { "distance" },
             format!("{:.2} m in {:.2} s", travel.distance, report.duration),
         ),
         ("speed", format!("{:.2} m/s, {:.2} body lengths/s", travel.speed, travel.relative_speed)),
@@ -183,12 +194,12 @@ mod tests {
             Snapshot { time: f32::from(step) * 0.02, parts: vec![state], motor_work: 0.0 }
         };
         let film: Vec<Snapshot> = (0..=200).map(snapshot).collect();
-        GaitReport::of(&Trajectory::new(&body, &film).expect("a script"), Some(Kind::Running))
+        GaitReport::of(&Trajectory::new(&body, &film).expect("a script"), Some(&tasks::gait::RunningRules::default()))
     }
 
     #[test]
     fn the_verdict_comes_first_and_the_footfalls_last() {
-        let text = describe("hopper running", &report(), &[]);
+        let text = describe("hopper running", &report(), &[], &MovementCatalogue::default());
         assert!(text.starts_with("hopper running: not usable:\n  the episode lasted 4.0 s"), "{text}");
         let diagram: Vec<&str> = text.lines().rev().take(3).collect();
         assert_eq!(diagram[2], "  footfalls, the last 3.0 s");

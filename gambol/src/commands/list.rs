@@ -1,10 +1,10 @@
 use super::Outcome;
+use crate::Registry;
+use crate::config::{STRATEGIES, StrategyEntry};
 use clap::Args;
 use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, TERRAINS, TerrainEntry};
-use gambol::config::{STRATEGIES, StrategyEntry};
 use serde_json::json;
 use std::process::ExitCode;
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -52,8 +52,8 @@ pub(crate) struct Movements {
 }
 
 impl Movements {
-    pub(crate) fn run(self) -> Outcome {
-        let catalogue = MovementCatalogue::default();
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        let catalogue = &registry.movements;
         if self.json {
             let row = |entry: &tasks::MovementEntry| json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description });
             say!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>())?;

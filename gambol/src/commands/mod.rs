@@ -1,4 +1,5 @@
-//! The commands of the program.
+//! The commands of the program: each is a file.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
 
 /// Prints a line; a reader that went away (`| head`) is an error for `main`, not a panic.
 macro_rules! say {
@@ -27,9 +28,10 @@ mod robust;
 mod train;
 mod verify;
 
+use crate::Registry;
 use clap::{Parser, Subcommand};
 use ne_core::StopSignal;
-use std::{error::Error, process::ExitCode};
+use std::{error::Error, io, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
 type Outcome = Result<ExitCode, Box<dyn Error>>;
@@ -40,6 +42,29 @@ const DIVERGED: u8 = 3;
 const NOT_USABLE: u8 = 3;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
+
+/// The `gambol` program, with everything that a registry adds to it: reads the command line, does what it says, and tells how
+/// it went on the standard streams. It is `main` for a program with movements of its own; all commands know them.
+///
+/// Call it once, at the start: it sets up logging.
+pub fn program(registry: &Registry) -> ExitCode {
+    let log = tracing_subscriber::EnvFilter::try_from_env("GAMBOL_LOG").unwrap_or_else(|_| "warn".into());
+    // A program that logs already goes on as it does.
+    let _ = tracing_subscriber::fmt().with_env_filter(log).with_writer(io::stderr).try_init();
+    match Program::parse().command.run(registry) {
+        Ok(code) => code,
+        // What reads our output has seen enough.
+        Err(error)
+            if error.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe) =>
+        {
+            ExitCode::SUCCESS
+        }
+        Err(error) => {
+            eprintln!("error: {error}");
+            ExitCode::FAILURE
+        }
+    }
+}
 
 /// Makes Ctrl-C end the work after the generations under way; twice, at once.
 fn stop_on_interrupt(signal: &StopSignal) -> Result<(), ctrlc::Error> {
@@ -80,13 +105,13 @@ Exit codes:
 
 Set GAMBOL_LOG=debug to see what the libraries do."
 )]
-pub(crate) struct Program {
+struct Program {
     #[command(subcommand)]
-    pub(crate) command: Command,
+    command: Command,
 }
 
 #[derive(Subcommand)]
-pub(crate) enum Command {
+enum Command {
     /// Evolves a controller for a creature and a movement
     Train(Box<train::Train>),
     /// Goes on with a run from its last checkpoint
@@ -122,22 +147,22 @@ pub(crate) enum Command {
 }
 
 impl Command {
-    pub(crate) fn run(self) -> Outcome {
+    fn run(self, registry: &Registry) -> Outcome {
         match self {
-            Self::Train(train) => train.run(),
-            Self::Resume(resume) => resume.run(),
-            Self::Report(report) => report.run(),
-            Self::Verify(verify) => verify.run(),
-            Self::Replay(replay) => replay.run(),
-            Self::Gait(gait) => gait.run(),
-            Self::Robust(robust) => robust.run(),
-            Self::Check(check) => check.run(),
-            Self::Compare(compare) => compare.run(),
+            Self::Train(train) => train.run(registry),
+            Self::Resume(resume) => resume.run(registry),
+            Self::Report(report) => report.run(registry),
+            Self::Verify(verify) => verify.run(registry),
+            Self::Replay(replay) => replay.run(registry),
+            Self::Gait(gait) => gait.run(registry),
+            Self::Robust(robust) => robust.run(registry),
+            Self::Check(check) => check.run(registry),
+            Self::Compare(compare) => compare.run(registry),
             Self::Merge(merge) => merge.run(),
-            Self::Reproduce(reproduce) => reproduce.run(),
-            Self::Bench(bench) => bench.run(),
+            Self::Reproduce(reproduce) => reproduce.run(registry),
+            Self::Bench(bench) => bench.run(registry),
             Self::Creatures(creatures) => creatures.run(),
-            Self::Movements(movements) => movements.run(),
+            Self::Movements(movements) => movements.run(registry),
             Self::Terrains(terrains) => terrains.run(),
             Self::Strategies(strategies) => strategies.run(),
         }

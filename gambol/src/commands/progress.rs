@@ -1,6 +1,6 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
-use gambol::{
+use crate::{
     champion::Champion,
     config::RunConfig,
     shaping::{Origin, PlannedStage},

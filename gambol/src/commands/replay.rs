@@ -1,9 +1,9 @@
 use super::{Outcome, gait::champion_file};
-use clap::Args;
-use gambol::{
-    Setup, champion::Champion, dot::dot, front::Front, gait::Stage, report, run_folder::RunFolder, shaping::legs,
-    trajectory::Recording,
+use crate::{
+    Registry, Setup, champion::Champion, dot::dot, front::Front, gait::Stage, report, run_folder::RunFolder,
+    shaping::legs, trajectory::Recording,
 };
+use clap::Args;
 use ne_core::archive;
 use std::{
     error::Error,
@@ -54,9 +54,9 @@ pub(crate) struct Replay {
 }
 
 impl Replay {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         self.check_outputs(&champion_file(&self.champion)?)?;
-        let catalogue = MovementCatalogue::default();
+        let catalogue = registry.movements.clone();
         let mut champion = match self.point {
             Some(number) => point(&self.champion, number, &catalogue)?,
             None => Champion::read(&champion_file(&self.champion)?)?,

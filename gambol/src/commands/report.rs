@@ -1,8 +1,7 @@
 use super::Outcome;
+use crate::{Registry, report, run_folder::RunFolder};
 use clap::Args;
-use gambol::{report, run_folder::RunFolder};
 use std::{path::PathBuf, process::ExitCode};
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "Example:\n  gambol report runs/biped-1-running")]
@@ -12,9 +11,9 @@ pub(crate) struct Report {
 }
 
 impl Report {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let folder = RunFolder::open(&self.folder)?;
-        report::write_report(&folder, &MovementCatalogue::default(), None)?;
+        report::write_report(&folder, &registry.movements, None)?;
         say!("{}", folder.report().display())?;
         Ok(ExitCode::SUCCESS)
     }

@@ -1,13 +1,13 @@
 use super::{INTERRUPTED, Outcome};
-use clap::{Args, Subcommand};
-use gambol::reproduce::{
+use crate::Registry;
+use crate::reproduce::{
     Part, Progress, ReproductionFolder, Request,
     thesis::{CLOCK_MINUTES, GENERATIONS, RUNS},
     work, write_outcome,
 };
+use clap::{Args, Subcommand};
 use ne_core::StopSignal;
 use std::{path::PathBuf, process::ExitCode, time::Instant};
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -77,15 +77,15 @@ struct Thesis {
 }
 
 impl Reproduce {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         match self.what {
-            What::Thesis(thesis) => thesis.run(),
+            What::Thesis(thesis) => thesis.run(registry),
         }
     }
 }
 
 impl Thesis {
-    fn run(self) -> Outcome {
+    fn run(self, registry: &Registry) -> Outcome {
         let request = Request {
             creatures: self.creatures,
             movements: self.movements,
@@ -112,11 +112,11 @@ impl Thesis {
                 eprintln!("{done}/{all} after {:.0} s: {run}: {verdict}", began.elapsed().as_secs_f64());
             }
         };
-        let options = gambol::reproduce::WorkOptions {
+        let options = crate::reproduce::WorkOptions {
             part: self.part,
             at_once: self.at_once,
             threads: self.threads,
-            catalogue: MovementCatalogue::default(),
+            catalogue: registry.movements.clone(),
             signal: signal.clone(),
             on_run: &show,
         };

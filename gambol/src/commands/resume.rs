@@ -2,10 +2,9 @@ use super::{
     Outcome,
     train::{Limits, Manner, carry_out},
 };
+use crate::{Registry, run_folder::RunFolder, shaping, training};
 use clap::Args;
-use gambol::{run_folder::RunFolder, shaping, training};
 use std::path::PathBuf;
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -25,7 +24,7 @@ pub(crate) struct Resume {
 }
 
 impl Resume {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
         if let Some(run) = shaping::run_of_stage(&self.folder) {
             let (stage, run) = (self.folder.display(), run.display());
@@ -36,7 +35,7 @@ impl Resume {
         }
         config.stop = self.limits.beyond(config.stop);
         let stop = Some(config.stop);
-        carry_out(&self.manner, &config, MovementCatalogue::default(), |options, journey| {
+        carry_out(&self.manner, &config, registry.movements.clone(), |options, journey| {
             match config.stages.is_empty() {
                 true => Ok(training::resume(&self.folder, stop, options)?),
                 false => Ok(shaping::resume_stages(&self.folder, stop, journey, options)?),

@@ -1,11 +1,12 @@
 use super::{Outcome, gait::champion_file};
-use clap::Args;
-use gambol::{
+use crate::{
+    Registry,
     champion::Champion,
     robust::{Cause, Robustness, robustness},
 };
+use clap::Args;
 use std::{io, path::PathBuf, process::ExitCode};
-use tasks::{MovementCatalogue, gait::Kind};
+use tasks::gait::Goal;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -43,16 +44,16 @@ pub(crate) struct Robust {
 }
 
 impl Robust {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let path = champion_file(&self.champion)?;
         let champion = Champion::read(&path)?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
             .build()
             .map_err(|error| format!("cannot start {} threads: {error}", self.threads))?;
-        let catalogue = MovementCatalogue::default();
+        let catalogue = &registry.movements;
         let robustness = pool
-            .install(|| robustness(&champion, &catalogue, self.perturbations, self.seed))
+            .install(|| robustness(&champion, catalogue, self.perturbations, self.seed))
             .map_err(|error| format!("{}: {error}", path.display()))?;
         if self.json {
             say!("{}", serde_json::to_string(&robustness)?)?;
@@ -67,9 +68,9 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     let percent = |share: f64| format!("{:.0} %", 100.0 * share);
     let worlds = robustness.trials.len();
     say!("{name}: usable in {} of {worlds} perturbed worlds", percent(robustness.usable_share))?;
-    let what = match robustness.kind {
-        Kind::Running | Kind::Backwards | Kind::Swimming => "distance",
-        Kind::Jumping => "rise of the torso",
+    let what = match robustness.view.goal {
+        Goal::Distance => "distance",
+        Goal::Height => "rise of the torso",
     };
     let progress = robustness.progress_unperturbed;
     let usable = if robustness.usable_unperturbed { "usable" } else { "not usable" };
@@ -81,7 +82,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     say!("\n  worlds           usable")?;
     for share in &robustness.causes {
         let cause = match share.cause {
-            Cause::Bumps if robustness.kind == Kind::Swimming => "in water",
+            Cause::Bumps if robustness.view.in_water => "in water",
             Cause::Bumps if !robustness.bumpy => "another terrain",
             cause => cause.name(),
         };

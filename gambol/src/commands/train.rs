@@ -1,7 +1,6 @@
 use super::{INTERRUPTED, NOT_USABLE, Outcome, progress::Show};
-use clap::{Args, ValueEnum};
-use gambol::{
-    Setup,
+use crate::{
+    Registry, Setup,
     champion::Champion,
     config::{Request, RunConfig},
     gait, report,
@@ -9,6 +8,7 @@ use gambol::{
     suggest,
     training::{self, TrainOptions},
 };
+use clap::{Args, ValueEnum};
 use ne_core::{StopConditions, StopReason, StopSignal};
 use std::{
     cell::RefCell,
@@ -18,7 +18,7 @@ use std::{
 };
 use tasks::{
     MovementCatalogue,
-    gait::{Judgement, Kind, Reason},
+    gait::{Judgement, Reason},
 };
 
 #[derive(Args)]
@@ -173,7 +173,7 @@ impl Limits {
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);
-        let grade = self.until.map(|Until::Usable| gambol::gait::USABLE);
+        let grade = self.until.map(|Until::Usable| crate::gait::USABLE);
         StopConditions { generations, evaluations, steps, minutes, target, grade, stagnation }
     }
 }
@@ -201,8 +201,8 @@ fn minutes_of(text: &str) -> Result<f64, String> {
 }
 
 impl Train {
-    pub(crate) fn run(self) -> Outcome {
-        let catalogue = MovementCatalogue::default();
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        let catalogue = registry.movements.clone();
         let Self {
             creature, movement, preset, strategy, topology_from, engine, variation, terrain, config, set, ..
         } = &self;
@@ -318,9 +318,9 @@ pub(super) fn carry_out(
 
 /// What `gambol gait` says of a champion; `None` if gaits of its movement are not judged.
 fn verdict(champion: &Champion, catalogue: &MovementCatalogue) -> Option<Judgement> {
-    let kind = Kind::of(&champion.movement.name)?;
+    let rules = catalogue.rules(&champion.movement.name)?;
     let nothing_to_measure = || {
-        let reasons = vec![Reason::TooShort { seconds: 0.0, required: kind.judged_seconds() }];
+        let reasons = vec![Reason::TooShort { seconds: 0.0, required: rules.seconds() }];
         Judgement { usable: false, reasons, best_flight: None, near_worlds: None }
     };
     let report = gait::judge(champion, catalogue).ok();

@@ -1,10 +1,10 @@
 use super::{DIVERGED, Outcome, gait::champion_file};
+use crate::Registry;
+use crate::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
 use clap::Args;
-use gambol::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
 use ne_core::archive;
 use serde_json::json;
 use std::{io, path::PathBuf, process::ExitCode};
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -21,14 +21,14 @@ pub(crate) struct Verify {
 }
 
 impl Verify {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let path = &champion_file(&self.champion)?;
         // A file whose content was edited is replayed too: the user wants to know what the edit did.
         let (content, digests) = archive::read_unverified(path, CHAMPION_FORMAT, CHAMPION_VERSION)?;
         let champion: Champion = archive::content(path, content)?;
         let unchanged = digests.expected == digests.found;
         let verification =
-            champion.verify(&MovementCatalogue::default()).map_err(|error| format!("{}: {error}", path.display()))?;
+            champion.verify(&registry.movements).map_err(|error| format!("{}: {error}", path.display()))?;
         let identical = verification.is_identical();
         if self.json {
             let Verification { evaluation, recorded, diverges_at } = &verification;

@@ -3,7 +3,7 @@
 use crate::{gait::Gait, obstacles::ObstaclesPassed};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use serde::Serialize;
-use tasks::gait::{GaitReport, Kind};
+use tasks::gait::GaitReport;
 
 /// A gait report with what only Rust can say of it.
 #[derive(Serialize)]
@@ -16,8 +16,6 @@ pub(super) struct GaitData {
     against: Vec<String>,
     /// What the audit flagged, in words.
     flagged: Vec<String>,
-    /// From when to when speed and rhythm are measured, s.
-    window_s: [f64; 2],
     /// The contact sheet, as the address of an image.
     sheet: String,
 }
@@ -29,12 +27,10 @@ impl GaitData {
             [kind.passed().to_owned(), format!("{passed} of {of}")]
         };
         let reasons = report.verdict.iter().flat_map(|verdict| &verdict.reasons);
-        let from = if report.kind == Some(Kind::Jumping) { 0.0 } else { 0.5 * report.duration };
         Self {
             obstacles: obstacles.iter().map(told).collect(),
             against: reasons.map(ToString::to_string).collect(),
             flagged: report.cheats.iter().map(ToString::to_string).collect(),
-            window_s: [from, report.duration],
             sheet: format!("data:image/png;base64,{}", STANDARD.encode(sheet)),
             report,
         }

@@ -5,7 +5,7 @@ use super::{
     canvas::{ALARM, Canvas, GOOD, INK, Ink, QUIET},
     text::{Anchor, Style},
 };
-use tasks::gait::Kind;
+use tasks::gait::Goal;
 
 /// How many reasons are given.
 const REASONS: usize = 3;
@@ -68,7 +68,7 @@ impl Heading {
 
 fn figure(subject: &Subject<'_>) -> String {
     let report = subject.report;
-    if report.kind != Some(Kind::Jumping) {
+    if report.view.goal == Goal::Distance {
         return format!("{:.2} body lengths/s in the second half", report.travel.second_half_relative_speed);
     }
     match report.best_flight().map(|flight| flight.rise).or(report.aloft.highest) {

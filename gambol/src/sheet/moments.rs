@@ -1,7 +1,7 @@
 //! Which moments of an episode the frames show.
 
 use super::{FRAMES, Subject};
-use tasks::gait::{Flight, Kind};
+use tasks::gait::{Flight, Goal};
 
 /// Without a rhythm so much is shown, s.
 const SECONDS: f64 = 1.0;
@@ -27,7 +27,7 @@ pub(super) struct Moments {
 
 impl Moments {
     pub(super) fn choose(subject: &Subject<'_>) -> Self {
-        let jump = (subject.report.kind == Some(Kind::Jumping)).then(|| flight(subject)).flatten();
+        let jump = (subject.report.view.goal == Goal::Height).then(|| flight(subject)).flatten();
         let (caption, [from, to], closed) = match jump {
             Some(flight) => jump_of(subject, flight),
             None => stride(subject),

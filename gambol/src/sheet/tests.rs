@@ -1,6 +1,6 @@
 use super::{canvas::CONTACT, *};
 use tasks::PartState;
-use tasks::gait::{Kind, Trajectory};
+use tasks::gait::{JumpingRules, Rules, RunningRules, Trajectory};
 
 /// A biped that hops on the spot: half a second on the ground, half a second above it.
 fn hops(blueprint: &Blueprint, seconds: u16) -> Vec<Snapshot> {
@@ -25,9 +25,9 @@ fn biped() -> Blueprint {
     Blueprint::new(creatures::find("biped-1").expect("shipped")).expect("valid")
 }
 
-fn report(blueprint: &Blueprint, snapshots: &[Snapshot], kind: Option<Kind>) -> GaitReport {
+fn report(blueprint: &Blueprint, snapshots: &[Snapshot], rules: Option<&dyn Rules>) -> GaitReport {
     let body = envs_core::body_of(blueprint);
-    GaitReport::of(&Trajectory::from_positions(&body, snapshots).expect("a script"), kind)
+    GaitReport::of(&Trajectory::from_positions(&body, snapshots).expect("a script"), rules)
 }
 
 /// Width and height as the PNG's header has them.
@@ -40,11 +40,12 @@ fn size(png: &[u8]) -> [u32; 2] {
 fn a_sheet_is_an_image_of_its_width_and_always_the_same() {
     let blueprint = biped();
     let ground = Ground::flat();
-    for (kind, movement, seconds) in
-        [(Some(Kind::Running), "running", 20), (Some(Kind::Jumping), "jumping", 5), (None, "standing", 1)]
+    let (running, jumping): (&dyn Rules, &dyn Rules) = (&RunningRules::default(), &JumpingRules);
+    for (rules, movement, seconds) in
+        [(Some(running), "running", 20), (Some(jumping), "jumping", 5), (None, "standing", 1)]
     {
         let snapshots = hops(&blueprint, seconds);
-        let report = report(&blueprint, &snapshots, kind);
+        let report = report(&blueprint, &snapshots, rules);
         let subject = Subject {
             blueprint: &blueprint,
             movement: Some(movement),
@@ -80,7 +81,7 @@ fn has(canvas: &Canvas, ink: canvas::Ink) -> bool {
 fn frames_mark_what_touches_the_ground() {
     let blueprint = biped();
     let snapshots = hops(&blueprint, 5);
-    let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
+    let report = report(&blueprint, &snapshots, Some(&JumpingRules));
     let ground = Ground::flat();
     let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);
@@ -96,7 +97,7 @@ fn frames_mark_what_touches_the_ground() {
 fn a_jump_is_shown_from_before_take_off_until_after_landing() {
     let blueprint = biped();
     let snapshots = hops(&blueprint, 5);
-    let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
+    let report = report(&blueprint, &snapshots, Some(&JumpingRules));
     let ground = Ground::flat();
     let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);
@@ -114,7 +115,7 @@ fn a_body_that_lies_at_the_end_is_shown_there() {
     let last = snapshots.len() - 1;
     let torso = &mut snapshots[last].parts[0];
     (torso.cos, torso.sin) = (0.0, 1.0);
-    let report = report(&blueprint, &snapshots, Some(Kind::Jumping));
+    let report = report(&blueprint, &snapshots, Some(&JumpingRules));
     let ground = Ground::flat();
     let subject = subject(&blueprint, &ground, &snapshots, &report);
     let moments = Moments::choose(&subject);

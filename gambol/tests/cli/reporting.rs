@@ -38,8 +38,8 @@ fn a_report_stands_alone_and_holds_the_run() -> Outcome {
     assert_eq!(data["champion"]["replay"]["frames"], 61);
     assert_eq!(data["config"]["seed"], 1);
     let gait = &data["gait"];
-    assert_eq!((&gait["kind"], &gait["verdict"]["usable"]), (&"running".into(), &false.into()));
-    assert_eq!(gait["window_s"], serde_json::json!([30.0, gait["duration_s"]]));
+    assert_eq!((&gait["judged_as"], &gait["verdict"]["usable"]), (&"running".into(), &false.into()));
+    assert_eq!(gait["window"], serde_json::json!({ "from_s": 30.0, "to_s": gait["duration_s"] }));
     assert_eq!(gait["legs"].as_array().map(Vec::len), Some(2));
     let sheet = gait["sheet"].as_str().expect("a contact sheet");
     assert!(sheet.starts_with("data:image/png;base64,iVBORw0KGgo"), "{}", &sheet[..60]);

@@ -15,9 +15,9 @@
 //! - **The ground is flat, at height 0,** unless [`Trajectory::on_terrain`] says otherwise.
 //!
 //! ```
-//! use tasks::gait::{GaitReport, Kind};
+//! use tasks::gait::{GaitReport, RunningRules};
 //! # fn report(body: &tasks::Body, snapshots: &[tasks::Snapshot]) -> Result<(), tasks::gait::GaitError> {
-//! let report = GaitReport::measure(body, snapshots, Kind::of("running"))?;
+//! let report = GaitReport::measure(body, snapshots, Some(&RunningRules::default()))?;
 //! for reason in report.verdict.iter().flat_map(|verdict| &verdict.reasons) {
 //!     // "left leg: no touchdown for 5.2 s, at most 3 s allowed"
 //!     let _ = reason.to_string();
@@ -39,6 +39,7 @@ mod other_contact;
 mod reason;
 mod report;
 mod rhythm;
+mod rules;
 mod spectrum;
 mod torso;
 mod trajectory;
@@ -55,19 +56,15 @@ pub use error::GaitError;
 pub use flight::{Aloft, Flight};
 pub use ground::GroundProfile;
 pub use joint::JointUse;
-pub use judgement::{Judgement, Kind, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds};
+pub use judgement::{
+    Judgement, JumpingRules, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds, RunningRules, SwimmingRules,
+};
 pub use leg::{LegJoint, LegUse};
 pub use other_contact::OtherContact;
 pub use reason::Reason;
 pub use report::GaitReport;
 pub use rhythm::Rhythm;
+pub use rules::{Findings, Goal, Rules, View};
 pub use torso::Uprightness;
 pub use trajectory::Trajectory;
 pub use travel::Travel;
-
-/// How long an episode of running is to be judged, s.
-pub const RUNNING_SECONDS: f64 = 60.0;
-/// How long an episode of swimming is to be judged, s.
-pub const SWIMMING_SECONDS: f64 = 20.0;
-/// How long an episode of jumping is to be judged, s.
-pub const JUMPING_SECONDS: f64 = 5.0;

@@ -56,11 +56,13 @@ pub enum Reason {
     Brittle { usable: usize, worlds: usize, required: usize },
     /// The audit flagged a cheat.
     Cheat(Cheat),
+    /// What rules of another crate find: a word for files and tables, and a sentence with figure and limit.
+    Other { name: String, message: String },
 }
 
 impl Reason {
     /// What kind of reason it is, as in files: "slow", "no-touchdown"; for a cheat, which.
-    pub fn name(&self) -> &'static str {
+    pub fn name(&self) -> &str {
         match self {
             Self::TooShort { .. } => "too-short",
             Self::Slow { .. } => "slow",
@@ -86,7 +88,14 @@ impl Reason {
             Self::NotStanding { .. } => "not-standing",
             Self::Brittle { .. } => "brittle",
             Self::Cheat(cheat) => cheat.kind.name(),
+            Self::Other { name, .. } => name,
         }
+    }
+
+    /// A reason of rules of one's own. `name`: lower case, hyphens, as [`name`](Self::name) tells it; `message`: a sentence
+    /// with the figure and the limit.
+    pub fn other(name: &str, message: impl Into<String>) -> Self {
+        Self::Other { name: name.into(), message: message.into() }
     }
 }
 
@@ -173,6 +182,7 @@ impl fmt::Display for Reason {
                 write!(f, "usable in {usable} of {worlds} near worlds, at least {required} required")
             }
             Self::Cheat(cheat) => write!(f, "{cheat}"),
+            Self::Other { message, .. } => write!(f, "{message}"),
         }
     }
 }

@@ -1,6 +1,6 @@
 use super::{
-    Aloft, Cheat, GaitError, JointUse, Judgement, Kind, LegUse, OtherContact, Rhythm, Trajectory, Travel, Uprightness,
-    audit, spectrum::Spectrum,
+    Aloft, Cheat, GaitError, Goal, Interval, JointUse, Judgement, LegUse, OtherContact, Rhythm, Rules, Trajectory,
+    Travel, Uprightness, View, audit, spectrum::Spectrum,
 };
 use crate::{Body, Snapshot};
 use serde::{Deserialize, Serialize};
@@ -14,8 +14,12 @@ pub struct GaitReport {
     /// How long a step lasted, s.
     #[serde(rename = "time_step_s")]
     pub time_step: f64,
-    /// Distance, speed and cost; backwards, if it was judged as [`Kind::Backwards`]; of the centre of mass, if it was judged as
-    /// [`Kind::Swimming`].
+    /// How it was looked at.
+    #[serde(default)]
+    pub view: View,
+    /// From when to when rhythm and frequencies were measured.
+    pub window: Interval,
+    /// Distance, speed and cost; backwards, or of the centre of mass in water, if that is the [view](View).
     pub travel: Travel,
     /// The torso's turning.
     pub torso: Uprightness,
@@ -32,8 +36,8 @@ pub struct GaitReport {
     pub rhythm: Rhythm,
     /// What the audit flagged; empty for an honest gait.
     pub cheats: Vec<Cheat>,
-    /// As what it was judged.
-    pub kind: Option<Kind>,
+    /// The [name](Rules::name) of the rules by which it was judged.
+    pub judged_as: Option<String>,
     /// Whether it is usable; `None` if it was not to be judged.
     pub verdict: Option<Judgement>,
 }
@@ -44,32 +48,42 @@ impl GaitReport {
     ///
     /// # Errors
     /// See [`Trajectory::new`].
-    pub fn measure(body: &Body, trajectory: &[Snapshot], kind: Option<Kind>) -> Result<Self, GaitError> {
-        Ok(Self::of(&Trajectory::new(body, trajectory)?, kind))
+    pub fn measure(body: &Body, trajectory: &[Snapshot], rules: Option<&dyn Rules>) -> Result<Self, GaitError> {
+        Ok(Self::of(&Trajectory::new(body, trajectory)?, rules))
     }
 
-    /// Measures a trajectory; one to be judged as [`Kind::Backwards`] with backwards as the way ahead, one to be judged as
-    /// [`Kind::Swimming`] by its centre of mass.
-    pub fn of(trajectory: &Trajectory<'_>, kind: Option<Kind>) -> Self {
-        match kind {
-            Some(Kind::Backwards) => Self::facing(&trajectory.clone().backwards(), kind),
-            Some(Kind::Swimming) => Self::facing(&trajectory.clone().swimming(), kind),
-            Some(Kind::Running | Kind::Jumping) | None => Self::facing(trajectory, kind),
+    /// Measures a trajectory and judges it by rules, as they [look at it](Rules::view). Without rules it is measured and
+    /// audited as what gets ahead on the ground, and not judged.
+    pub fn of(trajectory: &Trajectory<'_>, rules: Option<&dyn Rules>) -> Self {
+        let view = rules.map(Rules::view).unwrap_or_default();
+        if !view.backwards && !view.in_water {
+            return Self::seen(trajectory, view, rules);
         }
+        let mut trajectory = trajectory.clone();
+        if view.backwards {
+            trajectory = trajectory.backwards();
+        }
+        if view.in_water {
+            trajectory = trajectory.swimming();
+        }
+        Self::seen(&trajectory, view, rules)
     }
 
     /// Measures a trajectory that knows which way is ahead.
-    fn facing(trajectory: &Trajectory<'_>, kind: Option<Kind>) -> Self {
+    fn seen(trajectory: &Trajectory<'_>, view: View, rules: Option<&dyn Rules>) -> Self {
         let body = trajectory.body();
-        let window = match kind {
-            Some(Kind::Jumping) => 0..=trajectory.steps(),
-            Some(Kind::Running | Kind::Backwards | Kind::Swimming) | None => trajectory.at(0.5)..=trajectory.steps(),
+        let first = match view.goal {
+            Goal::Height => 0,
+            Goal::Distance => trajectory.at(0.5),
         };
+        let window = first..=trajectory.steps();
         let spectrum = Spectrum::new(window.end() - window.start() + 1, trajectory.time_step());
         let hinges = body.hinges.iter().enumerate();
         let mut report = Self {
             duration: trajectory.seconds(),
             time_step: trajectory.time_step(),
+            view,
+            window: Interval { from: trajectory.time(first), to: trajectory.seconds() },
             travel: Travel::measure(trajectory),
             torso: Uprightness::measure(trajectory),
             aloft: Aloft::measure(trajectory),
@@ -84,11 +98,11 @@ impl GaitReport {
                 .collect(),
             rhythm: Rhythm::measure(trajectory, &window),
             cheats: Vec::new(),
-            kind,
+            judged_as: rules.map(|rules| rules.name().to_owned()),
             verdict: None,
         };
-        report.cheats = audit::audit(trajectory, &report.joints, kind);
-        report.verdict = kind.map(|kind| Judgement::of(kind, &report, trajectory));
+        report.cheats = audit::audit(trajectory, &report.joints, view);
+        report.verdict = rules.map(|rules| Judgement::of(rules, &report, trajectory));
         report
     }
 
@@ -96,5 +110,13 @@ impl GaitReport {
     /// is not judged as a jump.
     pub fn best_flight(&self) -> Option<&super::Flight> {
         self.verdict.as_ref().and_then(|verdict| self.aloft.flights.get(verdict.best_flight?))
+    }
+
+    /// What the movement is [about](Goal), m: the distance, or how far the torso rises in the highest flight.
+    pub fn progress(&self) -> f64 {
+        match self.view.goal {
+            Goal::Distance => self.travel.distance,
+            Goal::Height => self.aloft.highest.unwrap_or(0.0),
+        }
     }
 }

@@ -1,15 +1,20 @@
 //! Scripted gaits with known answers, and trajectories of any kind.
 
 use super::{
-    CheatKind, GaitError, GaitReport, Kind, NearWorlds, Reason, Trajectory,
+    CheatKind, GaitError, GaitReport, JumpingRules, NearWorlds, Reason, Rules, RunningRules, SwimmingRules, Trajectory,
     synthetic::{Pose, STANCE, STRIDE, TIME_STEP, body, film},
 };
 use crate::{Body, PartState, Snapshot};
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-fn report(seconds: f64, kind: Kind, script: impl Fn(usize) -> Pose) -> GaitReport {
-    GaitReport::measure(&body(), &film(seconds, script), Some(kind)).expect("a script can be measured")
+const RUNNING: &dyn Rules = &RunningRules { backwards: false };
+const BACKWARDS: &dyn Rules = &RunningRules { backwards: true };
+const JUMPING: &dyn Rules = &JumpingRules;
+const SWIMMING: &dyn Rules = &SwimmingRules;
+
+fn report(seconds: f64, rules: &dyn Rules, script: impl Fn(usize) -> Pose) -> GaitReport {
+    GaitReport::measure(&body(), &film(seconds, script), Some(rules)).expect("a script can be measured")
 }
 
 fn reasons(report: &GaitReport) -> Vec<String> {
@@ -22,7 +27,7 @@ fn near(found: f64, expected: f64, tolerance: f64) {
 
 #[test]
 fn a_walker_is_measured_and_usable() {
-    let report = report(60.0, Kind::Running, Pose::walking);
+    let report = report(60.0, RUNNING, Pose::walking);
     assert_eq!(reasons(&report), Vec::<String>::new());
     assert!(report.verdict.as_ref().is_some_and(|verdict| verdict.usable));
     near(report.travel.distance, 60.0, 1e-4);
@@ -54,7 +59,7 @@ fn a_walker_is_measured_and_usable() {
 
 #[test]
 fn a_jumper_is_measured_and_usable() {
-    let report = report(5.0, Kind::Jumping, Pose::jumping);
+    let report = report(5.0, JUMPING, Pose::jumping);
     assert_eq!(reasons(&report), Vec::<String>::new());
     let flight = report.best_flight().expect("a flight");
     near(flight.interval.from, 1.0, 1e-6);
@@ -71,7 +76,7 @@ fn legs_that_push_off_far_apart_do_not_jump_together() {
         pose.touching[1] &= !(30..=80).contains(&step);
         pose
     };
-    let report = report(5.0, Kind::Jumping, late);
+    let report = report(5.0, JUMPING, late);
     assert_eq!(reasons(&report), ["jump at 1.0 s: the legs pushed off 0.42 s apart, at most 0.15 s allowed"]);
 }
 
@@ -84,13 +89,13 @@ fn a_hop_in_one_flight_and_height_in_another_are_no_jump() {
         pose.touching = [false, !hop, !hop];
         pose
     };
-    let report = report(5.0, Kind::Jumping, script);
+    let report = report(5.0, JUMPING, script);
     assert_eq!(reasons(&report), ["jump at 3.0 s: centre of mass rose 0.00 m, at least 0.24 m required"]);
 }
 
 #[test]
 fn one_who_stays_on_the_ground_does_not_jump() {
-    let report = report(5.0, Kind::Jumping, |_| Pose::standing());
+    let report = report(5.0, JUMPING, |_| Pose::standing());
     assert_eq!(reasons(&report), ["some part always touched the ground"]);
 }
 
@@ -104,7 +109,7 @@ fn a_leg_that_never_comes_down_is_named() {
         }
         pose
     };
-    let report = report(60.0, Kind::Running, hopping);
+    let report = report(60.0, RUNNING, hopping);
     let expected = [
         "left leg: no touchdown for 2.5 s, at most 1 s allowed",
         "left leg: did not leave the ground for 2.2 s, at most 1 s allowed",
@@ -135,14 +140,14 @@ fn a_dragged_foot_that_chatters_does_not_walk() {
         pose.touching[1] = !step.is_multiple_of(10);
         pose
     };
-    let report = report(60.0, Kind::Running, dragging);
+    let report = report(60.0, RUNNING, dragging);
     assert!(reasons(&report).iter().any(|reason| reason.starts_with("left leg: no touchdown for")));
 }
 
 #[test]
 fn tilt_counts_whole_turns() {
     let somersaults = |step: usize| Pose { tilt: -TAU * step as f64 / 1500.0, ..Pose::walking(step) };
-    let report = report(60.0, Kind::Running, somersaults);
+    let report = report(60.0, RUNNING, somersaults);
     near(report.torso.largest_tilt, 720.0, 1e-3);
     near(report.torso.rollovers, 2.0, 0.0);
     assert!(reasons(&report).contains(&"torso: tilted by 720° at 60.0 s, at most 45° allowed".to_string()));
@@ -157,7 +162,7 @@ fn walk(change: impl Fn(usize, &mut Pose)) -> Vec<String> {
         pose.hips = pose.hips.map(|hip| hip - pose.tilt);
         pose
     };
-    reasons(&report(60.0, Kind::Running, script))
+    reasons(&report(60.0, RUNNING, script))
 }
 
 const NOTHING: Vec<String> = Vec::new();
@@ -246,7 +251,7 @@ fn jump(change: impl Fn(f64, &mut Pose)) -> Vec<String> {
         change(step as f64 * TIME_STEP, &mut pose);
         pose
     };
-    reasons(&report(5.0, Kind::Jumping, script))
+    reasons(&report(5.0, JUMPING, script))
 }
 
 #[test]
@@ -287,7 +292,7 @@ fn a_jump_ends_standing_or_goes_on() {
         let work = 100.0 * (step / 60) as f64 + again.work;
         Pose { touching: if step < 5 { [false, true, true] } else { again.touching }, work, ..again }
     };
-    assert_eq!(reasons(&report(5.0, Kind::Jumping, on)), NOTHING);
+    assert_eq!(reasons(&report(5.0, JUMPING, on)), NOTHING);
 }
 
 #[test]
@@ -308,7 +313,7 @@ fn a_jump_takes_0_2_s_and_lifts_the_centre_of_mass() {
 
 #[test]
 fn a_gait_that_is_brittle_in_near_worlds_is_not_usable() {
-    let verdict = report(60.0, Kind::Running, Pose::walking).verdict.expect("judged");
+    let verdict = report(60.0, RUNNING, Pose::walking).verdict.expect("judged");
     assert_eq!(verdict.near_worlds, None, "a bare trajectory is judged alone");
     let near = |usable| verdict.clone().with_near_worlds(NearWorlds { usable, worlds: 8 });
     assert!(near(7).usable && near(7).near_worlds == Some(NearWorlds { usable: 7, worlds: 8 }));
@@ -320,7 +325,7 @@ fn a_gait_that_is_brittle_in_near_worlds_is_not_usable() {
 fn a_pause_of_a_quarter_is_no_running() {
     let pausing =
         |step: usize| Pose { x: 0.02 * step.min(1500).max(step.max(2250) - 750) as f64, ..Pose::walking(step) };
-    let reasons = reasons(&report(60.0, Kind::Running, pausing));
+    let reasons = reasons(&report(60.0, RUNNING, pausing));
     assert!(
         reasons.contains(&"quarter 3 of the episode: 0.00 m, some way forward required".to_string()),
         "{reasons:?}"
@@ -334,7 +339,7 @@ fn short_and_slow_is_said() {
         "the episode lasted 10.0 s, shorter than the 60 s to be judged",
         "second half: 0.20 body lengths/s, at least 0.5 required",
     ];
-    assert_eq!(reasons(&report(10.0, Kind::Running, slow))[..2], expected);
+    assert_eq!(reasons(&report(10.0, RUNNING, slow))[..2], expected);
 }
 
 #[test]
@@ -343,7 +348,7 @@ fn a_fast_joint_is_not_usable() {
         let swing = 0.1 * libm::sin(TAU * 6.0 * step as f64 * TIME_STEP);
         Pose { hips: [swing, Pose::walking(step).hips[1]], ..Pose::walking(step) }
     };
-    let report = report(60.0, Kind::Running, buzzing);
+    let report = report(60.0, RUNNING, buzzing);
     assert!(reasons(&report).contains(&"left leg: its joint swings at 6.0 Hz, at most 4 Hz allowed".to_string()));
 }
 
@@ -355,7 +360,7 @@ fn a_legless_body_jumps_by_a_quarter_of_its_length() {
             let pose = Pose::jumping(step);
             Pose { y: 0.8 + share * (pose.y - 0.8), ..pose }
         };
-        let report = GaitReport::measure(&body, &film(5.0, low), Some(Kind::Jumping));
+        let report = GaitReport::measure(&body, &film(5.0, low), Some(JUMPING));
         reasons(&report.expect("a script can be measured"))
     };
     // All of it is 0.46 m.
@@ -367,7 +372,7 @@ fn a_legless_body_jumps_by_a_quarter_of_its_length() {
 fn a_legless_body_must_move_every_joint() {
     let body = Body { legless: true, ..body() };
     let lazy = film(60.0, |step| Pose { hips: [Pose::walking(step).hips[0], 0.0], ..Pose::walking(step) });
-    let report = GaitReport::measure(&body, &lazy, Some(Kind::Running)).expect("a script can be measured");
+    let report = GaitReport::measure(&body, &lazy, Some(RUNNING)).expect("a script can be measured");
     assert_eq!(reasons(&report), ["right leg: its joint moves by 0° in the second half, at least 20° required"]);
 }
 
@@ -394,7 +399,7 @@ fn positions_alone_give_no_cost() {
     let walk = film(60.0, Pose::walking);
     let body = body();
     let trajectory = Trajectory::from_positions(&body, &walk).expect("positions");
-    let report = GaitReport::of(&trajectory, Some(Kind::Running));
+    let report = GaitReport::of(&trajectory, Some(RUNNING));
     assert_eq!(report.travel.cost_of_transport, None);
     assert!(report.verdict.is_some_and(|verdict| verdict.usable));
 }
@@ -402,7 +407,7 @@ fn positions_alone_give_no_cost() {
 #[test]
 fn a_cheat_speaks_against_a_gait() {
     let torn = |step: usize| Pose { gap: if step > 500 { 0.2 } else { 0.0 }, ..Pose::walking(step) };
-    let report = report(60.0, Kind::Running, torn);
+    let report = report(60.0, RUNNING, torn);
     let cheats: Vec<_> = report.cheats.iter().map(|cheat| cheat.kind).collect();
     assert_eq!(cheats, [CheatKind::JointSeparation]);
     assert!(report.verdict.is_some_and(|verdict| matches!(&verdict.reasons[..], [Reason::Cheat(_)])));
@@ -410,7 +415,7 @@ fn a_cheat_speaks_against_a_gait() {
 
 #[test]
 fn a_report_survives_a_file() {
-    let report = report(5.0, Kind::Jumping, Pose::jumping);
+    let report = report(5.0, JUMPING, Pose::jumping);
     let text = serde_json::to_string(&report).expect("it can be written");
     assert!(text.contains("\"distance_m\"") && text.contains("\"dominant_frequency_hz\""), "{text}");
     assert_eq!(serde_json::from_str::<GaitReport>(&text).expect("it can be read"), report);
@@ -425,20 +430,20 @@ fn swimming(step: usize) -> Pose {
 
 #[test]
 fn a_swimmer_needs_neither_ground_nor_footfalls_but_has_to_get_ahead() {
-    let swum = report(20.0, Kind::Swimming, swimming);
+    let swum = report(20.0, SWIMMING, swimming);
     assert_eq!(reasons(&swum), Vec::<String>::new());
     assert!((swum.travel.second_half_relative_speed - 1.0).abs() < 0.1, "{}", swum.travel.second_half_relative_speed);
-    assert!(reasons(&report(60.0, Kind::Running, swimming)).len() > 3, "it is no run");
+    assert!(reasons(&report(60.0, RUNNING, swimming)).len() > 3, "it is no run");
     let slow = |step: usize| Pose { x: 0.3 * Pose::walking(step).x, ..swimming(step) };
-    let said = reasons(&report(20.0, Kind::Swimming, slow));
+    let said = reasons(&report(20.0, SWIMMING, slow));
     assert!(said.len() == 1 && said[0].contains("body lengths/s, at least 0.5 required"), "{said:?}");
-    let short = reasons(&report(10.0, Kind::Swimming, swimming));
+    let short = reasons(&report(10.0, SWIMMING, swimming));
     assert!(short.len() == 1 && short[0].contains("shorter than the 20 s"), "{short:?}");
     let buzzing = |step: usize| {
         let angle = 0.3 * libm::sin(std::f64::consts::TAU * 6.0 * step as f64 * 0.02);
         Pose { hips: [angle, angle], ..swimming(step) }
     };
-    let said = reasons(&report(20.0, Kind::Swimming, buzzing));
+    let said = reasons(&report(20.0, SWIMMING, buzzing));
     assert!(said.iter().any(|reason| reason.contains("Hz")), "{said:?}");
 }
 
@@ -448,31 +453,20 @@ fn a_walker_backwards_is_judged_as_one_forwards() {
         let walking = Pose::walking(step);
         Pose { x: -walking.x, hips: walking.hips.map(|hip| -hip), ..walking }
     };
-    let report_of_a_run = report(60.0, Kind::Running, Pose::walking);
-    let report_of_a_retreat = report(60.0, Kind::Backwards, backwards);
+    let report_of_a_run = report(60.0, RUNNING, Pose::walking);
+    let report_of_a_retreat = report(60.0, BACKWARDS, backwards);
     assert_eq!(reasons(&report_of_a_retreat), Vec::<String>::new());
     assert_eq!(report_of_a_retreat.travel, report_of_a_run.travel);
-    assert_eq!(report_of_a_retreat.kind, Some(Kind::Backwards));
+    assert_eq!(report_of_a_retreat.judged_as.as_deref(), Some("backwards"));
     // Forwards is the wrong way, and so is backwards for a run.
-    for wrong in [report(60.0, Kind::Backwards, Pose::walking), report(60.0, Kind::Running, backwards)] {
+    for wrong in [report(60.0, BACKWARDS, Pose::walking), report(60.0, RUNNING, backwards)] {
         let reasons = reasons(&wrong);
         assert!(reasons[0].starts_with("second half: -1.00 body lengths/s") && reasons.len() >= 9, "{reasons:?}");
     }
     // A slide is one in either direction.
     let sliding = |step: usize| Pose { touching: [false, true, true], ..backwards(step) };
-    let cheats = report(60.0, Kind::Backwards, sliding).cheats;
+    let cheats = report(60.0, BACKWARDS, sliding).cheats;
     assert_eq!(cheats.iter().map(|cheat| cheat.kind.name()).collect::<Vec<_>>(), ["friction-ratchet"]);
-}
-
-#[test]
-fn names_of_movements_tell_the_kind() {
-    assert_eq!(Kind::of("running"), Some(Kind::Running));
-    assert_eq!(Kind::of("jumping"), Some(Kind::Jumping));
-    assert_eq!(Kind::of("time-aloft"), None);
-    assert_eq!(Kind::of("walking"), None);
-    let judged: Vec<_> = Kind::JUDGED.iter().filter_map(|movement| Kind::of(movement)).collect();
-    use Kind::{Backwards, Jumping, Running, Swimming};
-    assert_eq!(judged, [Running, Jumping, Jumping, Running, Running, Running, Backwards, Swimming]);
 }
 
 #[test]
@@ -538,16 +532,16 @@ fn trajectory() -> impl Strategy<Value = Vec<Snapshot>> {
 
 proptest! {
     #[test]
-    fn any_finite_trajectory_gives_finite_numbers(snapshots in trajectory(), legless: bool, kind in 0..3) {
+    fn any_finite_trajectory_gives_finite_numbers(snapshots in trajectory(), legless: bool, rules in 0..3) {
         let body = Body { legless, ..body() };
-        let kind = [Some(Kind::Running), Some(Kind::Jumping), None][kind as usize];
-        let report = GaitReport::measure(&body, &snapshots, kind).expect("it can be measured");
+        let rules = [Some(RUNNING), Some(JUMPING), None][rules as usize];
+        let report = GaitReport::measure(&body, &snapshots, rules).expect("it can be measured");
         let json = serde_json::to_value(&report).expect("it can be written");
         prop_assert!(all_finite(&json));
         let back: GaitReport = serde_json::from_value(json).expect("no number is null");
         prop_assert_eq!(back, report);
         if let Ok(trajectory) = Trajectory::from_positions(&body, &snapshots) {
-            let report = GaitReport::of(&trajectory, kind);
+            let report = GaitReport::of(&trajectory, rules);
             let json = serde_json::to_value(&report).expect("it can be written");
             let back: GaitReport = serde_json::from_value(json).expect("no number is null");
             prop_assert_eq!(back, report);

@@ -112,32 +112,32 @@ impl<'a> Trajectory<'a> {
     }
 
     /// Whose it is.
-    pub(super) fn body(&self) -> &Body {
+    pub fn body(&self) -> &Body {
         self.body
     }
 
     /// One a step, and the start.
-    pub(super) fn snapshots(&self) -> &[Snapshot] {
+    pub fn snapshots(&self) -> &[Snapshot] {
         &self.snapshots
     }
 
     /// Seconds of a step.
-    pub(super) fn time_step(&self) -> f64 {
+    pub fn time_step(&self) -> f64 {
         self.time_step
     }
 
     /// The number of steps: one less than the snapshots, at least 1.
-    pub(super) fn steps(&self) -> usize {
+    pub fn steps(&self) -> usize {
         self.snapshots.len() - 1
     }
 
     /// When a step was over, s.
-    pub(super) fn time(&self, step: usize) -> f64 {
+    pub fn time(&self, step: usize) -> f64 {
         step as f64 * self.time_step
     }
 
     /// How long it lasted, s; positive.
-    pub(super) fn seconds(&self) -> f64 {
+    pub fn seconds(&self) -> f64 {
         self.time(self.steps())
     }
 
@@ -168,7 +168,7 @@ impl<'a> Trajectory<'a> {
     }
 
     /// The height of a part's lowest point, m.
-    pub(super) fn lowest_point(&self, part: usize, step: usize) -> f64 {
+    pub fn lowest_point(&self, part: usize, step: usize) -> f64 {
         self.body.parts[part].lowest_point(&self.snapshots[step].parts[part]).into()
     }
 
@@ -185,7 +185,7 @@ impl<'a> Trajectory<'a> {
     }
 
     /// The height of the centre of mass, m.
-    pub(super) fn centre_height(&self, step: usize) -> f64 {
+    pub fn centre_height(&self, step: usize) -> f64 {
         let parts = self.body.parts.iter().zip(&self.snapshots[step].parts);
         parts.map(|(part, state)| f64::from(part.mass) * f64::from(state.y)).sum::<f64>() / self.mass()
     }
@@ -197,12 +197,12 @@ impl<'a> Trajectory<'a> {
 
     /// The torso's angle against [that of its file](Body::start_angle), rad, counting whole turns; at the start at most half
     /// a turn.
-    pub(super) fn tilts(&self) -> &[f64] {
+    pub fn tilts(&self) -> &[f64] {
         &self.tilts
     }
 
     /// A hinge's angle after each step, rad from the start pose, counting whole turns.
-    pub(super) fn hinge_angles(&self, hinge: usize) -> &[f64] {
+    pub fn hinge_angles(&self, hinge: usize) -> &[f64] {
         &self.hinge_angles[hinge]
     }
 
@@ -233,7 +233,7 @@ impl<'a> Trajectory<'a> {
     }
 
     /// Height of the torso's centre once settled, m; that of the start pose should a recording start below the ground.
-    pub(super) fn start_height(&self) -> f64 {
+    pub fn start_height(&self) -> f64 {
         let settled = f64::from(self.snapshots[0].torso().y);
         if settled > 0.0 { settled } else { f64::from(self.body.start_height) }
     }

@@ -1,9 +1,8 @@
 use super::Trajectory;
 use serde::{Deserialize, Serialize};
 
-/// How far, how fast and at what cost the torso travels, or the centre of mass of a gait that is judged as
-/// [`Swimming`](super::Kind::Swimming). Ahead is positive: forwards, or backwards for a gait that is
-/// judged as [`Backwards`](super::Kind::Backwards).
+/// How far, how fast and at what cost the torso travels, or the centre of mass of what swims. Ahead is positive: forwards,
+/// or backwards, if that is how the gait is [looked at](super::View).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Travel {
     /// From start to end, m.

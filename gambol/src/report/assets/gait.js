@@ -101,7 +101,7 @@ class FootfallDiagram {
     this.rows.push({ name: "in the air", spans: gait.aloft.flights, kind: "flight", best: gait.verdict?.best_flight });
     figure.hidden = false;
     this.place = figure.querySelector("div");
-    const [from, to] = gait.window_s;
+    const { from_s: from, to_s: to } = gait.window;
     figure.querySelector(".quiet").textContent = from > 0
       ? `a bar while the foot stands; shaded: ${tidy(from)} to ${tidy(to)} s, where speed and rhythm are judged`
       : "a bar while the foot stands; all of it is judged, the best flight is drawn strong";
@@ -130,7 +130,7 @@ class FootfallDiagram {
   drawBand(root, left, room, first, last) {
     const bottom = this.rows.length * FOOTFALL_ROW + 4;
     const x = time => left + (Math.min(Math.max(time, first), last) - first) / (last - first) * room;
-    const [from, to] = this.gait.window_s;
+    const { from_s: from, to_s: to } = this.gait.window;
     if (from < last) svg("rect", { class: "judged", x: x(from), y: 0, width: x(to) - x(from), height: bottom }, root);
     this.rows.forEach((row, i) => {
       const y = i * FOOTFALL_ROW + 13;

@@ -15,7 +15,7 @@ mod sustained;
 mod tunnelling;
 mod vibration;
 
-use super::{JointUse, Kind, Trajectory};
+use super::{JointUse, Trajectory, View};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -157,15 +157,15 @@ impl fmt::Display for Cheat {
 ///
 /// Getting ahead by sliding or falling is no cheat in a jump, which is not about getting ahead, nor in water, where nothing
 /// else can be done.
-pub(super) fn audit(trajectory: &Trajectory<'_>, joints: &[JointUse], kind: Option<Kind>) -> Vec<Cheat> {
+pub(super) fn audit(trajectory: &Trajectory<'_>, joints: &[JointUse], view: View) -> Vec<Cheat> {
     let mut cheats = separation::find(trajectory);
     cheats.extend(limits::find(trajectory));
     cheats.extend(speed_cap::find(trajectory));
     cheats.extend(energy::find(trajectory));
     cheats.extend(tunnelling::find(trajectory));
-    cheats.extend(vibration::find(trajectory, joints, kind));
+    cheats.extend(vibration::find(trajectory, joints, view.goal));
     cheats.extend(ballistic_limb::find(trajectory));
-    if !matches!(kind, Some(Kind::Jumping | Kind::Swimming)) {
+    if view.must_step() {
         cheats.extend(ratchet::find(trajectory));
         cheats.extend(fall::find(trajectory));
     }
@@ -185,15 +185,16 @@ fn size(part: &crate::BodyPart) -> (f64, f64) {
 #[cfg(test)]
 mod tests {
     use crate::gait::{
-        GaitReport, Kind,
+        GaitReport, JumpingRules, Rules, RunningRules,
         synthetic::{Pose, body, film},
     };
 
     #[test]
     fn honest_gaits_are_not_flagged() {
         let (walk, jump) = (film(20.0, Pose::walking), film(5.0, Pose::jumping));
-        for (kind, film) in [(Some(Kind::Running), &walk), (Some(Kind::Jumping), &jump), (None, &walk), (None, &jump)] {
-            let report = GaitReport::measure(&body(), film, kind).expect("a script");
+        let (running, jumping): (&dyn Rules, &dyn Rules) = (&RunningRules::default(), &JumpingRules);
+        for (rules, film) in [(Some(running), &walk), (Some(jumping), &jump), (None, &walk), (None, &jump)] {
+            let report = GaitReport::measure(&body(), film, rules).expect("a script");
             assert_eq!(report.cheats, []);
         }
     }

@@ -1,5 +1,5 @@
 use super::{Cheat, CheatKind};
-use crate::gait::{JointUse, Kind, Trajectory};
+use crate::gait::{Goal, JointUse, Trajectory};
 
 /// The eye blurs what swings faster, Hz; a usable gait stays below 5.
 const FASTEST: f64 = 8.0;
@@ -9,8 +9,8 @@ const MATTERS: f64 = 2.0;
 const MOST_REVERSALS: f64 = 2.0 * FASTEST;
 
 /// Joints that vibrate: bodies that buzz over the ground on an engine's friction and softness.
-pub(super) fn find(trajectory: &Trajectory<'_>, joints: &[JointUse], kind: Option<Kind>) -> Vec<Cheat> {
-    let time = if kind == Some(Kind::Jumping) { 0.0 } else { trajectory.time(trajectory.at(0.5)) };
+pub(super) fn find(trajectory: &Trajectory<'_>, joints: &[JointUse], goal: Goal) -> Vec<Cheat> {
+    let time = if goal == Goal::Height { 0.0 } else { trajectory.time(trajectory.at(0.5)) };
     let mut cheats = Vec::new();
     for joint in joints {
         let vibrates = joint.dominant_frequency > FASTEST && joint.dominant_amplitude > MATTERS;

@@ -1,7 +1,8 @@
-//! What speaks against a jump: on the way up, in the air, at the landing and at the end.
-
 use super::CLOCK_ERROR;
-use crate::gait::{Flight, GaitReport, Reason, Trajectory};
+use crate::gait::{Findings, Flight, GaitReport, Goal, Reason, Rules, Trajectory, View};
+
+/// How long the episode must be, s.
+const SECONDS: f64 = 5.0;
 
 /// A shorter flight is a hop of a run, s.
 const SHORTEST: f64 = 0.2;
@@ -29,29 +30,53 @@ const STANDING_SECONDS: f64 = 1.0;
 /// What jumps on has taken off for the last time no longer before the end than this, s.
 const JUMPS_ON: f64 = 1.5;
 
-/// Adds what speaks against a jump; tells the highest flight that makes it one.
-pub(super) fn judge(report: &GaitReport, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) -> Option<usize> {
-    let flights = &report.aloft.flights;
-    let judged: Vec<Vec<Reason>> = flights.iter().map(|flight| against(flight, trajectory)).collect();
-    let jumps: Vec<usize> = (0..flights.len()).filter(|&index| judged[index].is_empty()).collect();
-    let Some(&first) = jumps.first() else {
-        // What is against the best of them: the one with the least against it, then the highest.
-        let best = judged.into_iter().zip(flights).min_by(|(one, flight), (other, other_flight)| {
-            one.len().cmp(&other.len()).then(other_flight.centre_rise.total_cmp(&flight.centre_rise))
-        });
-        reasons.extend(best.map_or_else(|| vec![Reason::NeverAloft], |(against, _)| against));
-        return None;
-    };
-    let take_off = step_at(trajectory, flights[first].interval.from);
-    if !trajectory.body().legless {
-        lands_on_its_feet(trajectory, take_off, reasons);
+/// Jumping: 5 s.
+///
+/// It is usable if in one and the same flight every part is off the ground for at least 0.2 s, the centre of mass rises
+/// at least 0.3 × the start height and 5 cm above its start (without legs 0.25 body lengths), and all legs lose contact
+/// within 0.15 s before it; if from the take-off of the first such flight to the end the torso stays within 45° and nothing
+/// but feet touches the ground; if the body stands again in the last second, or jumps on; and no cheat is flagged. Legs,
+/// tilt and contacts are not asked of a legless body, which lies at the end as it lay.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct JumpingRules;
+
+impl Rules for JumpingRules {
+    fn name(&self) -> &str {
+        "jumping"
     }
-    let jumps_on = jumps.len() > 1
-        && jumps.last().is_some_and(|&last| trajectory.seconds() - flights[last].interval.from <= JUMPS_ON);
-    if !jumps_on {
-        stands(trajectory, reasons);
+
+    fn seconds(&self) -> f64 {
+        SECONDS
     }
-    jumps.into_iter().min_by(|&one, &other| flights[other].centre_rise.total_cmp(&flights[one].centre_rise))
+
+    fn view(&self) -> View {
+        View { goal: Goal::Height, ..View::default() }
+    }
+
+    fn judge(&self, report: &GaitReport, trajectory: &Trajectory<'_>) -> Findings {
+        let flights = &report.aloft.flights;
+        let judged: Vec<Vec<Reason>> = flights.iter().map(|flight| against(flight, trajectory)).collect();
+        let jumps: Vec<usize> = (0..flights.len()).filter(|&index| judged[index].is_empty()).collect();
+        let Some(&first) = jumps.first() else {
+            // What is against the best of them: the one with the least against it, then the highest.
+            let best = judged.into_iter().zip(flights).min_by(|(one, flight), (other, other_flight)| {
+                one.len().cmp(&other.len()).then(other_flight.centre_rise.total_cmp(&flight.centre_rise))
+            });
+            return Findings::new(best.map_or_else(|| vec![Reason::NeverAloft], |(against, _)| against));
+        };
+        let mut reasons = Vec::new();
+        let take_off = step_at(trajectory, flights[first].interval.from);
+        if !trajectory.body().legless {
+            lands_on_its_feet(trajectory, take_off, &mut reasons);
+        }
+        let jumps_on = jumps.len() > 1
+            && jumps.last().is_some_and(|&last| trajectory.seconds() - flights[last].interval.from <= JUMPS_ON);
+        if !jumps_on {
+            stands(trajectory, &mut reasons);
+        }
+        let higher = |&one: &usize, &other: &usize| flights[other].centre_rise.total_cmp(&flights[one].centre_rise);
+        Findings { reasons, best_flight: jumps.into_iter().min_by(higher) }
+    }
 }
 
 fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reason> {

@@ -1,7 +1,8 @@
-//! What speaks against a run, a swim, and everything judged like them.
-
 use super::CLOCK_ERROR;
-use crate::gait::{GaitReport, Reason, Trajectory};
+use crate::gait::{Findings, GaitReport, LegUse, Reason, Rules, Trajectory, View};
+
+/// How long the episode must be, s: bipeds that fall between 18 and 60 s of running look sound for 20 s.
+const SECONDS: f64 = 60.0;
 
 /// Slower than this is a stroll that no game calls running, body lengths/s.
 const SLOWEST: f64 = 0.5;
@@ -26,34 +27,62 @@ const LEAST_REGULARITY: f64 = 0.8;
 /// A joint of a legless body that moves by less is not used, degrees.
 const SMALLEST_RANGE: f64 = 20.0;
 
-pub(super) fn judge(report: &GaitReport, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
-    gets_ahead(report, reasons);
-    if trajectory.body().legless || report.legs.is_empty() {
-        joints_used(report, reasons);
-    } else {
-        upright(report, trajectory, reasons);
-        on_its_feet(report, reasons);
-        for leg in &report.legs {
-            steps(leg, trajectory, reasons);
-        }
-        let slips: f64 = report.legs.iter().filter_map(|leg| leg.slip_per_distance).sum();
-        let slip = slips / report.legs.len() as f64;
-        if slip > LARGEST_SLIP {
-            reasons.push(Reason::Slipping { slip, allowed: LARGEST_SLIP });
-        }
+/// Running, forwards or backwards, and everything that is judged like it: 60 s.
+///
+/// It is usable if over the second half the mean forward speed is at least 0.5 body lengths/s; the torso gets ahead
+/// in each quarter of the episode and in each quarter of its second half; every leg comes down (its foot touches the
+/// ground, or is less than 1 % of the body length above it) and lifts off at least once every second, from the
+/// start to the end, and its foot rises by at least 2 % of the body length between; the torso
+/// stays within 45° of its start, with a standard deviation of at most 12° over the second half, and above 0.6 of its start
+/// height on flat ground; parts that are no feet touch the ground for at most 1 % of the time; feet slip by at most
+/// 0.3 m for each metre of way, as a mean over all; no actuated joint's dominant frequency is above 4 Hz; the joints repeat
+/// themselves with a regularity of at least 0.8; and no cheat is flagged. A legless body (or one without an actuated leg)
+/// may turn, touch and lie as it likes; every actuated joint moves by at least 20° in the second half instead.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunningRules {
+    /// Whether every way is measured against the direction the creature faces.
+    pub backwards: bool,
+}
+
+impl Rules for RunningRules {
+    fn name(&self) -> &str {
+        if self.backwards { "backwards" } else { "running" }
     }
-    smooth(report, reasons);
-    if report.rhythm.strength < LEAST_REGULARITY {
-        reasons.push(Reason::Irregular { regularity: report.rhythm.strength, required: LEAST_REGULARITY });
+
+    fn seconds(&self) -> f64 {
+        SECONDS
+    }
+
+    fn view(&self) -> View {
+        View { backwards: self.backwards, ..View::default() }
+    }
+
+    fn judge(&self, report: &GaitReport, trajectory: &Trajectory<'_>) -> Findings {
+        let mut reasons = Vec::new();
+        gets_ahead(report, &mut reasons);
+        if trajectory.body().legless || report.legs.is_empty() {
+            joints_used(report, &mut reasons);
+        } else {
+            upright(report, trajectory, &mut reasons);
+            on_its_feet(report, &mut reasons);
+            for leg in &report.legs {
+                steps(leg, trajectory, &mut reasons);
+            }
+            let slips: f64 = report.legs.iter().filter_map(|leg| leg.slip_per_distance).sum();
+            let slip = slips / report.legs.len() as f64;
+            if slip > LARGEST_SLIP {
+                reasons.push(Reason::Slipping { slip, allowed: LARGEST_SLIP });
+            }
+        }
+        smooth(report, &mut reasons);
+        if report.rhythm.strength < LEAST_REGULARITY {
+            reasons.push(Reason::Irregular { regularity: report.rhythm.strength, required: LEAST_REGULARITY });
+        }
+        Findings::new(reasons)
     }
 }
 
-pub(super) fn judge_swimming(report: &GaitReport, reasons: &mut Vec<Reason>) {
-    gets_ahead(report, reasons);
-    smooth(report, reasons);
-}
-
-fn gets_ahead(report: &GaitReport, reasons: &mut Vec<Reason>) {
+pub(super) fn gets_ahead(report: &GaitReport, reasons: &mut Vec<Reason>) {
     let speed = report.travel.second_half_relative_speed;
     if speed < SLOWEST {
         reasons.push(Reason::Slow { speed, required: SLOWEST });
@@ -89,7 +118,7 @@ fn on_its_feet(report: &GaitReport, reasons: &mut Vec<Reason>) {
     }
 }
 
-fn steps(leg: &crate::gait::LegUse, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
+fn steps(leg: &LegUse, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
     let foot = || leg.foot.clone();
     let (without_touchdown, without_liftoff) = (leg.longest_without_touchdown, leg.longest_without_liftoff);
     if without_touchdown > LONGEST_REST + CLOCK_ERROR {
@@ -105,7 +134,7 @@ fn steps(leg: &crate::gait::LegUse, trajectory: &Trajectory<'_>, reasons: &mut V
     }
 }
 
-fn smooth(report: &GaitReport, reasons: &mut Vec<Reason>) {
+pub(super) fn smooth(report: &GaitReport, reasons: &mut Vec<Reason>) {
     for joint in report.joints.iter().filter(|joint| joint.actuated && joint.dominant_frequency > HIGHEST_FREQUENCY) {
         let (joint, frequency) = (joint.name.clone(), joint.dominant_frequency);
         reasons.push(Reason::TooFast { joint, frequency, allowed: HIGHEST_FREQUENCY });

@@ -1,0 +1,84 @@
+//! Somebody else's program has every command for somebody else's movement: driven as a user would.
+
+use std::{
+    fs,
+    path::Path,
+    process::{Command, Output, Stdio},
+    thread,
+    time::Duration,
+};
+
+fn program(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_own-program"));
+    command.args(arguments).current_dir(folder);
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    program(folder, arguments).output().expect("the program runs")
+}
+
+/// What it printed; it must have ended with this code.
+fn said(folder: &Path, code: i32, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {}", text(&output.stderr));
+    text(&output.stdout) + &text(&output.stderr)
+}
+
+#[test]
+fn every_command_knows_the_movement_and_its_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    assert!(said(here, 0, &["movements"]).contains("high-kick"));
+
+    let train = ["train", "biped-2", "high-kick", "--generations", "40", "--seed", "3"];
+    said(here, 0, &[&train[..], &["--out", "whole"]].concat());
+    let judged: serde_json::Value = serde_json::from_str(&run_json(here, &["gait", "whole", "--json"])).expect("JSON");
+    assert_eq!(judged["judged_as"], "high-kick");
+    assert_eq!(judged["view"]["goal"], "height");
+    assert!(said(here, 0, &["verify", "whole/champion.json"]).contains("identical"));
+    said(here, 0, &["check", "whole/champion.json"]);
+    said(here, 0, &["report", "whole"]);
+    said(here, 0, &["replay", "whole/champion.json", "--html", "replay.html", "--trajectory", "kick.csv"]);
+    let of_trajectory = run(here, &["gait", "kick.csv", "--creature", "biped-2", "--movement", "high-kick", "--json"]);
+    let of_trajectory: serde_json::Value = serde_json::from_slice(&of_trajectory.stdout).expect("JSON");
+    assert_eq!(of_trajectory["judged_as"], "high-kick");
+    assert!(said(here, 0, &["robust", "whole", "--perturbations", "10"]).contains("rise of the torso"));
+
+    // Killed, and resumed.
+    let broken = [&train[..], &["--out", "broken", "--quiet"]].concat();
+    let mut child = program(here, &broken).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
+    while !here.join("broken/checkpoint.json").exists() && child.try_wait().expect("a process").is_none() {
+        thread::sleep(Duration::from_millis(2));
+    }
+    child.kill().and_then(|()| child.wait()).expect("it can be killed");
+    if !here.join("broken/report.html").exists() {
+        said(here, 0, &["resume", "broken", "--quiet"]);
+    }
+    let bytes = |name: &str| fs::read(here.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert_eq!(bytes("whole/champion.json"), bytes("broken/champion.json"));
+    assert_eq!(bytes("whole/log.jsonl"), bytes("broken/log.jsonl"));
+
+    let compare = ["compare", "--strategies", "ga,cma-es", "--creatures", "biped-2", "--movements", "high-kick"];
+    let small = ["--seeds", "2", "--evaluations", "200", "--out", "comparison"];
+    said(here, 0, &[&compare[..], &small].concat());
+}
+
+#[test]
+fn a_run_ends_as_soon_as_the_verdict_is_met_and_its_reasons_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    let until = ["train", "biped-2", "high-kick", "--until", "usable", "--generations", "400", "--out", "usable"];
+    assert!(said(here, 0, &until).contains("usable"));
+    said(here, 0, &["gait", "usable"]);
+    // One generation of random nets is no kick.
+    said(here, 0, &["train", "biped-2", "high-kick", "--generations", "1", "--out", "random", "--quiet"]);
+    let reasons = said(here, 3, &["gait", "random"]);
+    assert!(reasons.contains("required") || reasons.contains("allowed"), "{reasons}");
+}
+
+/// What it printed, whatever its code says of the gait.
+fn run_json(folder: &Path, arguments: &[&str]) -> String {
+    String::from_utf8(run(folder, arguments).stdout).expect("text")
+}
