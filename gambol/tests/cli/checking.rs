@@ -92,13 +92,35 @@ fn a_creature_that_starts_out_of_balance_is_warned_of() -> Outcome {
 
 /// Its centre of mass is above its feet, but motors that are asked for speed 0 let an ankle creep.
 #[test]
-fn a_creature_whose_joints_creep_is_warned_of() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/creatures/biped-with-feet.json");
-    let printed = succeed(gambol("check").arg(path));
+fn a_creature_whose_joints_creep_is_warned_of() -> Outcome {
+    let mut creature: Value = serde_json::from_str(&fs::read_to_string(example("biped-with-feet"))?)?;
+    for part in creature["parts"].as_array_mut().expect("parts") {
+        // The feet in front of the ankles.
+        if part["name"].as_str().is_some_and(|name| name.ends_with("foot")) {
+            part["position"][0] = (part["position"][0].as_f64().expect("a place") + 0.06).into();
+        }
+    }
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("changed.json");
+    fs::write(&path, creature.to_string())?;
+    let printed = succeed(gambol("check").arg(&path));
     assert_says(
         &printed,
         &["warning: it settles tilted by ", " % lower: it starts out of balance", "creep under load"],
     );
+    Ok(())
+}
+
+fn example(name: &str) -> String {
+    format!("{}/../examples/creatures/{name}.json", env!("CARGO_MANIFEST_DIR"))
+}
+
+#[test]
+fn the_bodies_to_try_start_in_balance() {
+    for name in ["biped-with-feet", "hexapod", "hopper", "long-apod", "tripod"] {
+        let printed = succeed(gambol("check").arg(example(name)));
+        assert!(printed.contains("a valid creature") && !printed.contains("warning"), "{printed}");
+    }
 }
 
 #[test]
