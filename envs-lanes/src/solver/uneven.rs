@@ -39,7 +39,7 @@ struct Lane {
     ledges: Arc<Ledges>,
     /// The shapes that may come within reach while the part is where `stay` says, in the order of the ground.
     nearby: Vec<usize>,
-    /// From where to where the part's centre may move until `nearby` has to be looked up again, m.
+    /// From where to where the part's centre may move before `nearby` must be looked up again, m.
     stay: [f32; 2],
     /// The shapes that are within reach, in the order of the ground.
     footings: Vec<Footing>,

@@ -197,7 +197,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
     let long: Vec<u8> = (0..=16).map(|worlds| grade([14, worlds])).collect();
     assert_eq!(long, [5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9]);
     court.tried();
-    // Who is less fit than the champion must be steadier, or it is told as no more than usable.
+    // A candidate less fit than the champion must be steadier, or it counts as usable and no more.
     let against = |champion: u8, steady| {
         let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
         (court.grades(&[one], standing(champion, 2.0)).0[0], court.tried())
