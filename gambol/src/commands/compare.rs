@@ -1,7 +1,9 @@
 use super::{INTERRUPTED, Outcome};
-use crate::Registry;
-use crate::compare::{
-    ComparisonFolder, Method, Part, PlanRequest, Progress, Runners, WorkOptions, merge, table, work, write_outcome,
+use crate::{
+    Registry,
+    compare::{
+        ComparisonFolder, Method, Part, PlanRequest, Progress, Runners, WorkOptions, merge, table, work, write_outcome,
+    },
 };
 use clap::Args;
 use ne_core::{StopConditions, StopSignal};

@@ -1,6 +1,8 @@
 use super::Outcome;
-use crate::Registry;
-use crate::config::{STRATEGIES, StrategyEntry};
+use crate::{
+    Registry,
+    config::{STRATEGIES, StrategyEntry},
+};
 use clap::Args;
 use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, TERRAINS, TerrainEntry};
 use serde_json::json;

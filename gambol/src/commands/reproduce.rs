@@ -1,9 +1,11 @@
 use super::{INTERRUPTED, Outcome};
-use crate::Registry;
-use crate::reproduce::{
-    Part, Progress, ReproductionFolder, Request,
-    thesis::{CLOCK_MINUTES, GENERATIONS, RUNS},
-    work, write_outcome,
+use crate::{
+    Registry,
+    reproduce::{
+        Part, Progress, ReproductionFolder, Request,
+        thesis::{CLOCK_MINUTES, GENERATIONS, RUNS},
+        work, write_outcome,
+    },
 };
 use clap::{Args, Subcommand};
 use ne_core::StopSignal;

@@ -1,6 +1,8 @@
 use super::{DIVERGED, Outcome, gait::champion_file};
-use crate::Registry;
-use crate::champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification};
+use crate::{
+    Registry,
+    champion::{CHAMPION_FORMAT, CHAMPION_VERSION, Champion, Engine, Verification},
+};
 use clap::Args;
 use ne_core::archive;
 use serde_json::json;

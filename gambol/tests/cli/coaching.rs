@@ -120,6 +120,7 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&["--preset", "defualt"], "did you mean \"default\"?"),
         (&["--set", "rehearsal=0"], "rehearsal = 0: must be from 1 to 1000000"),
         (&["--steps", "0"], "stop.steps = 0: must be at least 1"),
+        (&["--ablate", "the tern"], "no variant has \"the tern\" in its name"),
     ] {
         let ended = bench(flags);
         assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
