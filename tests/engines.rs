@@ -1,13 +1,14 @@
 //! Training in lanes and training in rapier find the same, to the bit; only what they say of the engine differs.
 
 use envs_rapier::Variation;
+use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::{EngineChoice, RunConfig, preset},
+    config::{EngineChoice, RunConfig},
     training::{TrainOptions, train},
 };
 use std::{error::Error, fs};
-use tasks::{Combine, MovementCatalogue, Trials};
+use tasks::{Combine, Trials};
 
 /// The champion, and the log and the gallery as they stand on the disk.
 type Found = (Champion, [Vec<u8>; 2]);
@@ -16,13 +17,13 @@ fn run(config: &RunConfig) -> Result<Found, Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let options = TrainOptions {
         threads: 2,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
     let outcome = train(config, &folder.path().join("run"), options)?;
     let champion = outcome.champion.ok_or("every evaluation failed")?;
-    assert!(champion.verify(&MovementCatalogue::default())?.is_identical());
+    assert!(champion.verify(&Registry::default())?.is_identical());
     Ok((champion, [fs::read(outcome.folder.log())?, fs::read(outcome.folder.gallery())?]))
 }
 
@@ -38,7 +39,7 @@ fn a_run_in_lanes_is_the_run_in_rapier() -> Result<(), Box<dyn Error>> {
         ("decapod-1", "running", Variation::light(), Trials::default()),
         ("decapod-2", "jumping", Variation { time_step: [0.5, 1.5], ..Variation::default() }, Trials::default()),
     ] {
-        let mut config = preset("default").ok_or("there is a default")?.config(creatures::find(creature)?, movement);
+        let mut config = Registry::default().config("default", creatures::find(creature)?, movement)?;
         (config.variation, config.trials) = (variation, trials);
         config.strategy.set_population(9);
         config.stop.generations = Some(5);

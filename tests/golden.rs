@@ -11,13 +11,14 @@
 
 use crate::root;
 use gambol::{
-    config::{EngineChoice, preset, strategy},
+    Registry,
+    config::EngineChoice,
     training::{TrainOptions, train},
 };
 use ne_core::digest::Digest;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeMap, env, error::Error, fs};
-use tasks::{MovementCatalogue, TermSpec};
+use tasks::TermSpec;
 
 /// What a run is known by.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
@@ -39,12 +40,13 @@ enum From {
 }
 
 fn tiny_run(from: From, creature: &str, movement: &str, engine: EngineChoice) -> Result<Golden, Box<dyn Error>> {
-    let base = |name| preset(name).ok_or("there is no such preset");
+    let registry = Registry::default();
+    let base = |preset| Ok::<_, Box<dyn Error>>(registry.config(preset, creatures::find(creature)?, movement)?);
     let mut config = match from {
-        From::Preset(name) => base(name)?.config(creatures::find(creature)?, movement),
+        From::Preset(name) => base(name)?,
         From::Strategy(name) => {
-            let mut config = base("default")?.config(creatures::find(creature)?, movement);
-            config.strategy = (strategy(name).ok_or("there is no such strategy")?.settings)();
+            let mut config = base("default")?;
+            config.strategy = registry.strategies.find(name).ok_or("there is no such strategy")?.settings();
             config.variation = Default::default();
             if name == "nsga2" {
                 // It shows what it can only with something to choose between.
@@ -60,12 +62,7 @@ fn tiny_run(from: From, creature: &str, movement: &str, engine: EngineChoice) ->
     config.stop.generations = Some(3);
     config.movement.steps = Some(100);
     let folder = tempfile::tempdir()?;
-    let options = TrainOptions {
-        threads: 1,
-        catalogue: MovementCatalogue::default(),
-        signal: Default::default(),
-        on_generation: &mut |_| {},
-    };
+    let options = TrainOptions { threads: 1, registry, signal: Default::default(), on_generation: &mut |_| {} };
     let outcome = train(&config, &folder.path().join("run"), options)?;
     let champion = outcome.champion.ok_or("every evaluation failed")?;
     let mut log = Digest::default();

@@ -1,14 +1,15 @@
 //! What champions of training in lanes are worth in rapier, on every creature and movement.
 
+use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::{EngineChoice, preset},
+    config::EngineChoice,
     setup::Setup,
     training::{TrainOptions, train},
 };
 use ne_core::{Seed, Task};
 use std::error::Error;
-use tasks::{MovementCatalogue, Trials};
+use tasks::Trials;
 
 const GENERATIONS: u64 = 100;
 const SEEDS: u64 = 5;
@@ -16,8 +17,8 @@ const SEEDS: u64 = 5;
 /// Trains with light variation in lanes; gives the champion's fitness in lanes and in rapier, in the world without
 /// variation, and whether each ends with the torso on the ground.
 fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2], Box<dyn Error>> {
-    let catalogue = MovementCatalogue::default();
-    let mut config = preset("default").ok_or("there is a default")?.config(creatures::find(creature)?, movement);
+    let registry = Registry::default();
+    let mut config = Registry::default().config("default", creatures::find(creature)?, movement)?;
     assert!(!config.variation.is_none(), "light variation is the default");
     assert_eq!(config.engine, EngineChoice::Lanes, "lanes are the default");
     config.seed = seed;
@@ -25,13 +26,13 @@ fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2
     let folder = tempfile::tempdir()?;
     let options = TrainOptions {
         threads: 0,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
     let outcome = train(&config, &folder.path().join("run"), options)?;
     let champion: Champion = outcome.champion.ok_or("every evaluation failed")?;
-    assert!(champion.verify(&catalogue)?.is_identical());
+    assert!(champion.verify(&registry)?.is_identical());
     let worth = |engine| -> Result<(f64, bool), Box<dyn Error>> {
         let nominal = gambol::config::RunConfig {
             engine,
@@ -44,7 +45,7 @@ fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2
         // A term that ends an episode says whether it would have ended.
         fallen.movement.terms.push(serde_json::from_value(serde_json::json!({ "term": "fall-ends", "weight": 0.0 }))?);
         let evaluate = |config: &gambol::config::RunConfig| -> Result<ne_core::Evaluation, Box<dyn Error>> {
-            let setup = Setup::new(config, &catalogue)?;
+            let setup = Setup::new(config, &registry)?;
             Ok(setup.task.evaluate(&mut champion.network.clone(), Seed::of_run(seed)))
         };
         let fitness = evaluate(&nominal)?.fitness().map_or(f64::NEG_INFINITY, f64::from);

@@ -10,16 +10,16 @@
 //! Arguments: generations, seeds, a folder for the runs, and optionally scenarios such as `biped-1/running`.
 
 use creatures::Blueprint;
+use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::preset,
     run_folder::RunFolder,
     setup::EpisodeParts,
     training::{TrainOptions, resume, train},
 };
 use ne_core::{Seed, StopConditions, Task};
 use std::{error::Error, path::Path};
-use tasks::{MovementCatalogue, MovementSpec};
+use tasks::MovementSpec;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -68,7 +68,7 @@ fn best(
     folder: &Path,
 ) -> Result<f64, Box<dyn Error>> {
     let path = folder.join(preset_name).join(format!("{creature}-{movement}-{seed}"));
-    let mut config = preset(preset_name).ok_or("there is no such preset")?.config(creatures::find(creature)?, movement);
+    let mut config = Registry::default().config(preset_name, creatures::find(creature)?, movement)?;
     config.seed = seed;
     config.stop.generations = Some(generations);
     config.record.populations_at.clear();
@@ -76,7 +76,7 @@ fn best(
     let ended = |folder: &RunFolder| log(folder).len() as u64 >= generations;
     let options = TrainOptions {
         threads: 0,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
@@ -93,7 +93,7 @@ fn best(
     let Ok(champion) = Champion::read(&folder.champion()) else { return Ok(f64::NEG_INFINITY) };
     let plain = MovementSpec::new(movement);
     let parts = EpisodeParts { movement: &plain, ..champion.episode_parts() };
-    let episode = parts.nominal().build(&MovementCatalogue::default())?;
+    let episode = parts.nominal().build(&Registry::default())?;
     let evaluation = episode.evaluate(&mut champion.network.clone(), Seed::of_run(seed));
     Ok(evaluation.fitness().map_or(f64::NEG_INFINITY, f64::from))
 }

@@ -2,15 +2,15 @@
 //!
 //! The stages are not listed anywhere; each is made from how the ones before it went.
 
+use gambol::Registry;
 use gambol::{
-    config::{RunConfig, preset},
+    config::RunConfig,
     report::write_report,
     shaping::{Curriculum, Journey, Leg, PlannedStage, legs, train_curriculum},
     training::TrainOptions,
 };
 use ne_core::{Decision, Moment, Promotion};
 use std::sync::Arc;
-use tasks::MovementCatalogue;
 
 /// Gaps of a width that follows from how often stages were passed.
 struct WiderAndWider {
@@ -56,14 +56,14 @@ impl Promotion for KeepsUp {
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut base = preset("default").ok_or("no preset")?.config(creatures::find("tetrapod-2")?, "running");
+    let mut base = Registry::default().config("default", creatures::find("tetrapod-2")?, "running")?;
     base.strategy.set_population(16);
     base.rehearsal = Some(100);
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     let options = TrainOptions {
         threads: 0,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
@@ -73,13 +73,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for leg in legs(&outcome.folder)? {
         println!("{:02}-{}: {:?} after {} generations", leg.number, leg.name, leg.decision, leg.progress.generations);
     }
-    write_report(&outcome.folder, &MovementCatalogue::default(), Some(outcome.reason))?;
+    write_report(&outcome.folder, &Registry::default(), Some(outcome.reason))?;
     println!("the report has {} KB", std::fs::metadata(outcome.folder.report())?.len() / 1000);
     let champion = outcome.champion.ok_or("nobody ran")?;
     println!("the champion of the last stage runs {:.1} m", champion.fitness);
-    if champion.verify(&MovementCatalogue::default())?.is_identical() {
-        Ok(())
-    } else {
-        Err("it cannot be repeated".into())
-    }
+    if champion.verify(&Registry::default())?.is_identical() { Ok(()) } else { Err("it cannot be repeated".into()) }
 }

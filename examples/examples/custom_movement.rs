@@ -1,13 +1,14 @@
 //! A movement of one's own: the high kick. It is defined, trained, reported and verified in thirty lines of code.
 //!
-//! One `impl Movement` is all it takes. The program adds it to the catalogue and teaches it to the biped-2: that trains it
+//! One `impl Movement` is all it takes. The program adds it to the registry and teaches it to the biped-2: that trains it
 //! as `gambol train` does, writes the report, and proves that the champion does the same again.
 //!
 //! Run it: `cargo run --release -p gambol-examples --example custom_movement`
 
-use gambol::{config::PRESETS, lesson::teach};
+use gambol::Registry;
+use gambol::lesson::teach;
 use std::error::Error;
-use tasks::{Movement, MovementCatalogue, Snapshot, Verdict, conformance::check_movement};
+use tasks::{Movement, Snapshot, Verdict, conformance::check_movement};
 
 /// How high the highest part has been above the ground, in m.
 #[derive(Clone, Default)]
@@ -35,11 +36,11 @@ impl Movement for HighKick {
 
 fn main() -> Result<(), Box<dyn Error>> {
     check_movement(&HighKick::default())?;
-    let mut catalogue = MovementCatalogue::default();
-    catalogue.add::<HighKick>(Some(150), "how high a limb gets above the ground");
-    let mut config = PRESETS[0].config(creatures::find("biped-2")?, "high-kick");
+    let mut registry = Registry::default();
+    registry.movements.add::<HighKick>(Some(150), "how high a limb gets above the ground");
+    let mut config = registry.config("default", creatures::find("biped-2")?, "high-kick")?;
     config.stop.generations = Some(30);
     let folder = std::env::temp_dir().join(format!("gambol-high-kick-{}", std::process::id()));
-    println!("{:.2} m; watch it: {}", teach(&config, &folder, &catalogue)?.fitness, folder.display());
+    println!("{:.2} m; watch it: {}", teach(&config, &folder, &registry)?.fitness, folder.display());
     Ok(())
 }

@@ -5,8 +5,10 @@
 //!
 //! Run it: `cargo run --release -p gambol-examples --example own_strategy`
 
-use gambol::compare::{
-    ComparisonFolder, ForeignRunner, Method, Part, PlanRequest, Runners, WorkOptions, table, work, write_outcome,
+use gambol::{
+    Registry,
+    compare::{ComparisonFolder, Method, Part, PlanRequest, WorkOptions, table, work, write_outcome},
+    strategies::NetStrategy,
 };
 use ne_core::{
     Evaluation, Fitness, Purpose, Seed, SettingError, StopConditions, Strategy, conformance::check_strategy,
@@ -16,29 +18,54 @@ use ne_net::{DenseShape, Topology};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::error::Error;
-use tasks::MovementCatalogue;
 
-/// Twenty neighbours a generation; a worse one is accepted too, the more rarely the worse it is and the colder it gets.
+/// What a configuration says of it: `{"annealing": {"population": 30, "cooling": 0.9}}`.
+#[derive(Clone, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Settings {
+    /// Neighbours a generation, from 1 to 10000.
+    population: usize,
+    /// What the temperature is multiplied by each generation, from 0.5 to 1.
+    cooling: f64,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self { population: 20, cooling: 0.95 }
+    }
+}
+
+/// Some neighbours a generation; a worse one is accepted too, the more rarely the worse it is and the colder it gets.
 #[derive(Clone, Serialize, Deserialize)]
 struct Annealing {
+    settings: Settings,
     current: WeightVector,
     fitness: Option<Fitness>,
     temperature: f64,
     neighbours: Vec<WeightVector>,
 }
 
-impl Annealing {
-    fn new(topology: &Topology) -> Result<Self, SettingError> {
+impl NetStrategy for Annealing {
+    const NAME: &'static str = "annealing";
+    type Settings = Settings;
+
+    fn build(settings: &Settings, topology: &Topology) -> Result<Self, SettingError> {
+        SettingError::check_range("population", settings.population as f64, 1.0, 10_000.0)?;
+        SettingError::check_range("cooling", settings.cooling, 0.5, 1.0)?;
         let current = WeightVector::new(topology.clone(), vec![0.0; topology.weight_count()], 0.0)
             .map_err(|error| SettingError::new("topology", error, "valid"))?;
-        Ok(Self { current, fitness: None, temperature: 1.0, neighbours: Vec::new() })
+        Ok(Self { settings: settings.clone(), current, fitness: None, temperature: 1.0, neighbours: Vec::new() })
+    }
+
+    fn settings(&self) -> &Settings {
+        &self.settings
     }
 }
 
 impl Strategy for Annealing {
     type Genome = WeightVector;
     fn name(&self) -> &str {
-        "annealing"
+        Self::NAME
     }
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let neighbour = |index| {
@@ -46,7 +73,7 @@ impl Strategy for Annealing {
             let weights = self.current.weights().iter().map(|weight| weight + stream.random_range(-0.5..0.5_f32));
             WeightVector::new(self.current.topology().clone(), weights.collect(), 0.0).expect("as many weights")
         };
-        self.neighbours = (0..20).map(neighbour).collect();
+        self.neighbours = (0..self.settings.population as u64).map(neighbour).collect();
         &self.neighbours
     }
     fn tell(&mut self, evaluations: &[Evaluation], seed: Seed) {
@@ -59,17 +86,18 @@ impl Strategy for Annealing {
                 (self.current, self.fitness) = (neighbour.clone(), Some(fitness));
             }
         }
-        self.temperature *= 0.95;
+        self.temperature *= self.settings.cooling;
     }
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let strategy = Annealing::new(&DenseShape::new(3, vec![4], 2).into())?;
+    let strategy = Annealing::build(&Settings::default(), &DenseShape::new(3, vec![4], 2).into())?;
     check_strategy(|| strategy.clone(), &Default::default())?;
 
-    let catalogue = MovementCatalogue::default();
+    let mut registry = Registry::default();
+    registry.strategies.add::<Annealing>("simulated annealing: a walk that gets ever more careful");
     let request = PlanRequest {
-        methods: vec!["ga".parse::<Method>()?],
+        methods: vec![Method::parse("ga", &registry)?, Method::parse("annealing", &registry)?],
         creatures: vec!["biped-1".into()],
         movements: vec!["running".into()],
         seeds: vec![1, 2, 3],
@@ -77,17 +105,14 @@ fn main() -> Result<(), Box<dyn Error>> {
         set: vec!["movement.steps=200".into()],
         ..PlanRequest::default()
     };
-    let mut plan = request.plan(&catalogue)?;
-    plan.add_foreign("annealing")?;
-    let runners = Runners::default().with("annealing", ForeignRunner::new(|setup| Annealing::new(&setup.topology)));
+    let plan = request.plan(&registry)?;
     let folder = tempfile::tempdir()?;
     let folder = ComparisonFolder::create(&folder.path().join("comparison"), &plan)?;
     let options = WorkOptions {
         part: Part::ALL,
         at_once: 0,
         threads: 1,
-        catalogue,
-        runners: &runners,
+        registry,
         signal: Default::default(),
         on_run: &|progress| println!("{}: {:.2} m", progress.run, progress.best.unwrap_or_default()),
     };

@@ -8,6 +8,7 @@
 //!
 //! Arguments: seeds, physics steps of each run, a folder for the runs.
 
+use gambol::Registry;
 use gambol::{
     champion::Champion,
     config::{Request, RunConfig},
@@ -20,7 +21,7 @@ use gambol::{
 use ne_core::{Seed, StopConditions};
 use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
 use std::{error::Error, fs, path::Path};
-use tasks::{MovementCatalogue, MovementSpec};
+use tasks::MovementSpec;
 
 /// Crossing so many gaps within 40 s is a success.
 const GAPS: usize = 10;
@@ -35,13 +36,13 @@ fn main() -> Result<(), Box<dyn Error>> {
 
     let story = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaping/run-then-gaps-then-thrift.json");
     let request = Request { config: Some(story.into()), ..Request::default() };
-    let catalogue = MovementCatalogue::default();
-    let mut shaped = request.resolve(&catalogue)?;
+    let registry = Registry::default();
+    let mut shaped = request.resolve(&registry)?;
     shaped.stop = StopConditions { steps: Some(steps), ..StopConditions::default() };
     // Up to the last of the stages with gaps, which then has all that is left.
     shaped.stages.retain(|stage| stage.name != "thrift");
     shaped.stages.last_mut().ok_or("no stages")?.promotion = None;
-    let gaps = Stages::new(&shaped, &catalogue)?.configs().last().map(|(_, config)| config.clone());
+    let gaps = Stages::new(&shaped, &registry)?.configs().last().map(|(_, config)| config.clone());
     let scratch = gaps.ok_or("no stages")?;
 
     println!("| seed | gaps in 40 s, shaped | from scratch | m in 40 s, shaped | from scratch |");
@@ -53,7 +54,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         for (arm, config) in [&shaped, &scratch].into_iter().enumerate() {
             let path = folder.join(format!("{}-{seed}", ["shaped", "scratch"][arm]));
             run(&RunConfig { seed, ..config.clone() }, &path)?;
-            let (gaps, distance) = cross(&path, &scratch, &catalogue)?;
+            let (gaps, distance) = cross(&path, &scratch, &registry)?;
             crossed[arm] = gaps;
             successes[arm] += usize::from(gaps >= GAPS);
             distances[arm].push(distance);
@@ -92,7 +93,7 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     }
     let options = TrainOptions {
         threads: 0,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
@@ -105,12 +106,12 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
 
 /// How many gaps the champion crosses in 40 s without variation, in rapier, and how far it gets. One of a stage before the
 /// last is put on the ground of the last.
-fn cross(folder: &Path, last: &RunConfig, catalogue: &MovementCatalogue) -> Result<(usize, f64), Box<dyn Error>> {
+fn cross(folder: &Path, last: &RunConfig, registry: &Registry) -> Result<(usize, f64), Box<dyn Error>> {
     let Ok(champion) = Champion::read(&folder.join("champion.json")) else { return Ok((0, 0.0)) };
     let steps = (SECONDS / last.physics.time_step).round() as u32;
     let movement = MovementSpec { steps: Some(steps), ..MovementSpec::new("running") };
     let parts = EpisodeParts { movement: &movement, terrain: &last.terrain, ..champion.episode_parts() };
-    let episode = parts.nominal().build(catalogue)?;
+    let episode = parts.nominal().build(registry)?;
     let mut recording = Recording::default();
     episode.play(&mut champion.network.clone(), Seed::of_run(1), &mut recording);
     let passed = ObstaclesPassed::count(episode.environment().landscape(), &recording.snapshots);

@@ -8,6 +8,7 @@
 //!
 //! Arguments: seeds, generations of each run, a folder for the runs. With two numbers for the seeds, `11-14`, these.
 
+use gambol::Registry;
 use gambol::{
     champion::Champion,
     config::{Request, RunConfig},
@@ -22,7 +23,7 @@ use std::{
     fs,
     path::{Path, PathBuf},
 };
-use tasks::{Environment, MovementCatalogue};
+use tasks::Environment;
 
 /// A champion's gait, as `gambol gait` judges it: 60 s in rapier, without variation.
 struct Gait {
@@ -44,8 +45,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let folder = arguments.get(2).map_or(temporary.path(), |path| Path::new(path));
 
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/../shaping/run-then-thrift.json");
-    let catalogue = MovementCatalogue::default();
-    let mut config = Request { config: Some(file.into()), ..Request::default() }.resolve(&catalogue)?;
+    let registry = Registry::default();
+    let mut config = Request { config: Some(file.into()), ..Request::default() }.resolve(&registry)?;
     config.stop = StopConditions { generations: Some(generations), ..StopConditions::default() };
 
     println!("| seed | run: body lengths/s | J/m | thrift: body lengths/s | J/m | speed, % | J/m, % |");
@@ -58,7 +59,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             println!("| {seed} | no usable gait to go on with | | | | | |");
             continue;
         }
-        let [run, thrift] = [judge(&path, "01-run", &catalogue)?, judge(&path, "02-thrift", &catalogue)?];
+        let [run, thrift] = [judge(&path, "01-run", &registry)?, judge(&path, "02-thrift", &registry)?];
         let (Some(before), Some(after)) = (run.cost, thrift.cost) else {
             println!("| {seed} | gets nowhere | | | | | |");
             continue;
@@ -95,7 +96,7 @@ fn train(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     }
     let options = TrainOptions {
         threads: 0,
-        catalogue: MovementCatalogue::default(),
+        registry: Registry::default(),
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
@@ -108,9 +109,9 @@ fn stage_folder(run: &Path, stage: &str) -> PathBuf {
 }
 
 /// What the champion of a stage does.
-fn judge(run: &Path, stage: &str, catalogue: &MovementCatalogue) -> Result<Gait, Box<dyn Error>> {
+fn judge(run: &Path, stage: &str, registry: &Registry) -> Result<Gait, Box<dyn Error>> {
     let champion = Champion::read(&stage_folder(run, stage).join("champion.json"))?;
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     let report = stage.judge(&champion.network).ok_or("its body explodes")?;
     let body = stage.environment().body().ok_or("an unknown body")?;
     let weight = f64::from(body.mass() * body.gravity);

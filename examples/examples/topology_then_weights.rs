@@ -11,6 +11,7 @@
 //! all connections from inputs to outputs that NEAT starts with.
 
 use creatures::{Creature, Shape};
+use gambol::Registry;
 use gambol::{
     champion::Champion,
     config::{FrozenTopology, Request, RunConfig},
@@ -22,7 +23,7 @@ use gambol::{
 use ne_core::{Rule, Seed, StopConditions, Task};
 use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
 use std::{error::Error, fs, path::Path};
-use tasks::{MovementCatalogue, MovementSpec};
+use tasks::MovementSpec;
 
 const ARMS: [&str; 5] = ["topology-then-weights", "class-then-weights", "neat", "dense", "limbs"];
 /// In a body whose legs are longer than any searched: CMA-ES from nothing, on nets that were found elsewhere or not.
@@ -93,7 +94,7 @@ fn config(arm: &str, seed: u64, steps: u64, experiment: &Experiment) -> Result<R
         _ => {}
     }
     request.movement = Some("running".into());
-    let mut config = request.resolve(&MovementCatalogue::default())?;
+    let mut config = request.resolve(&Registry::default())?;
     let is_stranger = STRANGERS.contains(&arm);
     if is_stranger {
         config.creature = with_legs(creature, STRANGER);
@@ -144,8 +145,8 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     if part.exists() {
         fs::remove_dir_all(&part)?;
     }
-    let catalogue = MovementCatalogue::default();
-    let options = TrainOptions { threads: 0, catalogue, signal: Default::default(), on_generation: &mut |_| {} };
+    let registry = Registry::default();
+    let options = TrainOptions { threads: 0, registry, signal: Default::default(), on_generation: &mut |_| {} };
     match config.stages.is_empty() {
         true => train(config, &part, options)?,
         false => train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?,
@@ -155,11 +156,11 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
 
 /// How far the champion gets in 20 s without variation, in rapier, coaching left aside; and whether its gait is usable.
 fn judge(folder: &Path) -> Result<(f64, bool), Box<dyn Error>> {
-    let catalogue = MovementCatalogue::default();
+    let registry = Registry::default();
     let Ok(champion) = Champion::read(&folder.join("champion.json")) else { return Ok((0.0, false)) };
     let movement = MovementSpec { steps: Some(1000), ..MovementSpec::new("running") };
-    let episode = EpisodeParts { movement: &movement, ..champion.episode_parts() }.nominal().build(&catalogue)?;
+    let episode = EpisodeParts { movement: &movement, ..champion.episode_parts() }.nominal().build(&registry)?;
     let distance = episode.evaluate(&mut champion.network.clone(), Seed::of_run(1)).fitness().map_or(0.0, f64::from);
-    let verdict = gait::judge(&champion, &catalogue)?.verdict;
+    let verdict = gait::judge(&champion, &registry)?.verdict;
     Ok((distance, verdict.is_some_and(|verdict| verdict.usable)))
 }

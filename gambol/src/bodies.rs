@@ -1,12 +1,13 @@
 //! Fitness over several bodies: one net that has to move them all.
 
+use crate::Registry;
 use crate::{
     config::RunConfig,
     setup::{EpisodeParts, SetupError, TrainingTask, difference},
 };
 use creatures::{Channel, Creature};
 use ne_core::{Evaluation, Fitness, Phenotype, Seed, SettingError, Task, Threads};
-use tasks::{Combine, MovementCatalogue};
+use tasks::Combine;
 
 /// The most companions a creature can have.
 const MOST_COMPANIONS: usize = 15;
@@ -128,7 +129,7 @@ pub(crate) fn with_companions(
     config: &RunConfig,
     alone: TrainingTask,
     channels: [&[Channel]; 2],
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
 ) -> Result<TrainingTask, SetupError> {
     let count = config.companions.len();
     if count > MOST_COMPANIONS {
@@ -140,7 +141,7 @@ pub(crate) fn with_companions(
     }
     let companion = |(index, creature): (usize, &Creature)| {
         let parts = EpisodeParts { creature, ..config.episode_parts() };
-        let built = parts.build_both(config.engine, catalogue).and_then(|(episode, task)| {
+        let built = parts.build_both(config.engine, registry).and_then(|(episode, task)| {
             let environment = episode.environment();
             let own = [environment.senses().channels(), environment.motors().channels()];
             check_channels(own, channels).map(|()| task)

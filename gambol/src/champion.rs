@@ -1,5 +1,6 @@
 //! The champion file: a controller with all it needs to move its creature again, and the proof that it does.
 
+use crate::Registry;
 use crate::{
     config::{EngineChoice, RunConfig},
     setup::{EpisodeParts, Setup, SetupError},
@@ -14,7 +15,7 @@ use ne_core::{
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use tasks::{Episode, MovementCatalogue, MovementSpec, Trials};
+use tasks::{Episode, MovementSpec, Trials};
 
 /// The format of a champion file.
 pub const CHAMPION_FORMAT: &str = "gambol champion";
@@ -224,16 +225,16 @@ impl Champion {
     ///
     /// # Errors
     /// If a field is out of range or the movement is unknown.
-    pub fn episode(&self, catalogue: &MovementCatalogue) -> Result<Episode<RapierEnvironment>, SetupError> {
-        self.episode_parts().build(catalogue)
+    pub fn episode(&self, registry: &Registry) -> Result<Episode<RapierEnvironment>, SetupError> {
+        self.episode_parts().build(registry)
     }
 
     /// Replays the champion and compares it with what the file says.
     ///
     /// # Errors
     /// If the task cannot be built.
-    pub fn verify(&self, catalogue: &MovementCatalogue) -> Result<Verification, SetupError> {
-        let episode = self.episode(catalogue)?;
+    pub fn verify(&self, registry: &Registry) -> Result<Verification, SetupError> {
+        let episode = self.episode(registry)?;
         let (trajectory, evaluation) = replay(&episode, self.trials, &self.network, self.seed);
         let diverges_at = self.trajectory.first_difference(&trajectory);
         Ok(Verification { evaluation, recorded: self.fitness, diverges_at })

@@ -1,5 +1,6 @@
 //! The gait of a champion: measured and judged as it moves in rapier.
 
+use crate::Registry;
 use crate::{
     champion::Champion,
     near::near_worlds,
@@ -16,7 +17,7 @@ use ne_net::Network;
 use serde::Serialize;
 use std::sync::{Arc, OnceLock};
 use tasks::{
-    Episode, Movement, MovementCatalogue, MovementSpec, Trials,
+    Episode, Movement, MovementSpec, Trials,
     gait::{GaitReport, Judgement, NearWorlds, Rules},
 };
 
@@ -45,16 +46,16 @@ impl Stage {
     ///
     /// # Errors
     /// If a field is out of range or the movement is unknown.
-    pub fn new(parts: EpisodeParts<'_>, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+    pub fn new(parts: EpisodeParts<'_>, registry: &Registry) -> Result<Self, SetupError> {
         parts.physics.validate().map_err(|error| error.within("physics"))?;
-        let rules = catalogue.rules(&parts.movement.name);
+        let rules = registry.movements.rules(&parts.movement.name);
         let steps = Some(steps_of(judged_seconds(rules.as_deref()), parts.physics.time_step));
         let movement = MovementSpec { steps, terms: Vec::new(), objectives: Vec::new(), ..parts.movement.clone() };
         let parts =
             EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
-        let episode = parts.build(catalogue)?;
-        let movement = catalogue.build(&movement)?;
-        let lanes = parts.build_lanes(catalogue).ok().map(|episode| episode.environment().clone());
+        let episode = parts.build(registry)?;
+        let movement = registry.movements.build(&movement)?;
+        let lanes = parts.build_lanes(registry).ok().map(|episode| episode.environment().clone());
         Ok(Self { episode, movement, rules, lanes, near: Arc::default() })
     }
 
@@ -202,15 +203,15 @@ pub enum GaitOfChampionError {
 ///
 /// # Errors
 /// If a field of the champion is out of range, its movement is unknown, or there is nothing to measure.
-pub fn judge(champion: &Champion, catalogue: &MovementCatalogue) -> Result<GaitReport, GaitOfChampionError> {
-    measure(champion, catalogue).map(|gait| gait.report)
+pub fn judge(champion: &Champion, registry: &Registry) -> Result<GaitReport, GaitOfChampionError> {
+    measure(champion, registry).map(|gait| gait.report)
 }
 
 /// The same, and how many obstacles it passes.
 ///
 /// # Errors
 /// As [`judge`].
-pub fn measure(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Gait, GaitOfChampionError> {
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+pub fn measure(champion: &Champion, registry: &Registry) -> Result<Gait, GaitOfChampionError> {
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     stage.measure(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
 }

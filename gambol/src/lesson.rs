@@ -1,5 +1,6 @@
 //! A lesson: a movement learnt from the first generation to the proof, in one call.
 
+use crate::Registry;
 use crate::{
     champion::{Champion, Verification},
     config::RunConfig,
@@ -8,7 +9,6 @@ use crate::{
     training::{TrainError, TrainOptions, train},
 };
 use std::path::Path;
-use tasks::MovementCatalogue;
 
 /// Why a lesson came to nothing.
 #[derive(Debug, thiserror::Error)]
@@ -39,18 +39,14 @@ pub enum LessonError {
 ///
 /// # Errors
 /// As [`train`] and [`write_report`]; and if every evaluation failed, or the champion does not do the same again.
-pub fn teach(config: &RunConfig, folder: &Path, catalogue: &MovementCatalogue) -> Result<Champion, LessonError> {
-    let options = TrainOptions {
-        threads: 0,
-        catalogue: catalogue.clone(),
-        signal: Default::default(),
-        on_generation: &mut |_| {},
-    };
+pub fn teach(config: &RunConfig, folder: &Path, registry: &Registry) -> Result<Champion, LessonError> {
+    let options =
+        TrainOptions { threads: 0, registry: registry.clone(), signal: Default::default(), on_generation: &mut |_| {} };
     let outcome = train(config, folder, options)?;
-    write_report(&outcome.folder, catalogue, Some(outcome.reason))?;
+    write_report(&outcome.folder, registry, Some(outcome.reason))?;
     let no_champion = || LessonError::NoChampion { folder: folder.display().to_string() };
     let champion = outcome.champion.ok_or_else(no_champion)?;
-    match champion.verify(catalogue)? {
+    match champion.verify(registry)? {
         verification if verification.is_identical() => Ok(champion),
         verification => Err(LessonError::NotRepeated(Box::new(verification))),
     }
@@ -59,7 +55,6 @@ pub fn teach(config: &RunConfig, folder: &Path, catalogue: &MovementCatalogue) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::PRESETS;
     use std::sync::atomic::{AtomicU32, Ordering};
     use tasks::{Movement, Snapshot, Verdict};
 
@@ -89,17 +84,17 @@ mod tests {
 
     #[test]
     fn a_lesson_tells_why_it_came_to_nothing() -> Result<(), Box<dyn std::error::Error>> {
-        let mut catalogue = MovementCatalogue::default();
-        catalogue.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
+        let mut registry = Registry::default();
+        registry.movements.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
         let folder = tempfile::tempdir()?;
         for (movement, says) in [
             ("failing", "every evaluation failed; the report in"),
             ("counting", "the champion does not repeat itself: Verification"),
             ("nothing", "movement.name: there is no movement or term \"nothing\""),
         ] {
-            let mut config = PRESETS[1].config(creatures::find("biped-1")?, movement);
+            let mut config = registry.config("thesis", creatures::find("biped-1")?, movement)?;
             config.stop.generations = Some(1);
-            let message = teach(&config, &folder.path().join(movement), &catalogue).map(|_| ()).expect_err(movement);
+            let message = teach(&config, &folder.path().join(movement), &registry).map(|_| ()).expect_err(movement);
             assert!(message.to_string().starts_with(says), "{message}");
         }
         assert!(folder.path().join("failing/report.html").is_file());

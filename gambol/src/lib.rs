@@ -32,22 +32,23 @@
 //! # Train, verify
 //!
 //! ```
-//! use gambol::{config::preset, training::{TrainOptions, train}};
-//! use tasks::MovementCatalogue;
+//! use gambol::training::{TrainOptions, train};
+//! use gambol::Registry;
 //!
-//! let mut config = preset("default").expect("there is one").config(creatures::find("biped-1")?, "jumping");
+//! let registry = Registry::default();
+//! let mut config = registry.config("default", creatures::find("biped-1")?, "jumping")?;
 //! config.stop.generations = Some(2);
 //! config.movement.steps = Some(50);
 //! let folder = tempfile::tempdir()?;
 //! let options = TrainOptions {
 //!     threads: 1,
-//!     catalogue: MovementCatalogue::default(),
+//!     registry: registry.clone(),
 //!     signal: Default::default(),
 //!     on_generation: &mut |report| assert!(report.evaluations > 0),
 //! };
 //! let outcome = train(&config, &folder.path().join("run"), options)?;
 //! let champion = outcome.champion.expect("somebody jumped");
-//! assert!(champion.verify(&MovementCatalogue::default())?.is_identical());
+//! assert!(champion.verify(&registry)?.is_identical());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
@@ -56,6 +57,7 @@ pub mod champion;
 mod commands;
 pub mod compare;
 pub mod config;
+pub mod defaults;
 pub mod dot;
 pub mod front;
 pub mod gait;
@@ -67,6 +69,7 @@ mod near;
 mod nominal;
 pub mod obstacles;
 mod perturbation;
+pub mod presets;
 mod proving;
 mod recorder;
 mod registry;
@@ -74,11 +77,11 @@ pub mod report;
 pub mod reproduce;
 pub mod robust;
 pub mod run_folder;
-pub mod search;
 pub mod setup;
 pub mod shaping;
 pub mod sheet;
 pub mod source;
+pub mod strategies;
 pub mod suggest;
 pub mod training;
 mod training_task;

@@ -115,11 +115,12 @@ impl World {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::Registry;
     use crate::setup::EpisodeParts;
     use creatures::{Actuation, DEFAULT_INPUT_RANGE, Terrain};
     use envs_core::GroundShape;
     use envs_rapier::{PhysicsSettings, Variation};
-    use tasks::{MovementCatalogue, MovementSpec, Trials};
+    use tasks::{MovementSpec, Trials};
 
     pub(crate) fn stage(creature: &str, movement: &str) -> Stage {
         let parts = EpisodeParts {
@@ -133,7 +134,7 @@ pub(crate) mod tests {
             terrain: &Terrain::default(),
             actuation: Actuation::default(),
         };
-        Stage::new(parts, &MovementCatalogue::default()).expect("builds")
+        Stage::new(parts, &Registry::default()).expect("builds")
     }
 
     #[test]

@@ -96,6 +96,7 @@ impl ProvingGround {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Registry;
     use crate::{
         champion::Champion,
         config::Request,
@@ -105,18 +106,17 @@ mod tests {
     };
     use envs_core::Ground;
     use ne_core::{StopConditions, StopSignal};
-    use tasks::MovementCatalogue;
 
     /// A champion that has just become usable.
     fn champion(seed: u64) -> Champion {
         let names = (Some("biped-1".into()), Some("jumping".into()));
         let request = Request { creature: names.0, movement: names.1, ..Request::default() };
-        let mut config = request.resolve(&MovementCatalogue::default()).expect("shipped");
+        let mut config = request.resolve(&Registry::default()).expect("shipped");
         config.seed = seed;
         config.stop = StopConditions { generations: Some(40), grade: Some(USABLE), ..StopConditions::default() };
         let options = TrainOptions {
             threads: 1,
-            catalogue: MovementCatalogue::default(),
+            registry: Registry::default(),
             signal: StopSignal::default(),
             on_generation: &mut |_| {},
         };
@@ -130,8 +130,8 @@ mod tests {
         let counts: Vec<usize> = (1..=3)
             .flat_map(|seed| Trial::ALL.map(|trial| (seed, trial)))
             .map(|(seed, trial)| {
-                let (champion, catalogue) = (champion(seed), MovementCatalogue::default());
-                let stage = Stage::new(champion.episode_parts(), &catalogue).expect("builds");
+                let (champion, registry) = (champion(seed), Registry::default());
+                let stage = Stage::new(champion.episode_parts(), &registry).expect("builds");
                 let proving = ProvingGround::new(stage.clone(), Seed::of_run(seed));
                 let count = proving.usable(&champion.network, trial);
                 let stage = stage.in_rapier();

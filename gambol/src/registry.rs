@@ -1,3 +1,5 @@
+use crate::{config::RunConfig, defaults::DefaultsCatalogue, presets::PresetCatalogue, strategies::StrategyCatalogue};
+use creatures::Creature;
 use tasks::MovementCatalogue;
 
 /// Everything that a configuration can name and that a program can add to: what [`program`](crate::program) is given.
@@ -25,4 +27,27 @@ use tasks::MovementCatalogue;
 pub struct Registry {
     /// Movements and terms, with the rules by which gaits are judged. Default: the built-in ones.
     pub movements: MovementCatalogue,
+    /// Strategies. Default: the built-in ones.
+    pub strategies: StrategyCatalogue,
+    /// Presets. Default: the built-in ones.
+    pub presets: PresetCatalogue,
+    /// What the default preset adds for each movement. Default: what there is for the built-in ones.
+    pub defaults: DefaultsCatalogue,
+}
+
+/// There is no preset of this name; the message has those there are, and the nearest.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct UnknownPreset(String);
+
+impl Registry {
+    /// The configuration a preset gives for a creature and a movement, with seed 1 and 300 generations: see
+    /// [`Preset::config`](crate::presets::Preset::config).
+    ///
+    /// # Errors
+    /// If there is no such preset. Whether there is such a movement, [`Setup`](crate::Setup) checks.
+    pub fn config(&self, preset: &str, creature: Creature, movement: &str) -> Result<RunConfig, UnknownPreset> {
+        let preset = self.presets.find(preset).map_err(UnknownPreset)?;
+        Ok(preset.config(creature, movement, self))
+    }
 }

@@ -4,6 +4,7 @@
 //! game has none of them. So a champion is replayed under many perturbations of the world, each judged by the rules the
 //! champion itself is judged by, alone and without near worlds, and what is told is the share that stays usable and the part of the fitness that is kept.
 
+use crate::Registry;
 use crate::{
     champion::Champion,
     gait::Stage,
@@ -17,10 +18,7 @@ use ne_core::{Seed, SettingError};
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
-use tasks::{
-    MovementCatalogue,
-    gait::{GaitReport, View},
-};
+use tasks::gait::{GaitReport, View};
 
 pub use crate::perturbation::{BUMP_HEIGHTS, Cause, FRICTION, MASS, TORQUE};
 
@@ -146,15 +144,15 @@ pub enum RobustnessError {
 /// If the number is out of range, a field of the champion is, or its movement is unknown or not judged.
 pub fn robustness(
     champion: &Champion,
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
     perturbations: u32,
     seed: u64,
 ) -> Result<Robustness, RobustnessError> {
     SettingError::check_range("perturbations", perturbations.into(), 1.0, MOST.into())?;
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     let rules = stage.rules().ok_or_else(|| RobustnessError::NotJudged {
         movement: champion.movement.name.clone(),
-        judged: catalogue.judged().map(str::to_owned).collect(),
+        judged: registry.movements.judged().map(str::to_owned).collect(),
     })?;
     let unperturbed = stage.judge(&champion.network);
     let progress_unperturbed = unperturbed.as_ref().map_or(0.0, GaitReport::progress);

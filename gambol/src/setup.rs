@@ -1,11 +1,14 @@
 //! From a configuration to the things a run is made of.
 
+use crate::Registry;
 use crate::{
     bodies,
     config::{ControllerSettings, EngineChoice, FrozenTopology, HeatSettings, RunConfig, StrategySettings},
     gait::Stage,
     limbs::{self, Limbs},
-    shaping, suggest,
+    shaping,
+    strategies::StrategyError,
+    suggest,
 };
 use creatures::{Actuation, Blueprint, Channel, Creature, CreatureError, Sensor, Terrain};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
@@ -13,7 +16,7 @@ use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variatio
 use ne_core::{Heat, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
-use tasks::{Combine, Episode, Movement, MovementCatalogue, MovementSpec, MovementSpecError, TermSpec, Trials};
+use tasks::{Combine, Episode, Medium, Movement, MovementSpec, MovementSpecError, TermSpec, Trials};
 
 pub use crate::{bodies::SeveralBodies, nominal::Nominal, training_task::TrainingTask};
 
@@ -81,8 +84,14 @@ pub enum SetupError {
     #[error("one net cannot move it and the creature: {0}")]
     Channels(String),
     /// A topology is given to a strategy that searches for one.
-    #[error("topology: NEAT finds its own, and cannot keep one; choose another strategy for its weights")]
-    Evolving,
+    #[error("topology: {strategy} finds its own, and cannot keep one; choose another strategy for its weights")]
+    Evolving {
+        /// The strategy.
+        strategy: String,
+    },
+    /// There is no such strategy, or its settings are wrong.
+    #[error(transparent)]
+    Strategy(#[from] StrategyError),
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
@@ -135,8 +144,8 @@ impl EpisodeParts<'_> {
     ///
     /// # Errors
     /// Names the field that is wrong.
-    pub fn build(&self, catalogue: &MovementCatalogue) -> Result<Episode<RapierEnvironment>, SetupError> {
-        let (movement, steps, blueprint) = self.pieces(catalogue)?;
+    pub fn build(&self, registry: &Registry) -> Result<Episode<RapierEnvironment>, SetupError> {
+        let (movement, steps, blueprint) = self.pieces(registry)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
         let variation = self.variation.for_trials(self.trials.count);
         let (physics, terrain) = (self.physics, self.terrain.clone());
@@ -150,8 +159,8 @@ impl EpisodeParts<'_> {
     ///
     /// # Errors
     /// Names the field that is wrong, or what only rapier can do.
-    pub fn build_lanes(&self, catalogue: &MovementCatalogue) -> Result<LaneEpisode, SetupError> {
-        let (movement, steps, blueprint) = self.pieces(catalogue)?;
+    pub fn build_lanes(&self, registry: &Registry) -> Result<LaneEpisode, SetupError> {
+        let (movement, steps, blueprint) = self.pieces(registry)?;
         let sensors = self.sensors.unwrap_or(&self.creature.sensors);
         let variation = self.variation.for_trials(self.trials.count);
         let (physics, terrain) = (self.physics, self.terrain.clone());
@@ -163,9 +172,9 @@ impl EpisodeParts<'_> {
     }
 
     /// What both engines are given: the movement, the steps of an episode and the body.
-    fn pieces(&self, catalogue: &MovementCatalogue) -> Result<(Box<dyn Movement>, u32, Blueprint), SetupError> {
-        let movement = catalogue.build(self.movement)?;
-        let steps = catalogue.steps(self.movement)?;
+    fn pieces(&self, registry: &Registry) -> Result<(Box<dyn Movement>, u32, Blueprint), SetupError> {
+        let movement = registry.movements.build(self.movement)?;
+        let steps = registry.movements.steps(self.movement)?;
         Ok((movement, steps, Blueprint::new(self.creature.clone())?))
     }
 
@@ -184,13 +193,13 @@ impl EpisodeParts<'_> {
     pub(crate) fn build_both(
         &self,
         engine: EngineChoice,
-        catalogue: &MovementCatalogue,
+        registry: &Registry,
     ) -> Result<(Episode<RapierEnvironment>, TrainingTask), SetupError> {
         // In rapier first: whatever is wrong with the settings is then not blamed on the engine.
-        let episode = self.build(catalogue)?;
+        let episode = self.build(registry)?;
         let task = match engine {
             EngineChoice::Rapier => TrainingTask::Rapier(Box::new(episode.clone())),
-            EngineChoice::Lanes => TrainingTask::Lanes(Box::new(self.build_lanes(catalogue)?)),
+            EngineChoice::Lanes => TrainingTask::Lanes(Box::new(self.build_lanes(registry)?)),
         };
         Ok((episode, task))
     }
@@ -201,7 +210,7 @@ impl Setup {
     ///
     /// # Errors
     /// Names the field that is wrong.
-    pub fn new(config: &RunConfig, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+    pub fn new(config: &RunConfig, registry: &Registry) -> Result<Self, SetupError> {
         config.stop.validate().map_err(|error| error.within("stop"))?;
         config.record.validate().map_err(|error| error.within("record"))?;
         let input_range = f64::from(config.controller.input_range);
@@ -214,13 +223,16 @@ impl Setup {
             let error = SettingError::new("actuation.angle.gain", gain, format!("from {low} to {high}"));
             return Err(error.within("controller").into());
         }
-        if config.movement.name == "swimming" && config.physics.water.is_none() {
-            return Err(SettingError::new("physics.water", "null", "water, for whoever is to swim").into());
+        let is_in_water = registry.movements.find(&config.movement.name).is_some_and(|it| it.medium == Medium::Water);
+        if is_in_water && config.physics.water.is_none() {
+            let allowed = format!("water, which {} is done in", config.movement.name);
+            return Err(SettingError::new("physics.water", "null", allowed).into());
         }
         let parts = config.episode_parts();
-        let (episode, task) = parts.build_both(config.engine, catalogue)?;
+        let (episode, task) = parts.build_both(config.engine, registry)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
+        let entry = registry.strategies.of(&config.strategy)?;
         let mut weight_names = None;
         let topology = match &config.topology {
             None => match config.controller.limbs {
@@ -238,31 +250,31 @@ impl Setup {
                     topology.into()
                 }
             },
-            Some(_) if matches!(config.strategy, StrategySettings::Neat(_)) => return Err(SetupError::Evolving),
+            Some(_) if entry.finds_topology() => return Err(SetupError::Evolving { strategy: entry.name().into() }),
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
         let weight_names = weight_names.unwrap_or_else(|| shaping::weight_names(&topology, senses, motors));
-        config.strategy.validate(&topology)?;
+        registry.strategies.validate(&config.strategy, &topology)?;
         check_size(&config.strategy, &topology)?;
-        let unit = catalogue.build(&config.movement)?.unit().to_owned();
-        let objectives = objectives(&config.movement, catalogue, &unit);
+        let unit = registry.movements.build(&config.movement)?.unit().to_owned();
+        let objectives = objectives(&config.movement, registry, &unit);
         if let Some(steps) = config.rehearsal {
             SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
         }
         let nominal = match config.has_jury() {
             false => None,
             true => {
-                let (episode, task) = parts.nominal().build_both(config.engine, catalogue)?;
-                let stage = Stage::new(parts, catalogue)?;
+                let (episode, task) = parts.nominal().build_both(config.engine, registry)?;
+                let stage = Stage::new(parts, registry)?;
                 let proof = match config.variation.is_none() {
                     true => None,
-                    false => Some(parts.proof().build_both(config.engine, catalogue)?.1),
+                    false => Some(parts.proof().build_both(config.engine, registry)?.1),
                 };
                 Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
             }
         };
         if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
-            let judged: Vec<&str> = catalogue.judged().collect();
+            let judged: Vec<&str> = registry.movements.judged().collect();
             let allowed = format!(
                 "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
                  rehearsal or companions",
@@ -270,7 +282,7 @@ impl Setup {
             );
             return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
         }
-        let task = bodies::with_companions(config, task, [senses, motors], catalogue)?;
+        let task = bodies::with_companions(config, task, [senses, motors], registry)?;
         let task = match config.rehearsal {
             Some(steps) => task.shortened(steps),
             None => task,
@@ -300,13 +312,13 @@ impl Setup {
 }
 
 /// What is measured for a search with several objectives, or else the fitness.
-fn objectives(movement: &MovementSpec, catalogue: &MovementCatalogue, unit: &str) -> Vec<Objective> {
+fn objectives(movement: &MovementSpec, registry: &Registry, unit: &str) -> Vec<Objective> {
     if movement.objectives.is_empty() {
         return vec![Objective { name: "fitness".into(), unit: unit.into(), weight: 1.0 }];
     }
     let objective = |spec: &TermSpec| Objective {
         name: spec.term.clone(),
-        unit: catalogue.find(&spec.term).map_or_else(String::new, |entry| entry.unit.clone()),
+        unit: registry.movements.find(&spec.term).map_or_else(String::new, |entry| entry.unit.clone()),
         weight: spec.weight,
     };
     movement.objectives.iter().map(objective).collect()

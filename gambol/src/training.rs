@@ -1,28 +1,27 @@
 //! Training: a run from its configuration to its folder, and on from where it stopped.
 
+use crate::Registry;
 use crate::{
     champion::Champion,
-    config::{RunConfig, StrategySettings},
+    config::RunConfig,
     jury::NominalJury,
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
-    search::{Search, SearchVisitor},
     setup::{Setup, SetupError},
+    strategies::AnyStrategy,
 };
 use ne_core::{
-    Checkpoint, Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel,
-    Progress, Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Strategy, Task, ThreadsError,
+    Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel, Progress,
+    Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Task, ThreadsError,
 };
-use ne_net::Network;
 use std::{path::Path, sync::Arc};
-use tasks::MovementCatalogue;
 
 /// How a run is to be carried out; none of it changes what the run finds.
 pub struct TrainOptions<'a> {
     /// Threads; 0: one for each core.
     pub threads: usize,
-    /// The movements there are.
-    pub catalogue: MovementCatalogue,
+    /// What the configuration can name.
+    pub registry: Registry,
     /// Ends the run after the generation under way.
     pub signal: StopSignal,
     /// Called after each generation, for a progress bar.
@@ -77,12 +76,6 @@ pub enum TrainError {
     /// The configuration has stages.
     #[error("the configuration has stages; it is trained stage by stage (shaping::train_stages)")]
     Stages,
-    /// The strategy belongs to another program.
-    #[error("the strategy \"{strategy}\" is not one of Gambol's; the program that has it trains and resumes it")]
-    Foreign {
-        /// Its name.
-        strategy: String,
-    },
     /// The run is over and there is nothing left to do.
     #[error(
         "the run in {} has ended: {reason} (generation {generations}); to go on, raise its limit, such as --generations {}",
@@ -124,68 +117,23 @@ pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Re
     if let Some(origin) = &config.origin {
         return Err(TrainError::Origin { from: origin.source.clone() });
     }
-    let setup = Setup::new(config, &options.catalogue)?;
-    config.strategy.visit(Train { config, setup, folder, options })
+    let setup = Setup::new(config, &options.registry)?;
+    let strategy = options.registry.strategies.build(&config.strategy, &setup.topology).map_err(SetupError::from)?;
+    train_leg(strategy, config, &setup, folder, config.stop, None, options)
 }
 
-/// Starts a run with whichever strategy the configuration names.
-struct Train<'a, 'b> {
-    config: &'a RunConfig,
-    setup: Setup,
-    folder: &'a Path,
-    options: TrainOptions<'b>,
-}
-
-impl SearchVisitor for Train<'_, '_> {
-    type Output = Result<Outcome, TrainError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let strategy = S::build(settings, &self.setup.topology)?;
-        train_with(strategy, self.config, &self.setup, self.folder, self.options)
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(TrainError::Foreign { strategy: name.into() })
-    }
-}
-
-/// Runs a configuration with a strategy of your own in place of the one it names; the folder's configuration then has
-/// its name, as [`StrategySettings::Custom`].
-///
-/// # Errors
-/// As [`train`].
-pub fn train_with<S: Strategy>(
-    strategy: S,
-    config: &RunConfig,
-    setup: &Setup,
-    folder: &Path,
-    options: TrainOptions<'_>,
-) -> Result<Outcome, TrainError>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
-    train_leg(strategy, config, setup, folder, config.stop, None, options)
-}
-
-/// As [`train_with`], with the rules of a stage, and limits in place of those in the configuration.
-pub(crate) fn train_leg<S: Strategy>(
-    strategy: S,
+/// As [`train`], from where a search is to begin, with the rules of a stage, and limits in place of those in the
+/// configuration.
+pub(crate) fn train_leg(
+    strategy: AnyStrategy,
     config: &RunConfig,
     setup: &Setup,
     folder: &Path,
     stop: StopConditions,
     promotion: Option<Arc<dyn Promotion>>,
     options: TrainOptions<'_>,
-) -> Result<Outcome, TrainError>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
+) -> Result<Outcome, TrainError> {
     let evaluator = Arc::new(Parallel::new(options.threads)?);
-    let mut config = config.clone();
-    if strategy.name() != config.strategy.name() {
-        config.strategy = StrategySettings::Custom(strategy.name().into());
-    }
-    let config = &config;
     let (folder, _lock) = RunFolder::create(folder, config)?;
     let earlier = EarlierLines::check(&folder, config, 0)?;
     let evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
@@ -201,8 +149,7 @@ where
 pub fn resume(folder: &Path, stop: Option<StopConditions>, options: TrainOptions<'_>) -> Result<Outcome, TrainError> {
     let folder = RunFolder::open(folder)?;
     let config = folder.read_config()?;
-    let strategy = config.strategy.clone();
-    strategy.visit(Resume { folder, config, stop, now: None, promotion: None, options })
+    resume_checked(folder, config, (stop, None), None, options)
 }
 
 /// As [`resume`], with the rules of a stage; `now` are the limits of this process, where they are other than those to be
@@ -216,8 +163,7 @@ pub(crate) fn resume_leg(
 ) -> Result<Outcome, TrainError> {
     let folder = RunFolder::open(folder)?;
     let config = folder.read_config()?;
-    let strategy = config.strategy.clone();
-    strategy.visit(Resume { folder, config, stop: Some(stop), now: Some(now), promotion, options })
+    resume_checked(folder, config, (Some(stop), Some(now)), promotion, options)
 }
 
 /// A promotion that several may hold.
@@ -229,78 +175,35 @@ impl Promotion for Shared {
     }
 }
 
-fn with_rules<S: Strategy>(evolution: Evolution<S>, promotion: Option<Arc<dyn Promotion>>) -> Evolution<S> {
+fn with_rules(evolution: Evolution<AnyStrategy>, promotion: Option<Arc<dyn Promotion>>) -> Evolution<AnyStrategy> {
     match promotion {
         Some(promotion) => evolution.with_promotion(Shared(promotion)),
         None => evolution,
     }
 }
 
-/// Goes on with a run of whichever strategy its configuration names.
-struct Resume<'a> {
-    folder: RunFolder,
-    config: RunConfig,
-    stop: Option<StopConditions>,
-    now: Option<StopConditions>,
-    promotion: Option<Arc<dyn Promotion>>,
-    options: TrainOptions<'a>,
-}
-
-impl SearchVisitor for Resume<'_> {
-    type Output = Result<Outcome, TrainError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let same = |strategy: &S| strategy.settings() == settings;
-        let Self { folder, config, stop, now, promotion, options } = self;
-        resume_checked(folder, config, (stop, now), promotion, options, same)
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(TrainError::Foreign { strategy: name.into() })
-    }
-}
-
-/// Goes on with a run that was started by [`train_with`].
-///
-/// # Errors
-/// As [`resume`].
-pub fn resume_with<S: Strategy>(
-    folder: RunFolder,
-    config: RunConfig,
-    stop: Option<StopConditions>,
-    options: TrainOptions<'_>,
-) -> Result<Outcome, TrainError>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
-    resume_checked::<S>(folder, config, (stop, None), None, options, |_| true)
-}
-
-fn resume_checked<S: Strategy>(
+fn resume_checked(
     folder: RunFolder,
     mut config: RunConfig,
     (stop, now): (Option<StopConditions>, Option<StopConditions>),
     promotion: Option<Arc<dyn Promotion>>,
     options: TrainOptions<'_>,
-    same_settings: impl FnOnce(&S) -> bool,
-) -> Result<Outcome, TrainError>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
+) -> Result<Outcome, TrainError> {
     let planned = config.stop;
     config.stop = stop.unwrap_or(planned);
-    let setup = Setup::new(&config, &options.catalogue)?;
+    let setup = Setup::new(&config, &options.registry)?;
     let evaluator = Arc::new(Parallel::new(options.threads)?);
     if !folder.checkpoint().is_file() {
         return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
     }
     let _lock = folder.lock()?;
-    let checkpoint = Checkpoint::<S>::read(&folder.checkpoint()).map_err(FolderError::from)?;
+    let entry = options.registry.strategies.of(&config.strategy).map_err(SetupError::from)?;
+    let checkpoint = entry.read_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?;
     let foreign = |what| FolderError::Foreign { path: folder.checkpoint(), what };
     if checkpoint.seed != Seed::of_run(config.seed) {
         return Err(foreign("the seed").into());
     }
-    if !same_settings(&checkpoint.strategy) {
+    if !checkpoint.strategy.has_settings(&config.strategy) {
         return Err(foreign("the strategy's settings").into());
     }
     if let Some(champion) = &checkpoint.champion
@@ -322,18 +225,15 @@ where
     drive(evolution, &config, &setup, folder, earlier, evaluator, options)
 }
 
-fn drive<S: Strategy>(
-    evolution: Evolution<S>,
+fn drive(
+    evolution: Evolution<AnyStrategy>,
     config: &RunConfig,
     setup: &Setup,
     folder: RunFolder,
     earlier: EarlierLines,
     evaluator: Arc<Parallel>,
     options: TrainOptions<'_>,
-) -> Result<Outcome, TrainError>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
+) -> Result<Outcome, TrainError> {
     let mut evolution = evolution.with_signal(options.signal);
     if let Some(nominal) = &setup.nominal {
         evolution = evolution.with_jury(config.record.hearings(), NominalJury::new(nominal, evaluator.clone()));
@@ -345,7 +245,7 @@ where
         recorder.save(&evolution)?;
     }
     let ended = {
-        let mut observers: [Box<dyn Observer<S> + '_>; 1] = [Box::new(&mut recorder)];
+        let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(&mut recorder)];
         // The jury evaluates its finalists without heats: all of them are promising.
         evolution.run(&setup.task, &Heats::new(&*evaluator, setup.heats()), &mut observers)
     };

@@ -1,5 +1,5 @@
 use crate::{Champion, Decision, Finalist, Progress, Seed, Strategy, archive, archive::ArchiveError};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::path::Path;
 
 /// The kind of file a checkpoint is.
@@ -10,7 +10,10 @@ pub const CHECKPOINT_VERSION: u32 = 1;
 
 /// Everything an [`Evolution`](crate::Evolution) needs to go on exactly where it stopped, between two generations.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, bound = "S: Strategy")]
+#[serde(
+    deny_unknown_fields,
+    bound(serialize = "S: Strategy", deserialize = "S: Strategy<Genome: DeserializeOwned> + DeserializeOwned")
+)]
 pub struct Checkpoint<S: Strategy> {
     /// The run's seed.
     pub seed: Seed,
@@ -28,7 +31,7 @@ pub struct Checkpoint<S: Strategy> {
     pub strategy: S,
 }
 
-impl<S: Strategy> Checkpoint<S> {
+impl<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned> Checkpoint<S> {
     /// Reads a checkpoint.
     ///
     /// # Errors
@@ -36,7 +39,9 @@ impl<S: Strategy> Checkpoint<S> {
     pub fn read(path: &Path) -> Result<Self, ArchiveError> {
         archive::read(path, CHECKPOINT_FORMAT, CHECKPOINT_VERSION)
     }
+}
 
+impl<S: Strategy> Checkpoint<S> {
     /// Writes the checkpoint, whole or not at all.
     ///
     /// # Errors

@@ -80,6 +80,12 @@ impl<G> Champion<G> {
     pub fn standing(&self) -> Standing {
         Standing { grade: self.grade, fitness: self.fitness }
     }
+
+    /// The same champion with its genome as another type.
+    pub fn map<H>(self, convert: impl FnOnce(G) -> H) -> Champion<H> {
+        let Self { genome, fitness, generation, seed, trained, parted, grade } = self;
+        Champion { genome: convert(genome), fitness, generation, seed, trained, parted, grade }
+    }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]

@@ -91,6 +91,14 @@ pub struct Finalist<G> {
     pub generation: u64,
 }
 
+impl<G> Finalist<G> {
+    /// The same finalist with its genome as another type.
+    pub fn map<H>(self, convert: impl FnOnce(G) -> H) -> Finalist<H> {
+        let Self { genome, fitness, generation } = self;
+        Finalist { genome: convert(genome), fitness, generation }
+    }
+}
+
 /// What came of a hearing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

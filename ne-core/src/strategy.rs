@@ -1,10 +1,11 @@
 use crate::{Evaluation, Fitness, Genome, Seed};
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{Deserialize, Serialize};
 
 /// A search: asks for the evaluation of genomes, is told the results, and asks again.
 ///
 /// Conventional neuroevolution, NEAT and evolution strategies all stand behind this contract. The strategy *is* its
-/// state: what it serialises to, settings included, is everything it needs to go on after a restart.
+/// state: what it serialises to, settings included, is everything it needs to go on after a restart. One that can be
+/// deserialised, with its genomes, can be [resumed](crate::Checkpoint::read).
 ///
 /// An implementor owes:
 /// - `ask` and `tell` take turns, `ask` first; `tell` gets one evaluation for each genome asked, in the same order;
@@ -14,7 +15,7 @@ use serde::{Deserialize, Serialize, de::DeserializeOwned};
 /// - no clock, no thread count, no iteration over a hash map: the same evaluations give the same bits.
 ///
 /// Check yours with `check_strategy` of the [conformance kit](crate::conformance).
-pub trait Strategy: Serialize + DeserializeOwned + Send {
+pub trait Strategy: Serialize + Send {
     /// What the strategy varies.
     type Genome: Genome;
 

@@ -36,9 +36,20 @@ pub struct MovementEntry {
     /// How many steps its episodes last unless the settings say otherwise; `None` for a term that only makes sense
     /// beside a movement.
     pub steps: Option<u32>,
+    /// What it is done in.
+    pub medium: Medium,
     /// By which rules its gaits are judged; `None` if they are measured and audited alone.
     pub rules: Option<Arc<dyn Rules>>,
     make: Arc<Make>,
+}
+
+/// What a movement is done in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Medium {
+    /// On the ground.
+    Ground,
+    /// In water, which has no ground.
+    Water,
 }
 
 /// Makes a movement with these settings. Fields in errors are seen from the settings.
@@ -185,7 +196,7 @@ impl Default for MovementCatalogue {
         let backwards = "distance the torso covers, backwards";
         catalogue.add::<Backwards>(Some(2000), backwards).judged_by(RunningRules { backwards: true });
         let swimming = "distance the centre of mass covers in water, forwards";
-        catalogue.add::<Swimming>(Some(1000), swimming).judged_by(SwimmingRules);
+        catalogue.add::<Swimming>(Some(1000), swimming).in_water().judged_by(SwimmingRules);
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");
         catalogue.add::<Rollovers>(None, "how often the torso turned over; weigh it negatively");
         catalogue.add::<FallEnds>(None, "ends the episode when the torso touches the ground; 1 if it did");
@@ -310,7 +321,23 @@ impl MovementCatalogue {
     fn insert(&mut self, sample: &dyn Movement, steps: Option<u32>, description: &str, make: Arc<Make>) -> &mut Self {
         let (name, unit) = (sample.name().to_owned(), sample.unit().to_owned());
         self.entries.retain(|entry| entry.name != name);
-        self.entries.push(MovementEntry { name, description: description.into(), unit, steps, rules: None, make });
+        self.entries.push(MovementEntry {
+            name,
+            description: description.into(),
+            unit,
+            steps,
+            medium: Medium::Ground,
+            rules: None,
+            make,
+        });
+        self
+    }
+
+    /// Puts the movement that was added last into water.
+    pub fn in_water(&mut self) -> &mut Self {
+        if let Some(entry) = self.entries.last_mut() {
+            entry.medium = Medium::Water;
+        }
         self
     }
 

@@ -46,7 +46,9 @@ mod snapshot;
 mod trials;
 
 pub use body::{Body, BodyHinge, BodyMotor, BodyPart};
-pub use catalogue::{MovementCatalogue, MovementEntry, MovementSettings, MovementSpec, MovementSpecError, TermSpec};
+pub use catalogue::{
+    Medium, MovementCatalogue, MovementEntry, MovementSettings, MovementSpec, MovementSpecError, TermSpec,
+};
 pub use classic::{
     Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings, Generalization, OutputRange, PoleFitness,
     Xor, XorSettings,

@@ -78,6 +78,61 @@ fn a_run_ends_as_soon_as_the_verdict_is_met_and_its_reasons_are_told() {
     assert!(reasons.contains("required") || reasons.contains("allowed"), "{reasons}");
 }
 
+#[test]
+fn every_command_knows_the_strategy() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    assert!(said(here, 0, &["strategies"]).contains("simulated annealing"));
+    let train = ["train", "biped-1", "running", "--strategy", "annealing", "--set", "movement.steps=150"];
+
+    // Its own settings are checked by name, type and range.
+    for (setting, says) in [
+        ("cooling=2", "strategy.annealing.cooling = 2: must be from 0.5 to 1"),
+        ("coling=0.9", "strategy.annealing.coling: unknown field `coling`"),
+        ("population=many", "strategy.annealing.population: invalid type: string \"many\""),
+    ] {
+        let wrong = format!("strategy.annealing.{setting}");
+        let message = said(here, 1, &[&train[..], &["--set", &wrong, "--out", "wrong"]].concat());
+        assert!(message.contains(says), "{message}");
+    }
+    assert!(said(here, 1, &["train", "apod", "running", "--strategy", "anealing"]).contains("did you mean \"annealing\"?"));
+
+    let train = [&train[..], &["--population", "16", "--generations", "12", "--quiet"]].concat();
+    said(here, 0, &[&train[..], &["--out", "whole"]].concat());
+    said(here, 0, &["verify", "whole/champion.json"]);
+    let report = fs::read_to_string(here.join("whole/report.html")).expect("a report");
+    assert!(report.contains("annealing"), "the report names it");
+    let config = fs::read_to_string(here.join("whole/config.json")).expect("a configuration");
+    let config: serde_json::Value = serde_json::from_str(&config).expect("JSON");
+    assert_eq!(config["content"]["strategy"], serde_json::json!({ "annealing": { "population": 16, "cooling": 0.95 } }));
+
+    // On from where it was, by a file, and in parts.
+    said(here, 0, &[&train[..], &["--out", "parts", "--generations", "5"]].concat());
+    said(here, 0, &["resume", "parts", "--generations", "12", "--quiet"]);
+    let bytes = |name: &str| fs::read(here.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
+    assert_eq!(bytes("whole/champion.json"), bytes("parts/champion.json"));
+    assert_eq!(bytes("whole/log.jsonl"), bytes("parts/log.jsonl"));
+    said(here, 0, &["train", "--config", "whole/config.json", "--out", "again", "--quiet"]);
+    assert_eq!(bytes("whole/champion.json"), bytes("again/champion.json"));
+
+    // Another run goes on from it, and so does a stage.
+    let on = ["--from", "whole", "--seed", "2", "--out", "on"];
+    said(here, 0, &[&train[..], &on].concat());
+    let stages = serde_json::json!({ "stages": [
+        { "name": "short", "changes": { "movement": { "steps": 100 } }, "promotion": { "generations": 3 } },
+        { "name": "long", "changes": { "movement": { "steps": 150 } } },
+        ] });
+    fs::write(here.join("stages.json"), stages.to_string()).expect("a file");
+    said(here, 0, &[&train[..], &["--config", "stages.json", "--generations", "6", "--out", "staged"]].concat());
+    assert!(here.join("staged/stages/02-long/champion.json").is_file());
+
+    let compare = ["compare", "--strategies", "ga,annealing", "--creatures", "biped-1", "--set", "movement.steps=150"];
+    let small = ["--seeds", "2", "--evaluations", "100", "--out", "comparison"];
+    assert!(said(here, 0, &[&compare[..], &small].concat()).contains("annealing"));
+    let scores = fs::read_to_string(here.join("comparison/scores.csv")).expect("raw data");
+    assert!(scores.contains("annealing"), "{scores}");
+}
+
 /// What it printed, whatever its code says of the gait.
 fn run_json(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(run(folder, arguments).stdout).expect("text")

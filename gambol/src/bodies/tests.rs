@@ -1,8 +1,5 @@
 use super::*;
-use crate::{
-    Setup,
-    config::{EngineChoice, preset},
-};
+use crate::{Setup, config::EngineChoice};
 use creatures::Sensor;
 use ne_core::Failure;
 use ne_net::Network;
@@ -18,7 +15,7 @@ fn heavier(creature: &Creature, times: f32) -> Creature {
 /// Three bodies that run for a second, in varied worlds.
 fn config(engine: EngineChoice, combine: Combine) -> RunConfig {
     let creature = creatures::find("biped-2").expect("shipped");
-    let mut config = preset("default").expect("there").config(creature.clone(), "running");
+    let mut config = Registry::default().config("default", creature.clone(), "running").expect("a preset");
     config.movement.steps = Some(60);
     config.rehearsal = Some(50);
     config.trials = Trials { count: 2, combine };
@@ -27,11 +24,11 @@ fn config(engine: EngineChoice, combine: Combine) -> RunConfig {
 }
 
 fn setup(config: &RunConfig) -> Setup {
-    Setup::new(config, &MovementCatalogue::default()).expect("valid")
+    Setup::new(config, &Registry::default()).expect("valid")
 }
 
 fn refusal(config: &RunConfig) -> String {
-    Setup::new(config, &MovementCatalogue::default()).err().map_or_else(|| "fine".into(), |error| error.to_string())
+    Setup::new(config, &Registry::default()).err().map_or_else(|| "fine".into(), |error| error.to_string())
 }
 
 /// A run of the same kind in each body alone.

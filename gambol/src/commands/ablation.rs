@@ -1,6 +1,9 @@
 //! The pieces of the default preset, left out one by one or replaced.
 
-use crate::config::{HeatSettings, LimbPhases, RunConfig, StrategySettings, strategy};
+use crate::{
+    config::{HeatSettings, LimbPhases, RunConfig},
+    strategies::StrategyCatalogue,
+};
 use creatures::{Actuation, Sensor};
 use envs_rapier::Variation;
 use ne_net::Activation;
@@ -122,19 +125,14 @@ fn run_heats(config: &mut RunConfig, shorter: &[u32]) {
 }
 
 fn search_with(config: &mut RunConfig, name: &str) {
-    if let Some(entry) = strategy(name) {
-        config.strategy = (entry.settings)();
+    if let Some(entry) = StrategyCatalogue::default().find(name) {
+        config.strategy = entry.settings();
     }
 }
 
 /// Changes a choice of CMA-ES by its name in files.
 fn set_cma(config: &mut RunConfig, field: &str, choice: impl Into<serde_json::Value>) {
-    let StrategySettings::CmaEs(settings) = &config.strategy else { return };
-    let changed = serde_json::to_value(settings).and_then(|mut value| {
-        value[field] = choice.into();
-        serde_json::from_value(value)
-    });
-    if let Ok(changed) = changed {
-        config.strategy = StrategySettings::CmaEs(changed);
+    if config.strategy.name() == "cma-es" {
+        config.strategy.set(field, choice);
     }
 }

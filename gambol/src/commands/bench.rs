@@ -1,7 +1,7 @@
 use super::{Outcome, bench_gaits::Gaits, bench_training::Training};
 use crate::{
     Registry,
-    config::{STRATEGIES, strategy},
+    strategies::StrategyCatalogue,
     suggest,
     yardsticks::{PUBLISHED, Yardstick, contestants, measure, render},
 };
@@ -42,7 +42,7 @@ has used up. The settings and nets are named below each table.")]
 struct Yardsticks {
     /// Which strategies [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_strategy)]
-    strategies: Vec<&'static str>,
+    strategies: Vec<String>,
     /// Which tasks: xor, one-pole, two-poles, two-poles-without-velocities, general-two-poles [default: all but the last]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_task)]
     tasks: Vec<Yardstick>,
@@ -67,7 +67,7 @@ impl Bench {
 impl Yardsticks {
     fn run(self) -> Outcome {
         let wanted = |strategy: &str, task: Yardstick| {
-            (self.strategies.is_empty() || self.strategies.contains(&strategy))
+            (self.strategies.is_empty() || self.strategies.iter().any(|wanted| wanted == strategy))
                 && if self.tasks.is_empty() { task != Yardstick::GeneralTwoPoles } else { self.tasks.contains(&task) }
         };
         let mut measured = Vec::new();
@@ -86,9 +86,10 @@ impl Yardsticks {
     }
 }
 
-fn known_strategy(name: &str) -> Result<&'static str, String> {
-    let names = STRATEGIES.iter().flat_map(|entry| [entry.alias, Some(entry.name)]).flatten();
-    strategy(name).map(|entry| entry.name).ok_or_else(|| suggest::unknown("strategy", name, &names.collect::<Vec<_>>()))
+/// The benchmarks are those of Gambol's own strategies.
+fn known_strategy(name: &str) -> Result<String, String> {
+    let known = StrategyCatalogue::default();
+    known.find(name).map(|entry| entry.name().to_owned()).ok_or_else(|| known.unknown(name))
 }
 
 fn known_task(name: &str) -> Result<Yardstick, String> {

@@ -5,7 +5,7 @@ use super::{
 use crate::{
     Registry,
     champion::Champion,
-    config::{PRESETS, Request, RunConfig},
+    config::{Request, RunConfig},
     gait,
     robust::robustness,
     training::{TrainOptions, train},
@@ -17,7 +17,7 @@ use ne_statistics::quantile;
 use serde::Serialize;
 use serde_json::json;
 use std::{error::Error, process::ExitCode, time::Instant};
-use tasks::{MovementCatalogue, gait::Goal};
+use tasks::gait::Goal;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -50,7 +50,7 @@ pub(super) struct Gaits {
     #[arg(long)]
     robust: bool,
     /// Where runs start from
-    #[arg(long, value_name = "NAME", default_value = PRESETS[0].name)]
+    #[arg(long, value_name = "NAME", default_value = "default")]
     preset: String,
     /// The strategy [default: the preset's]
     #[arg(long, value_name = "NAME")]
@@ -200,7 +200,7 @@ impl Gaits {
             set: self.set.clone(),
             ..Request::default()
         };
-        let mut config = request.resolve(&registry.movements)?;
+        let mut config = request.resolve(registry)?;
         config.seed = seed;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
         let grade = (!self.whole).then_some(gait::USABLE);
@@ -209,13 +209,13 @@ impl Gaits {
     }
 
     fn measure(&self, config: RunConfig, registry: &Registry) -> Result<Run, Box<dyn Error>> {
-        let catalogue = registry.movements.clone();
+        let registry = registry.clone();
         let folder = tempfile::tempdir()?;
         let began = Instant::now();
         let mut first = None;
         let options = TrainOptions {
             threads: self.threads,
-            catalogue: catalogue.clone(),
+            registry: registry.clone(),
             signal: Default::default(),
             on_generation: &mut |generation| {
                 if first.is_none() && generation.grade >= gait::USABLE {
@@ -240,13 +240,13 @@ impl Gaits {
             robust: None,
         };
         if let Some(champion) = &outcome.champion {
-            self.judge(champion, &catalogue, &mut run)?;
+            self.judge(champion, &registry, &mut run)?;
         }
         Ok(run)
     }
 
-    fn judge(&self, champion: &Champion, catalogue: &MovementCatalogue, run: &mut Run) -> Result<(), Box<dyn Error>> {
-        let report = gait::judge(champion, catalogue)?;
+    fn judge(&self, champion: &Champion, registry: &Registry, run: &mut Run) -> Result<(), Box<dyn Error>> {
+        let report = gait::judge(champion, registry)?;
         if let Some(verdict) = &report.verdict {
             run.usable = verdict.usable;
             run.reasons = verdict.reasons.iter().map(ToString::to_string).collect();
@@ -261,7 +261,7 @@ impl Gaits {
             (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
         }
         if self.robust && report.verdict.is_some() {
-            run.robust = Some(robustness(champion, catalogue, 100, 1)?.usable_share);
+            run.robust = Some(robustness(champion, registry, 100, 1)?.usable_share);
         }
         Ok(())
     }

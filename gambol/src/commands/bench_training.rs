@@ -97,20 +97,20 @@ impl Training {
     }
 
     fn measure(&self, creature: String, threads: usize, registry: &Registry) -> Result<Run, Box<dyn Error>> {
-        let catalogue = registry.movements.clone();
+        let registry = registry.clone();
         let request = Request {
             creature: Some(creature.clone()),
             movement: Some("running".into()),
             engine: Some(self.engine.clone()),
             ..Request::default()
         };
-        let mut config = request.resolve(&catalogue)?;
+        let mut config = request.resolve(&registry)?;
         config.stop.generations = Some(self.generations);
         config.movement.steps = Some(self.steps);
         config.rehearsal = None;
         let folder = tempfile::tempdir()?;
         let options =
-            TrainOptions { threads: self.threads, catalogue, signal: Default::default(), on_generation: &mut |_| {} };
+            TrainOptions { threads: self.threads, registry, signal: Default::default(), on_generation: &mut |_| {} };
         let began = Instant::now();
         let outcome = train(&config, &folder.path().join("run"), options)?;
         let seconds = began.elapsed().as_secs_f64();

@@ -18,7 +18,6 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
 };
-use tasks::MovementCatalogue;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -49,13 +48,13 @@ impl Check {
         let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };
         let value: Value = serde_json::from_str(&text).unwrap_or_else(unreadable);
         match value.get("format").and_then(Value::as_str) {
-            Some(CHAMPION_FORMAT) => check_champion(path, &registry.movements)?,
+            Some(CHAMPION_FORMAT) => check_champion(path, registry)?,
             Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),
             Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?)?,
             _ if !value.is_object() || value.get("parts").is_some() => {
                 check_creature(path, source::creature_file(path)?)?
             }
-            _ => check_config(path, &value, &registry.movements)?,
+            _ => check_config(path, &value, registry)?,
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -95,9 +94,9 @@ fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>>
     Ok(())
 }
 
-fn check_champion(path: &Path, catalogue: &MovementCatalogue) -> Result<(), Box<dyn Error>> {
+fn check_champion(path: &Path, registry: &Registry) -> Result<(), Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    champion.episode(catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    champion.episode(registry).map_err(|error| format!("{}: {error}", path.display()))?;
     let (creature, movement) = (&champion.creature.name, &champion.movement.name);
     say!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness)?;
     say!("  to prove that it still does the same: gambol verify {}", path.display())?;
@@ -105,7 +104,7 @@ fn check_champion(path: &Path, catalogue: &MovementCatalogue) -> Result<(), Box<
 }
 
 /// A configuration may leave out creature and movement, which are then given to `train`.
-fn check_config(path: &Path, value: &Value, catalogue: &MovementCatalogue) -> Result<(), Box<dyn Error>> {
+fn check_config(path: &Path, value: &Value, registry: &Registry) -> Result<(), Box<dyn Error>> {
     let fields = value.get("content").unwrap_or(value);
     let missing = |pointer: &str, stand_in: &str| fields.pointer(pointer).is_none().then(|| stand_in.to_owned());
     let request = Request {
@@ -114,9 +113,9 @@ fn check_config(path: &Path, value: &Value, catalogue: &MovementCatalogue) -> Re
         config: Some(path.into()),
         ..Request::default()
     };
-    let config = request.resolve(catalogue)?;
-    Setup::new(&config, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    let stages = Stages::new(&config, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
+    let config = request.resolve(registry)?;
+    Setup::new(&config, registry).map_err(|error| format!("{}: {error}", path.display()))?;
+    let stages = Stages::new(&config, registry).map_err(|error| format!("{}: {error}", path.display()))?;
     say!("{}: a valid configuration{}", path.display(), super::in_bodies(config.bodies()))?;
     for (index, (stage, config)) in stages.configs().enumerate() {
         let rule = stage.promotion.as_ref().map_or_else(|| "the run ends".into(), ToString::to_string);

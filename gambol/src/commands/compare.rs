@@ -1,9 +1,7 @@
 use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry,
-    compare::{
-        ComparisonFolder, Method, Part, PlanRequest, Progress, Runners, WorkOptions, merge, table, work, write_outcome,
-    },
+    compare::{ComparisonFolder, Method, Part, PlanRequest, Progress, WorkOptions, merge, table, work, write_outcome},
 };
 use clap::Args;
 use ne_core::{StopConditions, StopSignal};
@@ -27,7 +25,7 @@ and curves.csv.")]
 pub(crate) struct Compare {
     /// What is compared: strategies (see: gambol strategies), presets, or NAME=CONFIG-FILE
     #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
-    strategies: Vec<Method>,
+    strategies: Vec<String>,
     /// Shipped creatures or creature files
     #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
     creatures: Vec<String>,
@@ -75,9 +73,8 @@ pub(crate) struct Compare {
 
 impl Compare {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
-        let catalogue = registry.movements.clone();
         let request = PlanRequest {
-            methods: self.strategies.clone(),
+            methods: self.strategies.iter().map(|text| Method::parse(text, registry)).collect::<Result<_, _>>()?,
             creatures: self.creatures.clone(),
             movements: self.movements.clone(),
             seeds: (1..=self.seeds).collect(),
@@ -86,7 +83,7 @@ impl Compare {
             engine: self.engine.clone(),
             variation: self.variation.clone(),
         };
-        let plan = request.plan(&catalogue)?;
+        let plan = request.plan(registry)?;
         let folder = ComparisonFolder::create(&self.out, &plan)?;
         let signal = StopSignal::default();
         super::stop_on_interrupt(&signal)?;
@@ -98,13 +95,11 @@ impl Compare {
                 eprintln!("{done}/{all} after {:.0} s: {run}: {best}", began.elapsed().as_secs_f64());
             }
         };
-        let runners = Runners::default();
         let options = WorkOptions {
             part: self.part,
             at_once: self.at_once,
             threads: self.threads,
-            catalogue,
-            runners: &runners,
+            registry: registry.clone(),
             signal: signal.clone(),
             on_run: &show,
         };

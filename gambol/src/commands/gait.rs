@@ -17,10 +17,7 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
 };
-use tasks::{
-    MovementCatalogue,
-    gait::{GaitError, GaitReport},
-};
+use tasks::gait::{GaitError, GaitReport};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -73,11 +70,10 @@ struct Measured {
 impl Gait {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         self.check_sheet()?;
-        let catalogue = &registry.movements;
         let with_sheet = self.sheet.is_some();
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         let Measured { gait, name, sheet } = match &self.creature {
-            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet, catalogue)?,
+            Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet, registry)?,
             None if is_csv => {
                 let path = self.gait.display();
                 return Err(format!("{path} does not say whose trajectory it is: give --creature NAME or FILE").into());
@@ -85,7 +81,7 @@ impl Gait {
             None if self.movement.is_some() => {
                 return Err("--movement is for trajectories: a champion says itself what it has learned".into());
             }
-            None => of_champion(&champion_file(&self.gait)?, with_sheet, catalogue)?,
+            None => of_champion(&champion_file(&self.gait)?, with_sheet, registry)?,
         };
         if let (Some(path), Some(sheet)) = (&self.sheet, &sheet) {
             archive::write_whole(path, sheet).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
@@ -93,7 +89,7 @@ impl Gait {
         if self.json {
             say!("{}", serde_json::to_string(&gait)?)?;
         } else {
-            say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles, catalogue).trim_end())?;
+            say!("{}", gait_text::describe(&name, &gait.report, &gait.obstacles, registry).trim_end())?;
             if let Some(path) = &self.sheet {
                 say!("\ncontact sheet: {}", path.display())?;
             }
@@ -121,10 +117,10 @@ pub(super) fn champion_file(path: &Path) -> Result<PathBuf, Box<dyn Error>> {
     Ok(if path.is_dir() { RunFolder::open(path)?.champion() } else { path.into() })
 }
 
-fn of_champion(path: &Path, with_sheet: bool, catalogue: &MovementCatalogue) -> Result<Measured, Box<dyn Error>> {
+fn of_champion(path: &Path, with_sheet: bool, registry: &Registry) -> Result<Measured, Box<dyn Error>> {
     let champion = Champion::read(path)?;
-    let gait = gait::measure(&champion, catalogue).map_err(|error| format!("{}: {error}", path.display()))?;
-    let sheet = with_sheet.then(|| sheet::of_champion(&champion, &gait.report, catalogue)).transpose()?;
+    let gait = gait::measure(&champion, registry).map_err(|error| format!("{}: {error}", path.display()))?;
+    let sheet = with_sheet.then(|| sheet::of_champion(&champion, &gait.report, registry)).transpose()?;
     Ok(Measured { gait, name: format!("{} {}", champion.creature.name, champion.movement.name), sheet })
 }
 
@@ -133,16 +129,17 @@ fn of_trajectory(
     creature: &str,
     movement: Option<&str>,
     with_sheet: bool,
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
 ) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
     let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
     let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;
     let trajectory = read.trajectory(&body).map_err(|error| located(path, &read, &error))?;
-    let judged = || catalogue.judged().collect::<Vec<_>>();
+    let judged = || registry.movements.judged().collect::<Vec<_>>();
     let unknown = |movement| suggest::unknown("movement whose gaits are judged", movement, &judged());
-    let rules = movement.map(|movement| catalogue.rules(movement).ok_or_else(|| unknown(movement))).transpose()?;
+    let rules =
+        movement.map(|movement| registry.movements.rules(movement).ok_or_else(|| unknown(movement))).transpose()?;
     let report = GaitReport::of(&trajectory, rules.as_deref());
     let subject = sheet::Subject {
         blueprint: &blueprint,

@@ -1,11 +1,9 @@
 //! A gait report as text for people.
 
+use crate::Registry;
 use crate::obstacles::ObstaclesPassed;
 use std::fmt::Write;
-use tasks::{
-    MovementCatalogue,
-    gait::{GaitReport, JointUse, LegUse, NearWorlds},
-};
+use tasks::gait::{GaitReport, JointUse, LegUse, NearWorlds};
 
 /// How much of the end the footfall diagram shows, s.
 const DIAGRAM_SECONDS: f64 = 3.0;
@@ -13,13 +11,8 @@ const DIAGRAM_SECONDS: f64 = 3.0;
 const DIAGRAM_WIDTH: usize = 60;
 
 /// The verdict first, then what was measured, legs, joints and footfalls.
-pub(super) fn describe(
-    name: &str,
-    report: &GaitReport,
-    obstacles: &[ObstaclesPassed],
-    catalogue: &MovementCatalogue,
-) -> String {
-    let mut text = verdict(name, report, catalogue);
+pub(super) fn describe(name: &str, report: &GaitReport, obstacles: &[ObstaclesPassed], registry: &Registry) -> String {
+    let mut text = verdict(name, report, registry);
     text.push('\n');
     for (label, value) in measurements(report) {
         line(&mut text, &format!("  {label:<18} {value}"));
@@ -40,11 +33,11 @@ fn line(text: &mut String, line: &str) {
     let _ = writeln!(text, "{}", line.trim_end());
 }
 
-fn verdict(name: &str, report: &GaitReport, catalogue: &MovementCatalogue) -> String {
+fn verdict(name: &str, report: &GaitReport, registry: &Registry) -> String {
     let mut text = String::new();
     match &report.verdict {
         None => {
-            let judged: Vec<&str> = catalogue.judged().collect();
+            let judged: Vec<&str> = registry.movements.judged().collect();
             line(&mut text, &format!("{name}: not judged; only {} are", judged.join(", ")));
         }
         Some(verdict) if verdict.usable => {
@@ -199,7 +192,7 @@ mod tests {
 
     #[test]
     fn the_verdict_comes_first_and_the_footfalls_last() {
-        let text = describe("hopper running", &report(), &[], &MovementCatalogue::default());
+        let text = describe("hopper running", &report(), &[], &Registry::default());
         assert!(text.starts_with("hopper running: not usable:\n  the episode lasted 4.0 s"), "{text}");
         let diagram: Vec<&str> = text.lines().rev().take(3).collect();
         assert_eq!(diagram[2], "  footfalls, the last 3.0 s");

@@ -1,8 +1,5 @@
 use super::Outcome;
-use crate::{
-    Registry,
-    config::{STRATEGIES, StrategyEntry},
-};
+use crate::{Registry, strategies::StrategyEntry};
 use clap::Args;
 use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, TERRAINS, TerrainEntry};
 use serde_json::json;
@@ -55,23 +52,22 @@ pub(crate) struct Movements {
 
 impl Movements {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
-        let catalogue = &registry.movements;
         if self.json {
             let row = |entry: &tasks::MovementEntry| json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description });
-            say!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>())?;
+            say!("{}", registry.movements.entries().iter().map(row).collect::<serde_json::Value>())?;
             return Ok(ExitCode::SUCCESS);
         }
         let line = |entry: &tasks::MovementEntry, steps: String| {
             say!("  {:<12} {:<3} {steps:<11} {}", entry.name, entry.unit, entry.description)
         };
         say!("movements")?;
-        for entry in catalogue.entries() {
+        for entry in registry.movements.entries() {
             if let Some(steps) = entry.steps {
                 line(entry, format!("{steps} steps"))?;
             }
         }
         say!("terms, to be added with --set 'movement.terms=[{{\"term\":NAME,\"weight\":W}}]'")?;
-        for entry in catalogue.entries().iter().filter(|entry| entry.steps.is_none()) {
+        for entry in registry.movements.entries().iter().filter(|entry| entry.steps.is_none()) {
             line(entry, String::new())?;
         }
         Ok(ExitCode::SUCCESS)
@@ -90,15 +86,15 @@ pub(crate) struct Strategies {
 }
 
 impl Strategies {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         if self.json {
-            let row = |entry: &StrategyEntry| json!({ "name": entry.name, "alias": entry.alias, "description": entry.description, "settings": (entry.settings)() });
-            say!("{}", STRATEGIES.iter().map(row).collect::<serde_json::Value>())?;
+            let row = |entry: &StrategyEntry| json!({ "name": entry.name(), "alias": entry.alias(), "description": entry.description(), "settings": entry.settings() });
+            say!("{}", registry.strategies.entries().iter().map(row).collect::<serde_json::Value>())?;
             return Ok(ExitCode::SUCCESS);
         }
-        for entry in STRATEGIES {
-            let alias = entry.alias.map_or_else(String::new, |alias| format!(" (or {alias})"));
-            say!("{:<20} {}", format!("{}{alias}", entry.name), entry.description)?;
+        for entry in registry.strategies.entries() {
+            let alias = entry.alias().map_or_else(String::new, |alias| format!(" (or {alias})"));
+            say!("{:<20} {}", format!("{}{alias}", entry.name()), entry.description())?;
         }
         Ok(ExitCode::SUCCESS)
     }

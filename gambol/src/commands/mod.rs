@@ -164,7 +164,7 @@ impl Command {
             Self::Creatures(creatures) => creatures.run(),
             Self::Movements(movements) => movements.run(registry),
             Self::Terrains(terrains) => terrains.run(),
-            Self::Strategies(strategies) => strategies.run(),
+            Self::Strategies(strategies) => strategies.run(registry),
         }
     }
 }

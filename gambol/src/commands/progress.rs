@@ -1,5 +1,6 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
+use crate::Registry;
 use crate::{
     champion::Champion,
     config::RunConfig,
@@ -13,7 +14,7 @@ use std::{
     io::{self, IsTerminal, Write},
     time::{Duration, Instant},
 };
-use tasks::{MovementCatalogue, gait::Judgement};
+use tasks::gait::Judgement;
 
 /// Between two lines where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(5);
@@ -21,7 +22,7 @@ const LINE_EVERY: Duration = Duration::from_secs(5);
 pub(super) struct Show {
     manner: Manner,
     /// Units of fitness, by the names of movements.
-    catalogue: MovementCatalogue,
+    registry: Registry,
     /// The unit of what is trained now.
     unit: String,
     /// Whether the run has stages: its generations are then counted in each of them, its limit over all.
@@ -42,7 +43,7 @@ enum Manner {
 }
 
 impl Show {
-    pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, catalogue: &MovementCatalogue) -> Self {
+    pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, registry: &Registry) -> Self {
         let staged = !config.stages.is_empty();
         let limit = config.stop.generations.filter(|_| !staged);
         let manner = if quiet {
@@ -65,8 +66,8 @@ impl Show {
         }
         Self {
             manner,
-            catalogue: catalogue.clone(),
-            unit: unit_of(catalogue, &config.movement.name),
+            registry: registry.clone(),
+            unit: unit_of(registry, &config.movement.name),
             staged,
             start: Instant::now(),
             first: None,
@@ -79,7 +80,7 @@ impl Show {
     /// A stage begins, or is taken up again: of a run of `stages`, if they are listed.
     pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
         (self.start, self.first, self.last_line) = (Instant::now(), None, None);
-        self.unit = unit_of(&self.catalogue, &planned.config.movement.name);
+        self.unit = unit_of(&self.registry, &planned.config.movement.name);
         self.judged = planned.config.has_jury();
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
@@ -153,7 +154,7 @@ impl Show {
         match champion {
             Some(champion) => {
                 // Of a run with stages that had ended before, no stage was begun.
-                let best = worth(champion, &unit_of(&self.catalogue, &champion.movement.name));
+                let best = worth(champion, &unit_of(&self.registry, &champion.movement.name));
                 let of = if self.staged { "its stage".into() } else { generations.to_string() };
                 let found = champion.generation;
                 say!("best {best}, found in generation {found} of {of}; {reason} after {seconds:.1} s")?;
@@ -191,8 +192,8 @@ fn in_words(verdict: &Judgement) -> String {
 }
 
 /// The unit of a movement's fitness.
-fn unit_of(catalogue: &MovementCatalogue, movement: &str) -> String {
-    catalogue.find(movement).map_or_else(String::new, |entry| entry.unit.clone())
+fn unit_of(registry: &Registry, movement: &str) -> String {
+    registry.movements.find(movement).map_or_else(String::new, |entry| entry.unit.clone())
 }
 
 /// What is said where lanes and rapier should agree and do not.

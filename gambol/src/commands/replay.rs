@@ -10,7 +10,7 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
 };
-use tasks::{Body, Environment, MovementCatalogue};
+use tasks::{Body, Environment};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -56,9 +56,9 @@ pub(crate) struct Replay {
 impl Replay {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         self.check_outputs(&champion_file(&self.champion)?)?;
-        let catalogue = registry.movements.clone();
+        let registry = registry.clone();
         let mut champion = match self.point {
-            Some(number) => point(&self.champion, number, &catalogue)?,
+            Some(number) => point(&self.champion, number, &registry)?,
             None => Champion::read(&champion_file(&self.champion)?)?,
         };
         if let Some(path) = &self.save {
@@ -68,13 +68,13 @@ impl Replay {
         let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
         champion.movement.steps = steps.or(champion.movement.steps);
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
-        let episode = champion.episode(&catalogue).map_err(|error| in_file(&error))?;
+        let episode = champion.episode(&registry).map_err(|error| in_file(&error))?;
         let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut ());
         if let Some(failure) = &played.failure {
             say!("the replay failed after {} steps: {failure}", played.steps)?;
         }
         if let Some(path) = &self.trajectory {
-            let stage = Stage::new(champion.episode_parts(), &catalogue).map_err(|error| in_file(&error))?;
+            let stage = Stage::new(champion.episode_parts(), &registry).map_err(|error| in_file(&error))?;
             let world = stage.environment();
             let (recording, failure) = Recording::play(world, &champion.network, steps.unwrap_or(stage.steps()));
             let mut csv = Vec::new();
@@ -90,7 +90,7 @@ impl Replay {
             say!("net         {}", path.display())?;
         }
         if let Some(path) = &self.html {
-            report::write_replay(&champion, &catalogue, steps, path)?;
+            report::write_replay(&champion, &registry, steps, path)?;
             say!("page        {}", path.display())?;
         }
         let (value, unit) = (played.movement.value(), played.movement.unit());
@@ -130,7 +130,7 @@ fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
 }
 
 /// A point of the front in a run's folder, counted from 1; of a run with stages, of its latest.
-fn point(folder: &Path, number: usize, catalogue: &MovementCatalogue) -> Result<Champion, Box<dyn Error>> {
+fn point(folder: &Path, number: usize, registry: &Registry) -> Result<Champion, Box<dyn Error>> {
     let run = RunFolder::open(folder)?;
     let latest = legs(&run)?.pop();
     let folder = latest.map_or(Ok(run), |leg| RunFolder::open(&leg.folder))?;
@@ -140,7 +140,7 @@ fn point(folder: &Path, number: usize, catalogue: &MovementCatalogue) -> Result<
         return Err(format!("{path} has no front.json: {strategy} looks for no front; --strategy nsga2 does").into());
     }
     let front = Front::read(&folder.front())?;
-    let setup = Setup::new(&config, catalogue)?;
+    let setup = Setup::new(&config, registry)?;
     match number.checked_sub(1).and_then(|index| front.points.get(index)) {
         Some(point) => Ok(point.champion(&config, &setup)),
         None if front.points.is_empty() => {

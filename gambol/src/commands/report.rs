@@ -13,7 +13,7 @@ pub(crate) struct Report {
 impl Report {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let folder = RunFolder::open(&self.folder)?;
-        report::write_report(&folder, &registry.movements, None)?;
+        report::write_report(&folder, registry, None)?;
         say!("{}", folder.report().display())?;
         Ok(ExitCode::SUCCESS)
     }

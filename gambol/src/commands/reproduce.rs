@@ -96,7 +96,7 @@ impl Thesis {
             generations: self.generations,
             clock_minutes: self.clock.then_some(self.clock_minutes),
         };
-        let plan = request.plan()?;
+        let plan = request.plan(registry)?;
         let folder = ReproductionFolder::create(&self.out, &plan)?;
         let signal = StopSignal::default();
         super::stop_on_interrupt(&signal)?;
@@ -118,7 +118,7 @@ impl Thesis {
             part: self.part,
             at_once: self.at_once,
             threads: self.threads,
-            catalogue: registry.movements.clone(),
+            registry: registry.clone(),
             signal: signal.clone(),
             on_run: &show,
         };

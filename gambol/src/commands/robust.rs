@@ -51,9 +51,8 @@ impl Robust {
             .num_threads(self.threads)
             .build()
             .map_err(|error| format!("cannot start {} threads: {error}", self.threads))?;
-        let catalogue = &registry.movements;
         let robustness = pool
-            .install(|| robustness(&champion, catalogue, self.perturbations, self.seed))
+            .install(|| robustness(&champion, registry, self.perturbations, self.seed))
             .map_err(|error| format!("{}: {error}", path.display()))?;
         if self.json {
             say!("{}", serde_json::to_string(&robustness)?)?;

@@ -16,10 +16,7 @@ use std::{
     process::ExitCode,
     time::Instant,
 };
-use tasks::{
-    MovementCatalogue,
-    gait::{Judgement, Reason},
-};
+use tasks::gait::{Judgement, Reason};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -202,7 +199,7 @@ fn minutes_of(text: &str) -> Result<f64, String> {
 
 impl Train {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
-        let catalogue = registry.movements.clone();
+        let registry = registry.clone();
         let Self {
             creature, movement, preset, strategy, topology_from, engine, variation, terrain, config, set, ..
         } = &self;
@@ -221,7 +218,7 @@ impl Train {
             terrain: terrain.clone(),
             unvaried: false,
         };
-        let mut config = request.resolve(&catalogue)?;
+        let mut config = request.resolve(&registry)?;
         if let Some(seed) = self.seed {
             config.seed = seed;
         }
@@ -233,14 +230,14 @@ impl Train {
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
         if let Some(source) = &self.from {
             config.origin = None;
-            return carry_out(&self.manner, &config, catalogue, |options, _| {
+            return carry_out(&self.manner, &config, registry, |options, _| {
                 Ok(shaping::train_from(&config, source, carried, self.forget, &folder, options)?)
             });
         }
-        if let Err(error) = Setup::new(&config, &catalogue) {
-            return Err(located(&error.to_string(), request, &catalogue).into());
+        if let Err(error) = Setup::new(&config, &registry) {
+            return Err(located(&error.to_string(), request, &registry).into());
         }
-        carry_out(&self.manner, &config, catalogue, |options, journey| match config.stages.is_empty() {
+        carry_out(&self.manner, &config, registry, |options, journey| match config.stages.is_empty() {
             true => Ok(training::train(&config, &folder, options)?),
             false => Ok(shaping::train_stages(&config, &folder, journey, options)?),
         })
@@ -257,12 +254,12 @@ impl Train {
 }
 
 /// The error, with the file it is in: the configuration file, if that alone gives the same error.
-fn located(error: &str, request: Request, catalogue: &MovementCatalogue) -> String {
+fn located(error: &str, request: Request, registry: &Registry) -> String {
     let file = request.config.clone();
     let alone =
         Request { companions: Vec::new(), set: Vec::new(), engine: None, variation: None, terrain: None, ..request }
-            .resolve(catalogue);
-    let same = alone.is_ok_and(|config| Setup::new(&config, catalogue).is_err_and(|found| found.to_string() == error));
+            .resolve(registry);
+    let same = alone.is_ok_and(|config| Setup::new(&config, registry).is_err_and(|found| found.to_string() == error));
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }
 
@@ -281,16 +278,16 @@ fn unused_folder(config: &RunConfig) -> PathBuf {
 pub(super) fn carry_out(
     manner: &Manner,
     config: &RunConfig,
-    catalogue: MovementCatalogue,
+    registry: Registry,
     start: impl FnOnce(TrainOptions<'_>, Journey<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
 ) -> Outcome {
     let signal = StopSignal::default();
     super::stop_on_interrupt(&signal)?;
-    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &catalogue));
+    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &registry));
     let began = Instant::now();
     let options = TrainOptions {
         threads: manner.threads,
-        catalogue: catalogue.clone(),
+        registry: registry.clone(),
         signal,
         on_generation: &mut |generation| show.borrow_mut().generation(generation),
     };
@@ -301,12 +298,12 @@ pub(super) fn carry_out(
     let outcome = ended?;
     let seconds = began.elapsed().as_secs_f64();
     if !manner.no_report {
-        report::write_report(&outcome.folder, &catalogue, Some(outcome.reason))?;
+        report::write_report(&outcome.folder, &registry, Some(outcome.reason))?;
     }
     let until_usable = config.stop.grade.is_some();
     // Judging takes a whole episode, which quiet runs save.
     let judged = outcome.champion.as_ref().filter(|_| !manner.quiet || until_usable);
-    let verdict = judged.and_then(|champion| verdict(champion, &catalogue));
+    let verdict = judged.and_then(|champion| verdict(champion, &registry));
     show.result(&outcome, verdict.as_ref(), seconds, !manner.no_report);
     let usable = verdict.is_some_and(|verdict| verdict.usable);
     Ok(match outcome.reason {
@@ -317,12 +314,12 @@ pub(super) fn carry_out(
 }
 
 /// What `gambol gait` says of a champion; `None` if gaits of its movement are not judged.
-fn verdict(champion: &Champion, catalogue: &MovementCatalogue) -> Option<Judgement> {
-    let rules = catalogue.rules(&champion.movement.name)?;
+fn verdict(champion: &Champion, registry: &Registry) -> Option<Judgement> {
+    let rules = registry.movements.rules(&champion.movement.name)?;
     let nothing_to_measure = || {
         let reasons = vec![Reason::TooShort { seconds: 0.0, required: rules.seconds() }];
         Judgement { usable: false, reasons, best_flight: None, near_worlds: None }
     };
-    let report = gait::judge(champion, catalogue).ok();
+    let report = gait::judge(champion, registry).ok();
     Some(report.and_then(|report| report.verdict).unwrap_or_else(nothing_to_measure))
 }

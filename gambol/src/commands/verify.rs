@@ -29,8 +29,7 @@ impl Verify {
         let (content, digests) = archive::read_unverified(path, CHAMPION_FORMAT, CHAMPION_VERSION)?;
         let champion: Champion = archive::content(path, content)?;
         let unchanged = digests.expected == digests.found;
-        let verification =
-            champion.verify(&registry.movements).map_err(|error| format!("{}: {error}", path.display()))?;
+        let verification = champion.verify(registry).map_err(|error| format!("{}: {error}", path.display()))?;
         let identical = verification.is_identical();
         if self.json {
             let Verification { evaluation, recorded, diverges_at } = &verification;

@@ -8,7 +8,7 @@
 //!
 //! When all runs are there, [`write_outcome`] says what came of it: a page, a [`table`] for the terminal, and raw data.
 //!
-//! Programs with a strategy of their own give a [`Runner`] for it.
+//! Strategies of other crates take part by their names, once they are in the [registry](crate::Registry).
 
 pub mod analysis;
 mod csv;
@@ -19,7 +19,6 @@ mod outcome;
 mod page;
 mod plan;
 mod result;
-mod runner;
 pub mod table;
 #[cfg(test)]
 mod testing;
@@ -31,5 +30,4 @@ pub use merge::merge;
 pub use outcome::write_outcome;
 pub use plan::{Cell, Job, Method, Part, Plan, PlanError, PlanRequest};
 pub use result::{Point, RunResult};
-pub use runner::{ForeignRunner, Runner, Runners};
 pub use work::{Progress, WorkOptions, work};

@@ -1,9 +1,9 @@
-use crate::config::{PRESETS, Request, RequestError, RunConfig, STRATEGIES, preset, strategy};
+use crate::Registry;
+use crate::config::{Request, RequestError, RunConfig};
 use crate::suggest;
 use ne_core::StopConditions;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};
-use tasks::MovementCatalogue;
 
 /// Everything needed to repeat a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -123,7 +123,7 @@ impl PlanRequest {
     ///
     /// # Errors
     /// If something is missing or there twice, or a configuration is wrong; the error names the method and the field.
-    pub fn plan(&self, catalogue: &MovementCatalogue) -> Result<Plan, PlanError> {
+    pub fn plan(&self, registry: &Registry) -> Result<Plan, PlanError> {
         let missing = [
             (self.methods.is_empty(), "which strategies to compare, such as --strategies ga,neat"),
             (self.creatures.is_empty(), "on which creatures, such as --creatures biped-1,apod"),
@@ -149,7 +149,7 @@ impl PlanRequest {
         };
         for creature in &self.creatures {
             for movement in &self.movements {
-                let cell = |method| self.cell(method, creature, movement, catalogue);
+                let cell = |method| self.cell(method, creature, movement, registry);
                 let cells = self.methods.iter().map(cell).collect::<Result<Vec<_>, _>>()?;
                 plan.scenarios.extend(cells.first().map(|cell| cell.scenario.clone()));
                 plan.cells.extend(cells);
@@ -162,13 +162,7 @@ impl PlanRequest {
         Ok(plan)
     }
 
-    fn cell(
-        &self,
-        method: &Method,
-        creature: &str,
-        movement: &str,
-        catalogue: &MovementCatalogue,
-    ) -> Result<Cell, PlanError> {
+    fn cell(&self, method: &Method, creature: &str, movement: &str, registry: &Registry) -> Result<Cell, PlanError> {
         let request = Request {
             creature: Some(creature.into()),
             movement: Some(movement.into()),
@@ -183,7 +177,7 @@ impl PlanRequest {
             ..Request::default()
         };
         let (method, scenario) = (method.name.clone(), format!("{creature} {movement}"));
-        let config = request.resolve(catalogue);
+        let config = request.resolve(registry);
         let mut config = config.map_err(|source| PlanError::Request {
             method: method.clone(),
             scenario: scenario.clone(),
@@ -194,7 +188,7 @@ impl PlanRequest {
         config.seed = 0;
         config.record.populations_at.clear();
         let scenario = format!("{} {movement}", config.creature.name);
-        match crate::Setup::new(&config, catalogue) {
+        match crate::Setup::new(&config, registry) {
             Ok(setup) => Ok(Cell { method, scenario, unit: setup.unit, config }),
             Err(error) => Err(PlanError::Setup { method, scenario, message: error.to_string() }),
         }
@@ -205,32 +199,6 @@ impl Plan {
     /// All runs. Those with the same seed stand together, so that what is done first can be compared first.
     pub fn jobs(&self) -> impl Iterator<Item = Job<'_>> {
         self.seeds.iter().flat_map(|&seed| self.cells.iter().map(move |cell| Job { cell, seed }))
-    }
-
-    /// Adds a method of another program to every scenario: the first method's configurations, with its strategy's name in
-    /// place of theirs. See [`ForeignRunner`](super::ForeignRunner).
-    ///
-    /// # Errors
-    /// If there is a method of this name, or it cannot be the name of a folder.
-    pub fn add_foreign(&mut self, name: &str) -> Result<(), PlanError> {
-        check_name(name)?;
-        let names = self.methods.iter().map(String::as_str).chain([name]);
-        unique("the strategy", names.map(|name| folder_name(name).to_lowercase()))?;
-        let first = self.methods.first().cloned();
-        let mut cells = Vec::new();
-        for scenario in &self.scenarios {
-            let mine: Vec<Cell> = self.cells.iter().filter(|cell| cell.scenario == *scenario).cloned().collect();
-            let model = mine.iter().find(|cell| Some(&cell.method) == first.as_ref()).cloned();
-            cells.extend(mine);
-            cells.extend(model.map(|mut cell| {
-                cell.method = name.into();
-                cell.config.strategy = crate::config::StrategySettings::Custom(name.into());
-                cell
-            }));
-        }
-        self.methods.push(name.into());
-        self.cells = cells;
-        Ok(())
     }
 }
 
@@ -246,25 +214,26 @@ impl Job<'_> {
     }
 }
 
-/// A strategy's name or alias (`neat`, `ga`), a preset's (`thesis`), or a name and a configuration file
-/// (`large=large.json`).
-impl FromStr for Method {
-    type Err = PlanError;
-
-    fn from_str(text: &str) -> Result<Self, PlanError> {
+impl Method {
+    /// A strategy's name or alias (`neat`, `ga`), a preset's (`thesis`), or a name and a configuration file
+    /// (`large=large.json`).
+    ///
+    /// # Errors
+    /// If there is no such strategy or preset, or the name cannot be that of a folder.
+    pub fn parse(text: &str, registry: &Registry) -> Result<Self, PlanError> {
         let none = Self { name: text.into(), preset: None, strategy: None, config: None };
         if let Some((name, file)) = text.split_once('=') {
             check_name(name)?;
             return Ok(Self { name: name.into(), config: Some(file.into()), ..none });
         }
-        if strategy(text).is_some() {
+        if registry.strategies.find(text).is_some() {
             return Ok(Self { strategy: Some(text.into()), ..none });
         }
-        if preset(text).is_some() {
+        if registry.presets.find(text).is_ok() {
             return Ok(Self { preset: Some(text.into()), ..none });
         }
-        let strategies = STRATEGIES.iter().flat_map(|entry| [entry.alias, Some(entry.name)]).flatten();
-        let known: Vec<&str> = strategies.chain(PRESETS.iter().map(|preset| preset.name)).collect();
+        let mut known = registry.strategies.names();
+        known.extend(registry.presets.entries().map(|preset| preset.name));
         let hint = "; or give it a name and a configuration file, NAME=FILE";
         Err(PlanError::Method(suggest::unknown("strategy or preset", text, &known) + hint))
     }

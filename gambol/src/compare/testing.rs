@@ -1,13 +1,14 @@
 //! Comparisons with known answers, for tests.
 
 use super::{Cell, Plan, Point, RunResult};
-use crate::config::preset;
+use crate::Registry;
 use ne_core::StopConditions;
 
 /// A plan with seeds from 1 on and a budget of 1,000 evaluations, in metres.
 pub(super) fn plan(methods: &[&str], scenarios: &[&str], seeds: u64) -> Plan {
-    let config =
-        preset("default").expect("there is one").config(creatures::find("biped-1").expect("it is shipped"), "running");
+    let config = Registry::default()
+        .config("default", creatures::find("biped-1").expect("it is shipped"), "running")
+        .expect("a preset");
     let cell = |method: &str, scenario: &str| Cell {
         method: method.into(),
         scenario: scenario.into(),

@@ -1,7 +1,8 @@
-use super::{CompareError, ComparisonFolder, Part, Plan, Runners, plan::Job, result::RunResult};
+use super::{CompareError, ComparisonFolder, Part, Plan, plan::Job, result::RunResult};
+use crate::Registry;
 use crate::{
     run_folder::{FolderError, RunFolder},
-    training::{TrainError, TrainOptions},
+    training::{self, TrainError, TrainOptions},
 };
 use ne_core::{GenerationReport, StopReason, StopSignal};
 use std::{
@@ -14,7 +15,6 @@ use std::{
     },
     thread,
 };
-use tasks::MovementCatalogue;
 
 /// How the runs of a comparison are to be done; none of it changes what they find.
 pub struct WorkOptions<'a> {
@@ -24,10 +24,8 @@ pub struct WorkOptions<'a> {
     pub at_once: usize,
     /// Threads of each run; 0: one for each core.
     pub threads: usize,
-    /// The movements there are.
-    pub catalogue: MovementCatalogue,
-    /// Who does the runs.
-    pub runners: &'a Runners,
+    /// What configurations can name.
+    pub registry: Registry,
     /// Ends the work after the generations under way.
     pub signal: StopSignal,
     /// Called after each run.
@@ -102,14 +100,13 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
     let mut unseen = |_: &GenerationReport| {};
     let how = TrainOptions {
         threads: options.threads,
-        catalogue: options.catalogue.clone(),
+        registry: options.registry.clone(),
         signal: options.signal.clone(),
         on_generation: &mut unseen,
     };
-    let runner = options.runners.of(&job.cell.method);
     let begun = RunFolder::open(&path).is_ok_and(|run| run.checkpoint().is_file());
     let reason = if begun {
-        match runner.resume(&path, how) {
+        match training::resume(&path, None, how) {
             Err(TrainError::Over { reason, .. }) => Ok(reason),
             ended => ended.map(|outcome| outcome.reason),
         }
@@ -117,7 +114,7 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
         if !clear(&path)? {
             return Ok(None);
         }
-        runner.train(&job.config(), &path, how).map(|outcome| outcome.reason)
+        training::train(&job.config(), &path, how).map(|outcome| outcome.reason)
     };
     match reason {
         // Exists: another process was faster.

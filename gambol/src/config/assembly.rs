@@ -1,7 +1,7 @@
 //! A configuration put together from a preset, a file and single settings, later ones winning.
 
 use super::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig, VARIATIONS, variation};
-use crate::suggest;
+use crate::{Registry, strategies::StrategyError, suggest};
 use creatures::Terrain;
 use serde_json::{Map, Value, json};
 
@@ -29,6 +29,16 @@ pub enum ConfigError {
     /// A `key=value` without a key or without `=`.
     #[error("\"{0}\" is not of the form key=value, such as physics.time_step=0.01")]
     Assignment(String),
+}
+
+impl From<StrategyError> for ConfigError {
+    fn from(error: StrategyError) -> Self {
+        match error {
+            StrategyError::Unknown { message } => Self::Field { field: "strategy".into(), message },
+            StrategyError::Field { field, message } => Self::Field { field, message },
+            StrategyError::Setting(error) => Self::Field { message: error.to_string(), field: error.field },
+        }
+    }
 }
 
 /// A configuration in the making.
@@ -102,17 +112,19 @@ impl Assembly {
     ///
     /// # Errors
     /// If a field is unknown, missing or of the wrong type.
-    pub fn finish(self) -> Result<RunConfig, ConfigError> {
-        self.check()
+    pub fn finish(self, registry: &Registry) -> Result<RunConfig, ConfigError> {
+        self.check(registry)
     }
 
     /// As [`finish`](Self::finish), for a look in between.
-    pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
+    pub(super) fn check(&self, registry: &Registry) -> Result<RunConfig, ConfigError> {
         self.check_names()?;
-        serde_path_to_error::deserialize(&self.value).map_err(|error| {
+        let config: RunConfig = serde_path_to_error::deserialize(&self.value).map_err(|error| {
             let field = error.path().to_string();
             ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
-        })
+        })?;
+        registry.strategies.check(&config.strategy)?;
+        Ok(config)
     }
 
     /// Names that could not be spelled out.

@@ -1,19 +1,18 @@
 //! The configuration of a run: everything needed to repeat it.
 
 mod assembly;
-mod coaching;
 mod engine;
 mod heats;
-mod presets;
 mod request;
 mod strategy;
+mod variations;
 
 pub use assembly::{Assembly, ConfigError};
 pub use engine::EngineChoice;
 pub use heats::HeatSettings;
-pub use presets::{PRESETS, Preset, VARIATIONS, preset, variation};
 pub use request::{Request, RequestError};
-pub use strategy::{STRATEGIES, StrategyEntry, StrategySettings, strategy};
+pub use strategy::StrategySettings;
+pub use variations::{VARIATIONS, variation};
 
 use crate::shaping::{Origin, StageSettings};
 use creatures::{Actuation, Creature, Sensor, Terrain};
@@ -162,7 +161,7 @@ pub struct RecordSettings {
 }
 
 /// With the nine generations between checkpoints they are 32: two batches of 16 lanes.
-fn default_finalists() -> usize {
+pub(crate) fn default_finalists() -> usize {
     23
 }
 

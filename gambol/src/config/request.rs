@@ -1,14 +1,14 @@
 //! What a user asks for, and the configuration that follows from it.
 
-use super::{
-    Assembly, ConfigError, EngineChoice, FrozenTopology, PRESETS, Preset, RunConfig, STRATEGIES, StrategyEntry,
-    VARIATIONS, preset, strategy, variation,
-};
+use super::{Assembly, ConfigError, EngineChoice, FrozenTopology, RunConfig, VARIATIONS, variation};
+use crate::Registry;
 use crate::{
     champion::{Champion, ChannelRecord},
+    presets::Preset,
     shaping::{self, ShapingError},
     source,
     source::SourceError,
+    strategies::StrategyEntry,
     suggest,
 };
 use creatures::{Blueprint, Creature, CreatureError, Terrain, UnknownTerrain};
@@ -19,7 +19,6 @@ use std::{
     fs, io,
     path::{Path, PathBuf},
 };
-use tasks::MovementCatalogue;
 
 /// A configuration in a user's words: later entries win over earlier ones.
 #[derive(Clone, Debug, Default)]
@@ -28,7 +27,7 @@ pub struct Request {
     pub creature: Option<String>,
     /// The movement's name; otherwise the configuration file has to say.
     pub movement: Option<String>,
-    /// The preset; otherwise what the configuration file says, otherwise the first of [`PRESETS`].
+    /// The preset; otherwise what the configuration file says, otherwise the [first](crate::presets::PresetCatalogue::first).
     pub preset: Option<String>,
     /// The strategy, by name or alias; otherwise what the configuration file or the preset says. If that is another one, this
     /// one has its default settings.
@@ -108,16 +107,17 @@ impl Request {
     ///
     /// # Errors
     /// Names the file, field or setting that is wrong, and the nearest valid name.
-    pub fn resolve(&self, catalogue: &MovementCatalogue) -> Result<RunConfig, RequestError> {
+    pub fn resolve(&self, registry: &Registry) -> Result<RunConfig, RequestError> {
         let mut layer = self.config.as_deref().map(Layer::read).transpose()?;
         if let Some(layer) = &mut layer {
             layer.find_creatures()?;
         }
         let creature = self.creature(layer.as_ref())?;
-        let movement = self.movement(layer.as_ref(), catalogue)?;
-        let mut base = self.preset(layer.as_ref())?.config(creature, &movement);
-        if let Some(entry) = self.strategy(layer.as_mut())?.filter(|entry| entry.name != base.strategy.name()) {
-            base.strategy = (entry.settings)();
+        let movement = self.movement(layer.as_ref(), registry)?;
+        let mut base = self.preset(layer.as_ref(), registry)?.config(creature, &movement, registry);
+        let entry = self.strategy(layer.as_mut(), registry)?;
+        if let Some(entry) = entry.filter(|entry| entry.name() != base.strategy.name()) {
+            base.strategy = entry.settings();
         }
         if self.unvaried {
             base.variation = Variation::default();
@@ -136,7 +136,7 @@ impl Request {
             // What was said on its own wins over the file.
             assembly.keep(&base, &["creature", "preset"]);
             assembly.keep_movement(&movement);
-            assembly.check().map_err(|source| RequestError::File { path, source })?;
+            assembly.check(registry).map_err(|source| RequestError::File { path, source })?;
         }
         if let Some(path) = &self.topology_from {
             let topology = FrozenTopology::of(&Champion::read(path)?);
@@ -148,11 +148,11 @@ impl Request {
         }
         assembly.lay_over(self.choices()?);
         for assignment in &self.set {
-            check_strategy_of(assignment, base.strategy.name())?;
-            let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
+            check_strategy_of(assignment, base.strategy.name(), registry)?;
+            let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check(registry));
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
+        let config = assembly.finish(registry).map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
@@ -187,12 +187,12 @@ impl Request {
         layer.creature("creature", value)
     }
 
-    fn movement(&self, layer: Option<&Layer>, catalogue: &MovementCatalogue) -> Result<String, RequestError> {
+    fn movement(&self, layer: Option<&Layer>, registry: &Registry) -> Result<String, RequestError> {
         let known = || {
-            let whole = catalogue.entries().iter().filter(|entry| entry.steps.is_some());
+            let whole = registry.movements.entries().iter().filter(|entry| entry.steps.is_some());
             whole.map(|entry| entry.name.as_str()).collect::<Vec<_>>()
         };
-        let check = |name: &str| match catalogue.find(name) {
+        let check = |name: &str| match registry.movements.find(name) {
             Some(_) => Ok(name.to_owned()),
             None => Err(suggest::unknown("movement", name, &known())),
         };
@@ -206,42 +206,45 @@ impl Request {
     }
 
     /// The strategy that was asked for, on its own or in the file; what the file says of another one is dropped.
-    fn strategy(&self, layer: Option<&mut Layer>) -> Result<Option<&'static StrategyEntry>, RequestError> {
+    fn strategy<'a>(
+        &self,
+        layer: Option<&mut Layer>,
+        Registry { strategies, .. }: &'a Registry,
+    ) -> Result<Option<&'a StrategyEntry>, RequestError> {
         let chosen = layer.as_ref().and_then(|layer| layer.value.get("strategy")?.as_object()?.keys().next().cloned());
-        let Some(name) = &self.strategy else { return Ok(chosen.as_deref().and_then(strategy)) };
-        let entry = strategy(name).ok_or_else(|| {
-            let names = STRATEGIES.iter().flat_map(|entry| [entry.alias, Some(entry.name)]).flatten();
-            RequestError::Unknown(suggest::unknown("strategy", name, &names.collect::<Vec<_>>()))
-        })?;
+        let Some(name) = &self.strategy else { return Ok(chosen.and_then(|name| strategies.find(&name))) };
+        let entry = strategies.find(name).ok_or_else(|| RequestError::Unknown(strategies.unknown(name)))?;
         if let Some(fields) = layer.and_then(|layer| layer.value.as_object_mut())
-            && chosen.is_some_and(|chosen| chosen != entry.name)
+            && chosen.is_some_and(|chosen| chosen != entry.name())
         {
             fields.remove("strategy");
         }
         Ok(Some(entry))
     }
 
-    fn preset(&self, layer: Option<&Layer>) -> Result<&'static Preset, RequestError> {
-        let check = |name: &str| {
-            let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-            preset(name).ok_or_else(|| suggest::unknown("preset", name, &known))
-        };
+    fn preset<'a>(
+        &self,
+        layer: Option<&Layer>,
+        Registry { presets, .. }: &'a Registry,
+    ) -> Result<&'a Preset, RequestError> {
         if let Some(name) = &self.preset {
-            return check(name).map_err(RequestError::Unknown);
+            return presets.find(name).map_err(RequestError::Unknown);
         }
         match layer.and_then(|layer| Some((layer, layer.value.get("preset")?))) {
-            Some((layer, Value::String(name))) => check(name).map_err(|message| layer.wrong("preset", message)),
+            Some((layer, Value::String(name))) => presets.find(name).map_err(|message| layer.wrong("preset", message)),
             Some((layer, other)) => Err(layer.wrong("preset", format!("must be a name, found {other}"))),
-            None => Ok(&PRESETS[0]),
+            None => Ok(presets.first()),
         }
     }
 }
 
 /// A setting of a strategy makes sense only if it is the strategy.
-fn check_strategy_of(assignment: &str, chosen: &str) -> Result<(), RequestError> {
+fn check_strategy_of(assignment: &str, chosen: &str, registry: &Registry) -> Result<(), RequestError> {
     let path = assignment.split('=').next().unwrap_or_default();
     match path.strip_prefix("strategy.").and_then(|path| path.split_once('.')) {
-        Some((other, _)) if other != chosen && strategy(other).is_some_and(|entry| entry.name == other) => {
+        Some((other, _))
+            if other != chosen && registry.strategies.find(other).is_some_and(|entry| entry.name() == other) =>
+        {
             let message = format!(
                 "--set {assignment}: the strategy is \"{chosen}\"; choose the other one with --strategy {other}"
             );

@@ -1,126 +1,96 @@
 //! The search a configuration names.
 
-use ne_fixed::{CmaEsSettings, ConventionalNeSettings, CosyneSettings, Nsga2Settings, OpenEsSettings};
-use ne_neat::NeatSettings;
-use serde::{Deserialize, Serialize};
+use serde::{
+    Deserialize, Deserializer, Serialize, Serializer,
+    de::{DeserializeOwned, Error},
+    ser::SerializeMap,
+};
+use serde_json::{Map, Value};
 
-/// The search, by name, with its settings.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-#[non_exhaustive]
-pub enum StrategySettings {
-    /// Conventional neuroevolution: a genetic algorithm over the weights of a fixed topology.
-    Conventional(ConventionalNeSettings),
-    /// NEAT: topology and weights evolve together.
-    Neat(Box<NeatSettings>),
-    /// CMA-ES: a normal distribution of weights adapts its shape.
-    CmaEs(CmaEsSettings),
-    /// OpenAI-ES: a gradient estimated from mirrored perturbations.
-    OpenEs(OpenEsSettings),
-    /// CoSyNE: the weights of each place in the net form a subpopulation and coevolve.
-    Cosyne(CosyneSettings),
-    /// NSGA-II: a front of compromises between the movement's objectives.
-    Nsga2(Nsga2Settings),
-    /// A strategy of another program, by the name it has there. That program trains and resumes
-    /// ([`train_with`](crate::training::train_with)); ours reports, replays and verifies.
-    Custom(String),
-}
-
-/// A strategy a user can ask for by name.
-#[derive(Clone, Copy, Debug)]
-pub struct StrategyEntry {
-    /// Its name in configurations.
-    pub name: &'static str,
-    /// A shorter name, for the command line.
-    pub alias: Option<&'static str>,
-    /// One sentence.
-    pub description: &'static str,
-    /// Its default settings.
-    pub settings: fn() -> StrategySettings,
-}
-
-/// All strategies of ours.
-pub const STRATEGIES: &[StrategyEntry] = &[
-    StrategyEntry {
-        name: "conventional",
-        alias: Some("ga"),
-        description: "conventional neuroevolution: a genetic algorithm over the weights of a fixed net",
-        settings: || StrategySettings::Conventional(ConventionalNeSettings::default()),
-    },
-    StrategyEntry {
-        name: "neat",
-        alias: None,
-        description: "NeuroEvolution of Augmenting Topologies: the net's connections and neurons evolve with its weights",
-        settings: || StrategySettings::Neat(Box::default()),
-    },
-    StrategyEntry {
-        name: "cma-es",
-        alias: None,
-        description: "covariance matrix adaptation: a normal distribution of weights that learns which way is up",
-        settings: || StrategySettings::CmaEs(CmaEsSettings::default()),
-    },
-    StrategyEntry {
-        name: "open-es",
-        alias: None,
-        description: "OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations",
-        settings: || StrategySettings::OpenEs(OpenEsSettings::default()),
-    },
-    StrategyEntry {
-        name: "cosyne",
-        alias: None,
-        description: "cooperative synapse neuroevolution: the weights of each place in the net coevolve",
-        settings: || StrategySettings::Cosyne(CosyneSettings::default()),
-    },
-    StrategyEntry {
-        name: "nsga2",
-        alias: None,
-        description: "NSGA-II: a front of compromises between several objectives (movement.objectives)",
-        settings: || StrategySettings::Nsga2(Nsga2Settings::default()),
-    },
-];
-
-/// The strategy of this name or alias.
-pub fn strategy(name: &str) -> Option<&'static StrategyEntry> {
-    STRATEGIES.iter().find(|entry| entry.name == name || entry.alias == Some(name))
+/// The search, by name, with its settings as they stand in files: `{"cma-es": {"population": 16, ...}}`.
+///
+/// What settings there are, and what they may be, its [entry](crate::strategies::StrategyEntry) knows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StrategySettings {
+    name: String,
+    settings: Map<String, Value>,
 }
 
 impl StrategySettings {
+    /// The strategy of this name, with these settings: a struct, or `()` for none.
+    pub fn new(name: &str, settings: &impl Serialize) -> Self {
+        // Through text, because a reader will see the numbers as text has them: an f32 as its shortest decimal. Plain data
+        // can be written; were it not, the missing fields would be named when they are read.
+        let text = serde_json::to_string(settings).unwrap_or_default();
+        Self { name: name.into(), settings: serde_json::from_str(&text).unwrap_or_default() }
+    }
+
     /// The strategy's name.
     pub fn name(&self) -> &str {
-        match self {
-            Self::Conventional(_) => "conventional",
-            Self::Neat(_) => "neat",
-            Self::CmaEs(_) => "cma-es",
-            Self::OpenEs(_) => "open-es",
-            Self::Cosyne(_) => "cosyne",
-            Self::Nsga2(_) => "nsga2",
-            Self::Custom(name) => name,
-        }
+        &self.name
     }
 
-    /// The number of individuals of a generation, if the settings say so.
+    /// Its settings.
+    pub fn settings(&self) -> &Map<String, Value> {
+        &self.settings
+    }
+
+    /// Its settings as what they are, if it is the strategy of this name and they are right.
+    pub fn of<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        (self.name == name).then(|| self.parse().ok()).flatten()
+    }
+
+    /// Its settings as what they are.
+    pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, serde_path_to_error::Error<serde_json::Error>> {
+        // Through text: a number is rounded once, to what it becomes.
+        let text = Value::Object(self.settings.clone()).to_string();
+        serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(&text))
+    }
+
+    /// Changes one setting.
+    pub fn set(&mut self, field: &str, value: impl Into<Value>) {
+        self.settings.insert(field.into(), value.into());
+    }
+
+    /// The number of individuals of a generation, if the settings say so, as `population`.
     pub fn population(&self) -> Option<usize> {
-        match self {
-            Self::Conventional(settings) => Some(settings.population),
-            Self::Neat(settings) => Some(settings.population),
-            Self::CmaEs(settings) => settings.population,
-            Self::OpenEs(settings) => Some(settings.population),
-            Self::Cosyne(settings) => Some(settings.population),
-            Self::Nsga2(settings) => Some(settings.population),
-            Self::Custom(_) => None,
-        }
+        self.settings.get("population")?.as_u64()?.try_into().ok()
     }
 
-    /// Sets the number of individuals of a generation.
+    /// Sets the number of individuals of a generation, if that is one of the settings.
     pub fn set_population(&mut self, population: usize) {
-        match self {
-            Self::Conventional(settings) => settings.population = population,
-            Self::Neat(settings) => settings.population = population,
-            Self::CmaEs(settings) => settings.population = Some(population),
-            Self::OpenEs(settings) => settings.population = population,
-            Self::Cosyne(settings) => settings.population = population,
-            Self::Nsga2(settings) => settings.population = population,
-            Self::Custom(_) => {}
+        if let Some(found) = self.settings.get_mut("population") {
+            *found = population.into();
         }
     }
 }
+
+impl Serialize for StrategySettings {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(1))?;
+        map.serialize_entry(&self.name, &self.settings)?;
+        map.end()
+    }
+}
+
+impl<'de> Deserialize<'de> for StrategySettings {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = Value::deserialize(deserializer)?;
+        let Value::Object(choice) = &value else {
+            return Err(D::Error::custom(format!(
+                "must be a strategy with its settings, such as {EXAMPLE}, found {value}"
+            )));
+        };
+        match choice.iter().next() {
+            Some((name, Value::Object(settings))) if choice.len() == 1 => {
+                Ok(Self { name: name.clone(), settings: settings.clone() })
+            }
+            Some((name, other)) if choice.len() == 1 => {
+                Err(D::Error::custom(format!("the settings of \"{name}\" must be an object, found {other}")))
+            }
+            _ => Err(D::Error::custom(format!("must be one strategy with its settings, such as {EXAMPLE}"))),
+        }
+    }
+}
+
+const EXAMPLE: &str = "{\"cma-es\": {}}";

@@ -1,5 +1,5 @@
 use super::*;
-use crate::config::preset;
+use crate::Registry;
 use creatures::{Creature, Joint, Motor, Part, Sensor, Shape};
 use ne_core::Phenotype;
 use ne_net::Topology;
@@ -44,7 +44,7 @@ impl Made {
         }
         let senses = Senses::new(blueprint, &sensors, 1.0).expect("it has what is sensed");
         let motors = Motors::new(blueprint);
-        let config = preset("default").expect("there").config(blueprint.creature().clone(), "running");
+        let config = Registry::default().config("default", blueprint.creature().clone(), "running").expect("a preset");
         let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
         let Limbs { topology: shape, names } = topology(blueprint, &senses, &motors, &controller, phases);
         Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape, names }

@@ -9,8 +9,10 @@ use super::{
     stages::StageData,
 };
 use crate::{
+    Registry,
     champion::Champion,
-    config::{self, RunConfig, StrategySettings, VARIATIONS},
+    config::{self, RunConfig, VARIATIONS},
+    strategies::StrategyEntry,
     trajectory::Recording,
 };
 use creatures::{Creature, Terrain};
@@ -188,7 +190,7 @@ pub(super) struct Version {
 }
 
 /// The settings a reader asks for first; the rest is in the configuration.
-pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
+pub(super) fn settings(config: &RunConfig, registry: &Registry) -> Vec<Fact> {
     let terms: Vec<String> =
         config.movement.terms.iter().map(|term| format!("{} × {}", term.weight, term.term)).collect();
     let movement = [vec![config.movement.name.clone()], terms].concat().join(" + ");
@@ -204,7 +206,7 @@ pub(super) fn settings(config: &RunConfig) -> Vec<Fact> {
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
     ];
-    facts.splice(4..4, topology(config));
+    facts.insert(4, topology(config, registry));
     if !config.movement.objectives.is_empty() {
         let objectives = config.movement.objectives.iter().map(|term| format!("{} × {}", term.weight, term.term));
         facts.insert(2, Fact::new("Objectives", objectives.collect::<Vec<_>>().join(", ")));
@@ -234,18 +236,19 @@ fn variation(config: &RunConfig) -> &'static str {
     VARIATIONS.into_iter().find(|name| config::variation(name) == Some(config.variation)).unwrap_or("of its own")
 }
 
-/// What is settled about the net before the run; of a strategy from another program that is not known.
-fn topology(config: &RunConfig) -> Option<Fact> {
-    match (&config.strategy, &config.topology) {
-        (StrategySettings::Neat(settings), _) => {
-            let kind = if settings.recurrent { "recurrent" } else { "feed-forward" };
-            Some(Fact::new("Topology", format!("evolves, {kind}")))
-        }
-        (_, Some(frozen)) => Some(Fact::new("Topology", format!("frozen: {}", frozen.net))),
-        (StrategySettings::Custom(_), None) => None,
-        (_, None) => {
+/// What is settled about the net before the run.
+fn topology(config: &RunConfig, registry: &Registry) -> Fact {
+    let finds_topology = registry.strategies.of(&config.strategy).is_ok_and(StrategyEntry::finds_topology);
+    match &config.topology {
+        _ if finds_topology => match config.strategy.settings().get("recurrent").and_then(Value::as_bool) {
+            Some(true) => Fact::new("Topology", "evolves, recurrent"),
+            Some(false) => Fact::new("Topology", "evolves, feed-forward"),
+            None => Fact::new("Topology", "evolves"),
+        },
+        Some(frozen) => Fact::new("Topology", format!("frozen: {}", frozen.net)),
+        None => {
             let hidden: Vec<String> = config.controller.hidden.iter().map(ToString::to_string).collect();
-            Some(Fact::new("Hidden layers", if hidden.is_empty() { "none".into() } else { hidden.join(", ") }))
+            Fact::new("Hidden layers", if hidden.is_empty() { "none".into() } else { hidden.join(", ") })
         }
     }
 }
@@ -258,25 +261,24 @@ pub(super) fn versions() -> Vec<Version> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{FrozenTopology, Request};
+    use crate::config::{FrozenTopology, Request, StrategySettings};
     use ne_neat::NeatSettings;
     use ne_net::DenseShape;
-    use tasks::MovementCatalogue;
 
     fn neat(recurrent: bool) -> StrategySettings {
-        StrategySettings::Neat(Box::new(NeatSettings { recurrent, ..NeatSettings::default() }))
+        StrategySettings::new("neat", &NeatSettings { recurrent, ..NeatSettings::default() })
     }
 
     #[test]
     fn settings_say_of_the_net_what_the_strategy_leaves_settled() {
         let request =
             Request { creature: Some("biped-1".into()), movement: Some("running".into()), ..Request::default() };
-        let mut base = request.resolve(&MovementCatalogue::default()).expect("a configuration");
+        let mut base = request.resolve(&Registry::default()).expect("a configuration");
         base.controller.hidden = vec![10];
         let said = |change: fn(&mut RunConfig)| {
             let mut config = base.clone();
             change(&mut config);
-            let facts = settings(&config).into_iter().map(|fact| (fact.label, fact.value));
+            let facts = settings(&config, &Registry::default()).into_iter().map(|fact| (fact.label, fact.value));
             facts.filter(|(label, _)| label == "Topology" || label == "Hidden layers").collect::<Vec<_>>()
         };
         let fact = |label: &str, value: &str| vec![(label.to_owned(), value.to_owned())];
@@ -285,7 +287,6 @@ mod tests {
         assert_eq!(said(|config| config.controller.hidden = vec![4, 3]), fact("Hidden layers", "4, 3"));
         assert_eq!(said(|config| config.strategy = neat(false)), fact("Topology", "evolves, feed-forward"));
         assert_eq!(said(|config| config.strategy = neat(true)), fact("Topology", "evolves, recurrent"));
-        assert_eq!(said(|config| config.strategy = StrategySettings::Custom("own".into())), []);
         let frozen = |config: &mut RunConfig| {
             let net = DenseShape::new(3, vec![2], 4).into();
             config.topology = Some(FrozenTopology { inputs: Vec::new(), outputs: Vec::new(), net });

@@ -12,6 +12,7 @@ mod parting;
 mod replays;
 mod stages;
 
+use crate::Registry;
 use crate::{
     champion::Champion,
     front::Front,
@@ -28,7 +29,6 @@ use ground::GroundData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
-use tasks::MovementCatalogue;
 
 /// Why a report cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -64,33 +64,25 @@ const POPULATIONS: usize = 6;
 ///
 /// # Errors
 /// If a file of the run cannot be read, or the page cannot be written.
-pub fn write_report(
-    folder: &RunFolder,
-    catalogue: &MovementCatalogue,
-    ended: Option<StopReason>,
-) -> Result<(), ReportError> {
+pub fn write_report(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -> Result<(), ReportError> {
     let config = folder.read_config()?;
     // A curriculum that is listed nowhere has stages all the same.
     let report = match config.stages.is_empty() && !folder.stages().is_dir() {
-        true => compose(folder, catalogue, ended)?,
-        false => stages::compose(folder, &config, catalogue, ended)?,
+        true => compose(folder, registry, ended)?,
+        false => stages::compose(folder, &config, registry, ended)?,
     };
     write_page(&folder.report(), &report)
 }
 
 /// The report of a run with one task.
-fn compose(
-    folder: &RunFolder,
-    catalogue: &MovementCatalogue,
-    ended: Option<StopReason>,
-) -> Result<Report, ReportError> {
+fn compose(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -> Result<Report, ReportError> {
     let config = folder.read_config()?;
     let (log, gallery) = (folder.read_log()?, folder.read_gallery()?);
     let champion = match folder.champion().is_file() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,
     };
-    let setup = crate::setup::Setup::new(&config, catalogue)?;
+    let setup = crate::setup::Setup::new(&config, registry)?;
     let stills = Stills::new(&setup, config.seed);
     let newest = champion.as_ref().filter(|_| setup.nominal.is_some()).map(gallery_entry);
     let mut champions: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Champion).collect();
@@ -98,7 +90,7 @@ fn compose(
     // One that was chosen at the end of the run, between two hearings, is in no gallery.
     champions.extend(newest.as_ref().filter(is_new));
     let populations: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Population).collect();
-    let movement = movement_data(catalogue, &config.movement.name, &setup.unit);
+    let movement = movement_data(registry, &config.movement.name, &setup.unit);
     let last = log.last();
     let parted = champion.as_ref().is_some_and(Champion::parted);
     let fitness = match &champion {
@@ -106,7 +98,7 @@ fn compose(
         Some(champion) if parted || setup.nominal.is_some() => Some(champion.fitness),
         _ => last.and_then(|last| last.best_so_far),
     };
-    let champion_data = champion.as_ref().map(|champion| champion_data(champion, catalogue)).transpose()?;
+    let champion_data = champion.as_ref().map(|champion| champion_data(champion, registry)).transpose()?;
     Ok(Report {
         title: format!("{} · {} · Gambol", config.creature.name, config.movement.name),
         creature: config.creature.clone(),
@@ -126,13 +118,13 @@ fn compose(
         history: history::points(&log, fitness),
         species: history::species(&log),
         statistics: history::statistics(&log),
-        gait: champion.as_ref().map(|champion| gait_data(champion, catalogue)).transpose()?.flatten(),
+        gait: champion.as_ref().map(|champion| gait_data(champion, registry)).transpose()?.flatten(),
         champion: champion_data,
         front: front_data(folder, &stills)?,
         ground: GroundData::new(setup.episode.environment().ground(), DRAWN),
         strip: stills.champions(&spread(&champions, STRIP)),
         populations: stills.populations(&spread(&populations, POPULATIONS)),
-        settings: data::settings(&config),
+        settings: data::settings(&config, registry),
         config: serde_json::to_value(&config).unwrap_or_default(),
         commands: commands(folder),
         versions: data::versions(),
@@ -146,19 +138,19 @@ fn compose(
 /// If the champion's task cannot be built, or the page cannot be written.
 pub fn write_replay(
     champion: &Champion,
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
     steps: Option<u32>,
     path: &Path,
 ) -> Result<(), ReportError> {
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     let steps = steps.unwrap_or(stage.steps());
     let (recording, _) = Recording::play(stage.environment(), &champion.network, steps);
     let body_length = stage.environment().blueprint().body_length();
-    let unit = catalogue.find(&champion.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
+    let unit = registry.movements.find(&champion.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
     let report = Report {
         title: format!("{} · {} · Gambol", champion.creature.name, champion.movement.name),
         creature: champion.creature.clone(),
-        movement: movement_data(catalogue, &champion.movement.name, &unit),
+        movement: movement_data(registry, &champion.movement.name, &unit),
         summary: None,
         stages: Vec::new(),
         history: Vec::new(),
@@ -166,7 +158,7 @@ pub fn write_replay(
         statistics: Vec::new(),
         champion: Some(ChampionData::new(champion, &recording, body_length)),
         ground: GroundData::new(stage.environment().ground(), DRAWN),
-        gait: gait_data(champion, catalogue)?,
+        gait: gait_data(champion, registry)?,
         front: None,
         strip: Vec::new(),
         populations: Vec::new(),
@@ -203,28 +195,28 @@ fn write_page(path: &Path, report: &Report) -> Result<(), ReportError> {
     archive::write_whole(path, page.as_bytes()).map_err(|source| ReportError::Write { path: path.into(), source })
 }
 
-fn movement_data(catalogue: &MovementCatalogue, name: &str, unit: &str) -> MovementData {
-    let description = catalogue.find(name).map_or_else(String::new, |entry| entry.description.clone());
+fn movement_data(registry: &Registry, name: &str, unit: &str) -> MovementData {
+    let description = registry.movements.find(name).map_or_else(String::new, |entry| entry.description.clone());
     MovementData { name: name.into(), unit: unit.into(), description }
 }
 
-fn champion_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<ChampionData, ReportError> {
-    let episode = champion.episode(catalogue)?;
+fn champion_data(champion: &Champion, registry: &Registry) -> Result<ChampionData, ReportError> {
+    let episode = champion.episode(registry)?;
     let recording = play(&episode, champion.network.clone(), champion.seed, episode.steps());
     let body_length = episode.environment().blueprint().body_length();
     Ok(ChampionData::new(champion, &recording, body_length))
 }
 
 /// The champion's first seconds, small.
-fn champion_film(champion: &Champion, catalogue: &MovementCatalogue) -> Result<data::Replay, ReportError> {
-    let episode = champion.episode(catalogue)?;
+fn champion_film(champion: &Champion, registry: &Registry) -> Result<data::Replay, ReportError> {
+    let episode = champion.episode(registry)?;
     Ok(replays::film(&episode, champion.network.clone(), champion.seed))
 }
 
-fn gait_data(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Option<GaitData>, ReportError> {
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+fn gait_data(champion: &Champion, registry: &Registry) -> Result<Option<GaitData>, ReportError> {
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     let Some(gait) = stage.measure(&champion.network) else { return Ok(None) };
-    let sheet = sheet::of_champion(champion, &gait.report, catalogue)?;
+    let sheet = sheet::of_champion(champion, &gait.report, registry)?;
     Ok(Some(GaitData::new(gait, &sheet)))
 }
 

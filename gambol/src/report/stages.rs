@@ -6,6 +6,7 @@ use super::{
     ground::GroundData,
     history,
 };
+use crate::Registry;
 use crate::{
     champion::Champion,
     config::RunConfig,
@@ -15,7 +16,6 @@ use crate::{
 use creatures::Creature;
 use ne_core::{Decision, StopReason};
 use serde::Serialize;
-use tasks::MovementCatalogue;
 
 /// A leg of the way through the stages.
 #[derive(Serialize)]
@@ -43,7 +43,7 @@ pub(super) struct StageData {
 pub(super) fn compose(
     folder: &RunFolder,
     config: &RunConfig,
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
     ended: Option<StopReason>,
 ) -> Result<Report, ReportError> {
     let legs = shaping::legs(folder)?;
@@ -51,14 +51,14 @@ pub(super) fn compose(
         let missing = "stage that has begun".into();
         return Err(FolderError::NotARun { path: folder.path().into(), missing }.into());
     };
-    let mut report = super::compose(&RunFolder::at(&last.folder), catalogue, ended)?;
+    let mut report = super::compose(&RunFolder::at(&last.folder), registry, ended)?;
     let (mut generations, mut evaluations, mut steps) = (0, 0, 0);
     report.history.clear();
     for leg in &legs {
         let leg_folder = RunFolder::at(&leg.folder);
         let log = leg_folder.read_log()?;
         report.history.extend(history::points(&log, None).into_iter().map(|point| point.after(generations)));
-        let data = stage(leg, &leg_folder, config, generations, log.len() as u64, catalogue)?;
+        let data = stage(leg, &leg_folder, config, generations, log.len() as u64, registry)?;
         report.stages.push(data);
         generations += log.len() as u64;
         evaluations += log.last().map_or(0, |last| last.evaluations);
@@ -79,23 +79,23 @@ fn stage(
     run: &RunConfig,
     before: u64,
     generations: u64,
-    catalogue: &MovementCatalogue,
+    registry: &Registry,
 ) -> Result<StageData, ReportError> {
     let config = folder.read_config()?;
     let champion = match folder.champion().is_file() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,
     };
-    let ground = champion.as_ref().map(|champion| champion.episode(catalogue)).transpose()?;
+    let ground = champion.as_ref().map(|champion| champion.episode(registry)).transpose()?;
     let ground = ground.and_then(|episode| GroundData::new(episode.environment().ground(), DRAWN));
-    let film = champion.as_ref().map(|champion| champion_film(champion, catalogue)).transpose()?;
+    let film = champion.as_ref().map(|champion| champion_film(champion, registry)).transpose()?;
     Ok(StageData {
         number: leg.stage + 1,
         name: leg.name.clone(),
         first_generation: before + 1,
         last_generation: before + generations,
         fitness: champion.as_ref().map(|champion| champion.fitness.get()),
-        unit: catalogue.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone()),
+        unit: registry.movements.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone()),
         facts: facts(leg, &config, run.stages.get(leg.stage)),
         film,
         ground,

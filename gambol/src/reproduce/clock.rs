@@ -20,7 +20,7 @@ pub(super) fn time(
     options: &WorkOptions<'_>,
 ) -> Result<Option<ClockResult>, ReproduceError> {
     let name = || format!("{}, timed", cell.name());
-    let config = cell.config(1, StopConditions::default())?;
+    let config = cell.config(1, StopConditions::default(), &options.registry)?;
     let (mut seconds, mut marks) = (0.0, Vec::<Mark>::new());
     for &minutes in minutes {
         let left = minutes - seconds / 60.0;
@@ -39,7 +39,7 @@ pub(super) fn time(
             Ok(outcome) if outcome.reason == StopReason::Interrupted => return Ok(None),
             Ok(outcome) => outcome,
         };
-        let champion = outcome.champion.map(|champion| Judged::of(&champion, &options.catalogue)).transpose();
+        let champion = outcome.champion.map(|champion| Judged::of(&champion, &options.registry)).transpose();
         let champion = champion.map_err(|error| ReproduceError::run(name(), error.into()))?;
         marks.push(Mark { minutes, seconds, generations: outcome.progress.generations, champion });
     }
@@ -63,5 +63,5 @@ fn leg(
 ) -> Result<Result<Outcome, TrainError>, ReproduceError> {
     let mut unseen = |_: &GenerationReport| {};
     let how = train_options(options, &mut unseen);
-    Ok(if first { train(&cell.config(1, stop)?, path, how) } else { resume(path, Some(stop), how) })
+    Ok(if first { train(&cell.config(1, stop, &options.registry)?, path, how) } else { resume(path, Some(stop), how) })
 }

@@ -3,7 +3,7 @@ use super::{
     plan::settings_digest,
     result::{ClockResult, RunResult},
 };
-use crate::{run_folder::FolderError, training::TrainError};
+use crate::{Registry, run_folder::FolderError, training::TrainError};
 use ne_core::{
     StopConditions,
     archive::{self, ArchiveError, Layout},
@@ -29,9 +29,11 @@ const VERSION: u32 = 1;
 /// | `index.html` | to look at |
 /// | `results.csv` | a row for each run: the same whenever and however it was done |
 /// | `times.csv`, `timed.csv` | seconds of each run; the timed runs |
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct ReproductionFolder {
     path: PathBuf,
+    /// What the presets are made of.
+    registry: Registry,
 }
 
 /// What all runs of a folder have in common.
@@ -138,7 +140,7 @@ impl ReproductionFolder {
     /// # Errors
     /// If there is something else in the folder, or it cannot be written.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, ReproduceError> {
-        let folder = Self { path: path.into() };
+        let folder = Self { path: path.into(), registry: plan.registry.clone() };
         let mut terms = Terms { generations: plan.generations, clock_minutes: plan.clock_minutes.clone() };
         if folder.terms_file().is_file() {
             let found: Terms = archive::read(&folder.terms_file(), TERMS_FORMAT, VERSION)?;
@@ -191,7 +193,7 @@ impl ReproductionFolder {
         }
         let result: RunResult = archive::read(&path, RUN_FORMAT, VERSION)?;
         let found = format!("{}, {} {}, seed {}", result.preset, result.creature, result.movement, result.seed);
-        check_result(&job, path, found, &result.settings)?;
+        self.check_result(&job, path, found, &result.settings)?;
         Ok(Some(result))
     }
 
@@ -207,7 +209,7 @@ impl ReproductionFolder {
         }
         let result: ClockResult = archive::read(&path, CLOCK_FORMAT, VERSION)?;
         let found = format!("{}, {} {}, timed", result.preset, result.creature, result.movement);
-        check_result(&job, path, found, &result.settings)?;
+        self.check_result(&job, path, found, &result.settings)?;
         Ok(Some(result))
     }
 
@@ -262,6 +264,19 @@ impl ReproductionFolder {
         self.path.join(folder).join(cell.preset.name).join(scenario)
     }
 
+    /// Checks that a result is of this run, and of today's settings.
+    fn check_result(&self, job: &Job, path: PathBuf, found: String, settings: &str) -> Result<(), ReproduceError> {
+        let (cell, expected) = (job.cell(), job.name());
+        if found != expected {
+            return Err(ReproduceError::Misplaced { path, found, expected });
+        }
+        let config = cell.config(0, StopConditions::default(), &self.registry)?;
+        if settings_digest(&config) != settings {
+            return Err(ReproduceError::Settings { path, preset: cell.preset.name });
+        }
+        Ok(())
+    }
+
     fn terms_file(&self) -> PathBuf {
         self.path.join("reproduction.json")
     }
@@ -278,19 +293,6 @@ fn make(path: &Path) -> Result<(), ReproduceError> {
     fs::create_dir_all(path).map_err(|source| ReproduceError::Write { path: path.into(), source })
 }
 
-/// Checks that a result is of this run, and of today's settings.
-fn check_result(job: &Job, path: PathBuf, found: String, settings: &str) -> Result<(), ReproduceError> {
-    let (cell, expected) = (job.cell(), job.name());
-    if found != expected {
-        return Err(ReproduceError::Misplaced { path, found, expected });
-    }
-    let config = cell.config(0, StopConditions::default())?;
-    if settings_digest(&config) != settings {
-        return Err(ReproduceError::Settings { path, preset: cell.preset.name });
-    }
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -299,11 +301,11 @@ mod tests {
     #[test]
     fn a_result_of_another_versions_preset_is_refused() {
         let place = tempfile::tempdir().expect("a folder");
-        let plan = Request { runs: 1, ..Request::default() }.plan().expect("a plan");
+        let plan = Request { runs: 1, ..Request::default() }.plan(&Registry::default()).expect("a plan");
         let folder = ReproductionFolder::create(place.path(), &plan).expect("a new folder");
         let job = plan.jobs().next().expect("a run");
         let Job::Run { cell, seed } = job else { panic!("timed runs come last") };
-        let config = cell.config(seed, StopConditions::default()).expect("a shipped creature");
+        let config = cell.config(seed, StopConditions::default(), &plan.registry).expect("a shipped creature");
         let mut result = RunResult {
             preset: cell.preset.name.into(),
             creature: cell.scenario.creature.into(),

@@ -2,7 +2,7 @@ use super::{
     Cell, ClockResult, Plan, ReproduceError, ReproductionFolder, RunResult, csv, page,
     thesis::{SCENARIOS, Scenario},
 };
-use crate::config::{PRESETS, Preset};
+use crate::presets::Preset;
 use ne_core::archive;
 use ne_statistics::quantile;
 
@@ -12,7 +12,7 @@ pub struct Outcome {
     /// Generations of each run.
     pub generations: u64,
     /// The presets there are, those asked for first.
-    pub presets: Vec<&'static Preset>,
+    pub presets: Vec<Preset>,
     /// The scenarios there are, in the thesis' order.
     pub scenarios: Vec<&'static Scenario>,
     /// Each preset on each scenario: for each scenario all presets.
@@ -55,7 +55,8 @@ pub fn write_outcome(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome
 }
 
 fn read(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceError> {
-    let others = PRESETS.iter().filter(|preset| plan.presets.iter().all(|asked| asked.name != preset.name));
+    let is_asked = |preset: &Preset| plan.presets.iter().any(|asked| asked.name == preset.name);
+    let others = plan.registry.presets.entries().copied().filter(|preset| !is_asked(preset));
     let mut cells = Vec::new();
     for scenario in SCENARIOS {
         for preset in plan.presets.iter().copied().chain(others.clone()) {
@@ -68,14 +69,13 @@ fn read(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceEr
         }
     }
     let is_there = |cell: &&CellOutcome| !cell.runs.is_empty() || cell.clock.is_some();
-    let asked_preset = |preset: &Preset| plan.presets.iter().any(|asked| asked.name == preset.name);
-    let presets: Vec<&'static Preset> = plan
+    let presets: Vec<Preset> = plan
         .presets
         .iter()
         .copied()
         .chain(others)
         .filter(|preset| {
-            asked_preset(preset) || cells.iter().filter(is_there).any(|cell| cell.cell.preset.name == preset.name)
+            is_asked(preset) || cells.iter().filter(is_there).any(|cell| cell.cell.preset.name == preset.name)
         })
         .collect();
     let scenarios: Vec<&'static Scenario> = SCENARIOS

@@ -1,8 +1,5 @@
 use super::thesis::{self, Scenario};
-use crate::{
-    config::{PRESETS, Preset, RunConfig, preset},
-    suggest,
-};
+use crate::{Registry, config::RunConfig, presets::Preset, suggest};
 use ne_core::{SettingError, StopConditions, digest::Digest};
 use std::collections::BTreeSet;
 
@@ -60,7 +57,7 @@ pub enum RequestError {
 #[derive(Clone, Debug)]
 pub struct Plan {
     /// The presets.
-    pub presets: Vec<&'static Preset>,
+    pub presets: Vec<Preset>,
     /// The scenarios, in the thesis' order.
     pub scenarios: Vec<&'static Scenario>,
     /// Runs of each preset on each scenario, with seeds from 1 on.
@@ -69,13 +66,15 @@ pub struct Plan {
     pub generations: u64,
     /// The minutes after which timed runs are looked at, rising; `None`: there are no timed runs.
     pub clock_minutes: Option<Vec<f64>>,
+    /// What the presets are made of.
+    pub registry: Registry,
 }
 
 /// A preset on a scenario.
 #[derive(Clone, Copy, Debug)]
 pub struct Cell {
     /// The preset.
-    pub preset: &'static Preset,
+    pub preset: Preset,
     /// The scenario.
     pub scenario: &'static Scenario,
 }
@@ -102,7 +101,7 @@ impl Request {
     ///
     /// # Errors
     /// Names what is not known, and what is most like it; or the number that is out of range.
-    pub fn plan(&self) -> Result<Plan, RequestError> {
+    pub fn plan(&self, registry: &Registry) -> Result<Plan, RequestError> {
         let creatures = known("creature of the thesis", &self.creatures, |scenario| scenario.creature)?;
         let movements = known("movement of the thesis", &self.movements, |scenario| scenario.movement)?;
         let asked_for = |names: &[String], name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
@@ -116,22 +115,22 @@ impl Request {
             check_minutes(minutes)?;
         }
         Ok(Plan {
-            presets: self.presets()?,
+            presets: self.presets(registry)?,
             scenarios: scenarios.collect(),
             runs: self.runs,
             generations: self.generations,
             clock_minutes: self.clock_minutes.clone(),
+            registry: registry.clone(),
         })
     }
 
-    fn presets(&self) -> Result<Vec<&'static Preset>, RequestError> {
+    fn presets(&self, registry: &Registry) -> Result<Vec<Preset>, RequestError> {
         unique("preset", &self.presets)?;
         let names = match self.presets.is_empty() {
             true => vec!["thesis", "default"],
             false => self.presets.iter().map(String::as_str).collect(),
         };
-        let known: Vec<&str> = PRESETS.iter().map(|preset| preset.name).collect();
-        let find = |name| preset(name).ok_or_else(|| RequestError::Unknown(suggest::unknown("preset", name, &known)));
+        let find = |name| registry.presets.find(name).copied().map_err(RequestError::Unknown);
         names.into_iter().map(find).collect()
     }
 }
@@ -174,9 +173,14 @@ impl Cell {
     }
 
     /// The configuration of a run.
-    pub(super) fn config(&self, seed: u64, stop: StopConditions) -> Result<RunConfig, creatures::UnknownCreature> {
+    pub(super) fn config(
+        &self,
+        seed: u64,
+        stop: StopConditions,
+        registry: &Registry,
+    ) -> Result<RunConfig, creatures::UnknownCreature> {
         let creature = creatures::find(self.scenario.creature)?;
-        let mut config = self.preset.config(creature, self.scenario.movement);
+        let mut config = self.preset.config(creature, self.scenario.movement, registry);
         config.seed = seed;
         config.stop = stop;
         // Nobody looks at whole populations here.
@@ -236,12 +240,14 @@ mod tests {
     use super::*;
 
     fn refused(request: &Request) -> String {
-        request.plan().expect_err("it must be refused").to_string()
+        request.plan(&Registry::default()).expect_err("it must be refused").to_string()
     }
 
     #[test]
     fn the_whole_has_every_run_once() {
-        let plan = Request { clock_minutes: Some(vec![1.0, 5.0]), ..Request::default() }.plan().expect("a plan");
+        let plan = Request { clock_minutes: Some(vec![1.0, 5.0]), ..Request::default() }
+            .plan(&Registry::default())
+            .expect("a plan");
         let names: BTreeSet<String> = plan.jobs().map(|job| job.name()).collect();
         assert_eq!((plan.jobs().count(), names.len()), (14 * 2 * 11, 14 * 2 * 11));
         assert!(names.contains("default, decapod-2 jumping, seed 10") && names.contains("thesis, apod running, timed"));
@@ -277,12 +283,12 @@ mod tests {
     #[test]
     fn a_digest_of_settings_knows_neither_seed_nor_end() {
         let cell = |index: usize, name| Cell {
-            preset: preset(name).expect("there is one"),
+            preset: *Registry::default().presets.find(name).expect("there is one"),
             scenario: &thesis::SCENARIOS[index],
         };
         let digest = |cell: Cell, seed, generations| {
             let stop = StopConditions { generations: Some(generations), ..StopConditions::default() };
-            settings_digest(&cell.config(seed, stop).expect("a shipped creature"))
+            settings_digest(&cell.config(seed, stop, &Registry::default()).expect("a shipped creature"))
         };
         assert_eq!(digest(cell(0, "thesis"), 1, 300), digest(cell(0, "thesis"), 2, 5));
         assert_ne!(digest(cell(0, "thesis"), 1, 300), digest(cell(0, "default"), 1, 300));

@@ -1,4 +1,5 @@
 use super::{Cell, ReproduceError};
+use crate::Registry;
 use crate::{
     champion::Champion,
     gait::{self, GaitOfChampionError},
@@ -6,7 +7,6 @@ use crate::{
     setup::SetupError,
 };
 use serde::{Deserialize, Serialize};
-use tasks::MovementCatalogue;
 
 /// What is kept of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,7 +89,7 @@ impl Judged {
     ///
     /// # Errors
     /// If its world cannot be built.
-    pub fn of(champion: &Champion, catalogue: &MovementCatalogue) -> Result<Self, SetupError> {
+    pub fn of(champion: &Champion, registry: &Registry) -> Result<Self, SetupError> {
         let mut judged = Self {
             fitness: champion.fitness.get(),
             generation: champion.generation,
@@ -98,7 +98,7 @@ impl Judged {
             usable: false,
             reasons: Vec::new(),
         };
-        match gait::judge(champion, catalogue) {
+        match gait::judge(champion, registry) {
             Ok(report) => {
                 judged.distance_m = Some(report.travel.distance);
                 judged.rise_m = report.aloft.highest;
@@ -126,7 +126,7 @@ impl RunResult {
         folder: &RunFolder,
         settings: String,
         threads: usize,
-        catalogue: &MovementCatalogue,
+        registry: &Registry,
     ) -> Result<Self, ReproduceError> {
         let seed = folder.read_config()?.seed;
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
@@ -134,7 +134,7 @@ impl RunResult {
             true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
             false => None,
         };
-        let judged = champion.map(|champion| Judged::of(&champion, catalogue)).transpose();
+        let judged = champion.map(|champion| Judged::of(&champion, registry)).transpose();
         let failed = |source: SetupError| ReproduceError::run(format!("{}, seed {seed}", cell.name()), source.into());
         Ok(Self {
             preset: cell.preset.name.into(),

@@ -3,6 +3,7 @@ use super::{
     plan::settings_digest,
     result::{Judged, RunResult},
 };
+use crate::Registry;
 use crate::{
     run_folder::{FolderError, RunFolder},
     training::{TrainError, TrainOptions, resume, train},
@@ -18,7 +19,6 @@ use std::{
     },
     thread,
 };
-use tasks::MovementCatalogue;
 
 /// How the runs are to be done; none of it changes what they find, but for the timed ones.
 pub struct WorkOptions<'a> {
@@ -29,7 +29,7 @@ pub struct WorkOptions<'a> {
     /// Threads of each run; 0: one for each core.
     pub threads: usize,
     /// The movements there are.
-    pub catalogue: MovementCatalogue,
+    pub registry: Registry,
     /// Ends the work after the generations under way.
     pub signal: StopSignal,
     /// Called after each run.
@@ -131,7 +131,7 @@ fn run(
         return Ok(Ended::Done(result.champion));
     }
     let stop = StopConditions { generations: Some(plan.generations), ..StopConditions::default() };
-    let config = cell.config(seed, stop)?;
+    let config = cell.config(seed, stop, &options.registry)?;
     let path = folder.run_folder(job);
     let mut unseen = |_: &GenerationReport| {};
     let how = train_options(options, &mut unseen);
@@ -158,7 +158,7 @@ fn run(
         Ok(_) => {}
     }
     let ended = RunFolder::open(&path)?;
-    let result = RunResult::read(&cell, &ended, settings_digest(&config), options.threads, &options.catalogue)?;
+    let result = RunResult::read(&cell, &ended, settings_digest(&config), options.threads, &options.registry)?;
     folder.write_run(job, &result)?;
     Ok(Ended::Done(result.champion))
 }
@@ -193,7 +193,7 @@ pub(super) fn train_options<'a>(
 ) -> TrainOptions<'a> {
     TrainOptions {
         threads: options.threads,
-        catalogue: options.catalogue.clone(),
+        registry: options.registry.clone(),
         signal: options.signal.clone(),
         on_generation: unseen,
     }

@@ -2,18 +2,18 @@
 
 use super::{
     Carried, Origin,
-    source::{ChampionNet, Kind, Source, names_of},
+    source::{ChampionNet, Kind, Source, names_of, read_checkpoint},
 };
+use crate::Registry;
 use crate::{
     config::{FrozenTopology, RunConfig, StrategySettings},
     run_folder::FolderError,
-    search::{Passage, Search, SearchVisitor},
     setup::{Setup, SetupError},
+    strategies::{AnyStrategy, StrategyCatalogue, StrategyEntry, Transfer},
 };
 use creatures::Channel;
-use ne_core::{Checkpoint, SettingError};
-use ne_net::{Growth, Topology};
-use tasks::MovementCatalogue;
+use ne_core::SettingError;
+use ne_net::Growth;
 
 /// Why nothing can be carried over.
 #[derive(Debug, thiserror::Error)]
@@ -66,6 +66,8 @@ pub(crate) struct Departure {
     /// The configuration, with the topology that is kept, and its [`Origin`].
     pub(crate) config: RunConfig,
     pub(crate) setup: Setup,
+    /// Whether the new strategy does so itself.
+    finds_topology: bool,
     source: Source,
     carried: Carried,
     genes: Growth,
@@ -84,18 +86,19 @@ impl Departure {
         source: Source,
         to: &RunConfig,
         manner: Manner,
-        catalogue: &MovementCatalogue,
+        registry: &Registry,
     ) -> Result<Self, CarryError> {
-        let from = source.settings();
+        let from = source.strategy_entry();
+        let entry = registry.strategies.of(&to.strategy).map_err(SetupError::from)?;
         let carried = match (manner.carried, from) {
             (Some(carried), _) => carried,
-            (None, Some(from)) => match usual(from, &to.strategy) {
+            (None, Some(from)) => match usual(from, entry) {
                 Carried::Population if source.has_begun_anew()? => Carried::Champion,
                 carried => carried,
             },
             (None, None) => Carried::Topology,
         };
-        check_possible(&source.name, from, carried, &to.strategy)?;
+        check_possible(&source.name, from, carried, entry)?;
         if carried == Carried::Population && source.has_nothing_to_carry()? {
             let message = format!(
                 "the search of {} has just begun anew and has nothing to carry: carry the champion",
@@ -122,12 +125,12 @@ impl Departure {
         }
         if let Some(frozen) = &config.topology {
             // The body's channels are known once it is built; the net has to wait for them.
-            let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, catalogue)?;
+            let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, registry)?;
             // What is lost from the source's is refused below, by name.
             let forget = manner.forget || to.topology.is_none();
             config.topology = Some(frozen.grown(bare.inputs(), bare.outputs(), forget));
         }
-        let setup = Setup::new(&config, catalogue)?;
+        let setup = Setup::new(&config, registry)?;
         let after = [setup.inputs(), setup.outputs()];
         let [inputs, outputs] = [0, 1].map(|which| {
             let new: Vec<String> = after[which].iter().map(|channel| channel.name.clone()).collect();
@@ -139,7 +142,8 @@ impl Departure {
             (Kind::Champion(_), None) => Growth::none(setup.topology.weight_count()),
         };
         let weights = net.as_ref().map_or_else(Vec::new, |net| genes.carry(&net.weights, 0.0));
-        let mut departure = Self { config, setup, source, carried, genes, inputs, outputs, weights };
+        let finds_topology = entry.finds_topology();
+        let mut departure = Self { config, setup, finds_topology, source, carried, genes, inputs, outputs, weights };
         let origin = departure.origin(net.as_ref())?;
         if !manner.forget && carried != Carried::Nothing {
             departure.check_lost(&origin)?;
@@ -152,17 +156,18 @@ impl Departure {
     ///
     /// # Errors
     /// If it cannot go on with these settings.
-    pub(crate) fn search<S: Search>(&self, settings: &S::Settings) -> Result<S, CarryError> {
-        let topology = &self.setup.topology;
-        match (self.carried, &self.source.kind) {
-            (Carried::Population, Kind::Run { folder, .. }) => {
-                let checkpoint = Checkpoint::<S>::read(&folder.checkpoint()).map_err(FolderError::from)?;
+    pub(crate) fn search(&self, strategies: &StrategyCatalogue) -> Result<AnyStrategy, CarryError> {
+        let (settings, topology) = (&self.config.strategy, &self.setup.topology);
+        let begun = match (self.carried, &self.source.kind) {
+            (Carried::Population, Kind::Run { folder, strategy, .. }) => {
                 let (genes, inputs, outputs) = (&self.genes, &self.inputs, &self.outputs);
-                Ok(checkpoint.strategy.grown(settings, &Passage { topology, genes, inputs, outputs })?)
+                let search = read_checkpoint(strategy, folder)?.strategy;
+                return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
-            (Carried::Nothing, _) => Ok(S::build(settings, topology)?),
-            _ => Ok(S::begin_at(settings, topology, &self.weights)?),
-        }
+            (Carried::Nothing, _) => strategies.build(settings, topology),
+            _ => strategies.begin_at(settings, topology, &self.weights),
+        };
+        Ok(begun.map_err(SetupError::from)?)
     }
 
     fn origin(&self, net: Option<&ChampionNet>) -> Result<Origin, CarryError> {
@@ -171,8 +176,7 @@ impl Departure {
             (Kind::Run { folder, .. }, None) => folder.read_standing()?.progress.generations,
             (Kind::Champion(champion), None) => champion.generation,
         };
-        let counts_weights =
-            !matches!(self.config.strategy, StrategySettings::Neat(_)) && self.carried != Carried::Nothing;
+        let counts_weights = !self.finds_topology && self.carried != Carried::Nothing;
         let counted = |count: usize| if counts_weights { count } else { 0 };
         let before = self.source.channels();
         let after = [self.setup.inputs(), self.setup.outputs()];
@@ -223,16 +227,19 @@ impl Departure {
 /// If what is asked to be carried cannot be, or inputs or outputs would be lost that may not be, or that the strategy cannot
 /// give up.
 pub(super) fn check_planned(
-    (from, before): (&StrategySettings, &Setup),
-    (to, after): (&StrategySettings, &Setup),
+    (from_settings, before): (&StrategySettings, &Setup),
+    (to_settings, after): (&StrategySettings, &Setup),
     manner: Manner,
+    strategies: &StrategyCatalogue,
 ) -> Result<(), CarryError> {
+    let from = strategies.of(from_settings).map_err(SetupError::from)?;
+    let to = strategies.of(to_settings).map_err(SetupError::from)?;
     let carried = manner.carried.unwrap_or_else(|| usual(from, to));
     check_possible("the stage before", Some(from), carried, to)?;
     let channels = [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())];
     let genes = Growth::by_name(&before.weight_names, &after.weight_names);
-    // NEAT's genomes, and the net of a champion that is taken as it is, are not the planned one.
-    let matters = carried != Carried::Topology && !matches!(from, StrategySettings::Neat(_));
+    // The genomes of a strategy that finds topologies, and the net of a champion that is taken as it is, are not the planned one.
+    let matters = carried != Carried::Topology && !from.finds_topology();
     if !manner.forget && carried != Carried::Nothing {
         let mut what = Vec::new();
         for (before, after) in channels {
@@ -252,33 +259,18 @@ pub(super) fn check_planned(
     }
     let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
     let [inputs, outputs] = channels.map(|(before, after)| Growth::by_name(&names(before), &names(after)));
-    let passage = Passage { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
-    Ok(from.visit(CanGrow { topology: &before.topology, passage })?)
-}
-
-/// Lets a search that has not begun go on with other nets.
-struct CanGrow<'a> {
-    topology: &'a Topology,
-    passage: Passage<'a>,
-}
-
-impl SearchVisitor for CanGrow<'_> {
-    type Output = Result<(), SettingError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        S::build(settings, self.topology)?.grown(settings, &self.passage).map(drop)
-    }
-
-    fn foreign(self, _: &str) -> Self::Output {
-        Ok(())
-    }
+    let transfer = Transfer { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
+    // A search that has not begun shows whether it could go on with the other nets.
+    let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;
+    search.transfer(from_settings, &transfer)?;
+    Ok(())
 }
 
 /// What is carried from a run if nobody says what.
-fn usual(from: &StrategySettings, to: &StrategySettings) -> Carried {
+fn usual(from: &StrategyEntry, to: &StrategyEntry) -> Carried {
     match from {
         from if from.name() == to.name() => Carried::Population,
-        StrategySettings::Neat(_) => Carried::Topology,
+        from if from.finds_topology() => Carried::Topology,
         _ => Carried::Champion,
     }
 }
@@ -286,9 +278,9 @@ fn usual(from: &StrategySettings, to: &StrategySettings) -> Carried {
 /// Checks that something can be carried; `from` is `None` for a champion file.
 fn check_possible(
     source: &str,
-    from: Option<&StrategySettings>,
+    from: Option<&StrategyEntry>,
     carried: Carried,
-    to: &StrategySettings,
+    to: &StrategyEntry,
 ) -> Result<(), CarryError> {
     let message = match (carried, from) {
         (Carried::Population, None) => {
@@ -299,16 +291,16 @@ fn check_possible(
             from.name(),
             to.name()
         ),
-        (Carried::Champion | Carried::Topology, _) if matches!(to, StrategySettings::Neat(_)) => {
-            "NEAT goes on from a population of its own, and from no single net: choose another strategy, or go on from a \
-             run with NEAT"
-                .into()
-        }
+        (Carried::Champion | Carried::Topology, _) if to.finds_topology() => format!(
+            "{0} goes on from a population of its own, and from no single net: choose another strategy, or go on from a \
+             run with {0}",
+            to.name()
+        ),
         (Carried::Champion, None) => format!(
             "{source} holds a net, and not the genes it was made from: carry its topology, or name the folder of its run"
         ),
-        (Carried::Champion, Some(StrategySettings::Neat(_))) => {
-            "a net that NEAT has found is carried with its topology".into()
+        (Carried::Champion, Some(from)) if from.finds_topology() => {
+            format!("a net that {} has found is carried with its topology", from.name())
         }
         _ => return Ok(()),
     };

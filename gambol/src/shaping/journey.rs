@@ -9,12 +9,11 @@ use super::{
 use crate::{
     config::RunConfig,
     run_folder::{FolderError, FolderLock, RunFolder},
-    search::{Search, SearchVisitor},
-    setup::Setup,
+    setup::{Setup, SetupError},
     training::{self, Outcome, TrainError, TrainOptions},
 };
-use ne_core::{Decision, Progress, Promotion, StopConditions, StopReason};
-use std::{fs, path::Path, sync::Arc, time::Instant};
+use ne_core::{Decision, Progress, StopConditions, StopReason};
+use std::{fs, path::Path, time::Instant};
 
 /// How a run with stages is watched.
 pub struct Journey<'a> {
@@ -61,13 +60,14 @@ pub fn train_from(
     folder: &Path,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
-    let source = Source::open(source, &options.catalogue)?;
-    let departure = Departure::prepare(source, config, Manner { carried, forget }, &options.catalogue)?;
+    let source = Source::open(source, &options.registry)?;
+    let departure = Departure::prepare(source, config, Manner { carried, forget }, &options.registry)?;
     let config = departure.config.clone();
     if !config.stages.is_empty() {
         return Err(ShapingError::Stages);
     }
-    config.strategy.visit(Depart { departure, folder, stop: config.stop, promotion: None, options })
+    let strategy = departure.search(&options.registry.strategies)?;
+    Ok(training::train_leg(strategy, &config, &departure.setup, folder, config.stop, None, options)?)
 }
 
 /// The configuration with the sensors and the controller of a run (of one with stages, of the last) or a champion: what a
@@ -159,7 +159,7 @@ pub fn resume_curriculum(
 fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
     match config.stages.is_empty() {
         true => Err(ShapingError::NoStages),
-        false => Ok(Stages::new(config, &options.catalogue)?),
+        false => Ok(Stages::new(config, &options.registry)?),
     }
 }
 
@@ -205,7 +205,7 @@ fn travel(
         keep_champion(folder, &legs, is_begun.then_some(&leg_folder))?;
         let options = TrainOptions {
             threads: options.threads,
-            catalogue: options.catalogue.clone(),
+            registry: options.registry.clone(),
             signal: options.signal.clone(),
             on_generation: &mut *options.on_generation,
         };
@@ -249,73 +249,30 @@ fn begin(
         fs::remove_dir_all(path).map_err(failed)?;
     }
     let Some(before) = before else {
-        let setup = Setup::new(&config, &options.catalogue).map_err(TrainError::from)?;
+        let setup = Setup::new(&config, &options.registry).map_err(TrainError::from)?;
         on_leg(planned, None);
-        let departure =
-            First { config: &config, setup, folder: path, stop: now, promotion: planned.promotion.clone(), options };
-        return Ok(config.strategy.visit(departure)?);
+        let strategies = &options.registry.strategies;
+        let strategy = strategies
+            .build(&config.strategy, &setup.topology)
+            .map_err(|error| TrainError::from(SetupError::from(error)))?;
+        let promotion = planned.promotion.clone();
+        return Ok(training::train_leg(strategy, &config, &setup, path, now, promotion, options)?);
     };
     // Named as the folders lie beside each other, so that a run may be moved.
     let name = before.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
-    let source = Source::run(name, RunFolder::open(&before.folder)?, &options.catalogue)?;
+    let source = Source::run(name, RunFolder::open(&before.folder)?, &options.registry)?;
     // A search that has nothing to carry is no reason to end a run: its champion goes on, as the folder's origin says.
     let carried = match planned.carry {
         Some(Carried::Population) if source.has_nothing_to_carry()? => None,
         carried => carried,
     };
     let manner = Manner { carried, forget: planned.forget };
-    let departure = Departure::prepare(source, &config, manner, &options.catalogue)?;
+    let departure = Departure::prepare(source, &config, manner, &options.registry)?;
     let config = departure.config.clone();
     on_leg(planned, config.origin.as_ref());
-    config.strategy.visit(Depart { departure, folder: path, stop: now, promotion: planned.promotion.clone(), options })
-}
-
-/// Begins the first leg, with whichever strategy.
-struct First<'a, 'b> {
-    config: &'a RunConfig,
-    setup: Setup,
-    folder: &'a Path,
-    stop: StopConditions,
-    promotion: Option<Arc<dyn Promotion>>,
-    options: TrainOptions<'b>,
-}
-
-impl SearchVisitor for First<'_, '_> {
-    type Output = Result<Outcome, TrainError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let Self { config, setup, folder, stop, promotion, options } = self;
-        let strategy = S::build(settings, &setup.topology)?;
-        training::train_leg(strategy, config, &setup, folder, stop, promotion, options)
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(TrainError::Foreign { strategy: name.into() })
-    }
-}
-
-/// Begins a run that goes on from another, with whichever strategy.
-struct Depart<'a, 'b> {
-    departure: Departure,
-    folder: &'a Path,
-    stop: StopConditions,
-    promotion: Option<Arc<dyn Promotion>>,
-    options: TrainOptions<'b>,
-}
-
-impl SearchVisitor for Depart<'_, '_> {
-    type Output = Result<Outcome, ShapingError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let Self { departure, folder, stop, promotion, options } = self;
-        let strategy = departure.search::<S>(settings)?;
-        let Departure { config, setup, .. } = &departure;
-        Ok(training::train_leg(strategy, config, setup, folder, stop, promotion, options)?)
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(TrainError::Foreign { strategy: name.into() }.into())
-    }
+    let strategy = departure.search(&options.registry.strategies)?;
+    let promotion = planned.promotion.clone();
+    Ok(training::train_leg(strategy, &config, &departure.setup, path, now, promotion, options)?)
 }
 
 /// The limits of a leg: what is left of the budgets. A fitness, a grade or stagnation ends the run only in a stage without

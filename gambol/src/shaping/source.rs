@@ -1,17 +1,17 @@
 //! What a new search can begin from: a run, or a champion alone.
 
 use super::{carry::CarryError, legs, names};
+use crate::Registry;
 use crate::{
     champion::{Champion, ChannelRecord},
-    config::{RunConfig, StrategySettings},
+    config::RunConfig,
     run_folder::{FolderError, RunFolder},
-    search::{Search, SearchVisitor},
-    setup::Setup,
+    setup::{Setup, SetupError},
+    strategies::{AnyGenome, AnyStrategy, StrategyEntry},
 };
 use ne_core::{Checkpoint, Genome};
 use ne_net::Topology;
 use std::path::Path;
-use tasks::MovementCatalogue;
 
 /// What a new search can begin from.
 pub(crate) struct Source {
@@ -20,30 +20,31 @@ pub(crate) struct Source {
 }
 
 pub(super) enum Kind {
-    Run { folder: RunFolder, config: Box<RunConfig>, setup: Box<Setup> },
+    Run { folder: RunFolder, config: Box<RunConfig>, setup: Box<Setup>, strategy: StrategyEntry },
     Champion(Box<Champion>),
 }
 
 impl Source {
     /// A run folder, or a champion file; of a run with stages, the stage it has come to.
-    pub(crate) fn open(path: &Path, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+    pub(crate) fn open(path: &Path, registry: &Registry) -> Result<Self, CarryError> {
         if !path.is_dir() {
             let name = path.display().to_string();
             let champion = Champion::read(path).map_err(FolderError::from)?;
             return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
         }
         let folder = latest_leg(RunFolder::open(path)?)?;
-        Self::run(folder.path().display().to_string(), folder, catalogue)
+        Self::run(folder.path().display().to_string(), folder, registry)
     }
 
     /// A run, under a name of its own.
-    pub(crate) fn run(name: String, folder: RunFolder, catalogue: &MovementCatalogue) -> Result<Self, CarryError> {
+    pub(crate) fn run(name: String, folder: RunFolder, registry: &Registry) -> Result<Self, CarryError> {
         if !folder.checkpoint().is_file() {
             return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
         }
         let config = folder.read_config()?;
-        let setup = Setup::new(&config, catalogue)?;
-        Ok(Self { name, kind: Kind::Run { folder, config: Box::new(config), setup: Box::new(setup) } })
+        let setup = Box::new(Setup::new(&config, registry)?);
+        let strategy = registry.strategies.of(&config.strategy).map_err(SetupError::from)?.clone();
+        Ok(Self { name, kind: Kind::Run { folder, config: Box::new(config), setup, strategy } })
     }
 
     pub(super) fn strategy(&self) -> &str {
@@ -62,26 +63,28 @@ impl Source {
         }
     }
 
-    /// The strategy's settings, unless it is a champion alone.
-    pub(super) fn settings(&self) -> Option<&StrategySettings> {
+    /// The strategy, unless it is a champion alone.
+    pub(super) fn strategy_entry(&self) -> Option<&StrategyEntry> {
         match &self.kind {
-            Kind::Run { config, .. } => Some(&config.strategy),
+            Kind::Run { strategy, .. } => Some(strategy),
             Kind::Champion(_) => None,
         }
     }
 
-    /// Whether the search of a run has left what it had found.
+    /// Whether the search of a run has left what it had found, and there is a champion to begin at.
     pub(super) fn has_begun_anew(&self) -> Result<bool, CarryError> {
-        match &self.kind {
-            Kind::Run { folder, config, .. } => Ok(config.strategy.visit(ReadRestart { folder })?.has_begun_anew),
-            Kind::Champion(_) => Ok(false),
-        }
+        let Kind::Run { folder, strategy, .. } = &self.kind else { return Ok(false) };
+        let checkpoint = read_checkpoint(strategy, folder)?;
+        let someone = checkpoint.champion.is_some() || !checkpoint.finalists.is_empty();
+        Ok(checkpoint.strategy.has_begun_anew() && someone)
     }
 
     /// Whether the search of a run has left what it had found, and found nothing since.
     pub(super) fn has_nothing_to_carry(&self) -> Result<bool, CarryError> {
         match &self.kind {
-            Kind::Run { folder, config, .. } => Ok(config.strategy.visit(ReadRestart { folder })?.has_nothing_to_carry),
+            Kind::Run { folder, strategy, .. } => {
+                Ok(read_checkpoint(strategy, folder)?.strategy.has_nothing_to_transfer())
+            }
             Kind::Champion(_) => Ok(false),
         }
     }
@@ -97,8 +100,8 @@ impl Source {
                 let weights = champion.network.weights().to_vec();
                 Ok(ChampionNet { topology, weights, names, generation: champion.generation })
             }
-            Kind::Run { folder, config, setup } => {
-                let found = config.strategy.visit(ReadChampion { folder, expressed })?;
+            Kind::Run { folder, setup, strategy, .. } => {
+                let found = read_champion(strategy, folder, expressed)?;
                 let (topology, weights, generation) =
                     found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
                 let names = match topology == setup.topology {
@@ -133,73 +136,37 @@ pub(super) fn latest_leg(folder: RunFolder) -> Result<RunFolder, FolderError> {
     Ok(legs(&folder)?.last().map_or(folder, |leg| RunFolder::at(&leg.folder)))
 }
 
-/// What a restart has left of a search.
-#[derive(Default)]
-struct Restart {
-    /// What it had found was left, and there is a champion to begin at.
-    has_begun_anew: bool,
-    has_nothing_to_carry: bool,
-}
-
-/// Asks the strategy in a checkpoint.
-struct ReadRestart<'a> {
-    folder: &'a RunFolder,
-}
-
-impl SearchVisitor for ReadRestart<'_> {
-    type Output = Result<Restart, CarryError>;
-
-    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
-        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
-        let someone = checkpoint.champion.is_some() || !checkpoint.finalists.is_empty();
-        Ok(Restart {
-            has_begun_anew: checkpoint.strategy.has_begun_anew() && someone,
-            has_nothing_to_carry: checkpoint.strategy.has_nothing_to_carry(),
-        })
-    }
-
-    fn foreign(self, _: &str) -> Self::Output {
-        Ok(Restart::default())
-    }
+pub(super) fn read_checkpoint(
+    strategy: &StrategyEntry,
+    folder: &RunFolder,
+) -> Result<Checkpoint<AnyStrategy>, CarryError> {
+    Ok(strategy.read_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?)
 }
 
 /// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
 ///
 /// It is the one in the champion file, which may still wait there for a hearing. If a kill has parted the two files, it is the
 /// champion of the checkpoint, or the best that waits for the first hearing.
-struct ReadChampion<'a> {
-    folder: &'a RunFolder,
+fn read_champion(
+    strategy: &StrategyEntry,
+    folder: &RunFolder,
     expressed: bool,
-}
-
-impl SearchVisitor for ReadChampion<'_> {
-    type Output = Result<Option<(Topology, Vec<f32>, u64)>, CarryError>;
-
-    fn visit<S: Search>(self, _: &S::Settings) -> Self::Output {
-        let checkpoint = Checkpoint::<S>::read(&self.folder.checkpoint()).map_err(FolderError::from)?;
-        let Checkpoint { champion, finalists, .. } = checkpoint;
-        let file = self.folder.champion();
-        let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;
-        let is_written = |genome: &S::Genome, generation: u64| {
-            let is_it =
-                |written: &Champion| written.generation == generation && written.network == genome.express().into();
-            written.as_ref().is_some_and(is_it)
-        };
-        let kept = finalists.iter().find(|finalist| is_written(&finalist.genome, finalist.generation));
-        let kept = kept.map(|finalist| (finalist.genome.clone(), finalist.generation));
-        let heard = champion.map(|champion| (champion.genome, champion.generation));
-        // Of equals the first.
-        let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
-        let best = kept.or(heard).or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
-        Ok(best.map(|(genome, generation)| {
-            let (topology, weights) = S::net(&genome, self.expressed);
-            (topology, weights, generation)
-        }))
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(CarryError::Impossible(format!(
-            "the strategy \"{name}\" belongs to another program, which alone can read it"
-        )))
-    }
+) -> Result<Option<(Topology, Vec<f32>, u64)>, CarryError> {
+    let Checkpoint { champion, finalists, .. } = read_checkpoint(strategy, folder)?;
+    let file = folder.champion();
+    let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;
+    let is_written = |genome: &AnyGenome, generation: u64| {
+        let is_it = |written: &Champion| written.generation == generation && written.network == genome.express();
+        written.as_ref().is_some_and(is_it)
+    };
+    let kept = finalists.iter().find(|finalist| is_written(&finalist.genome, finalist.generation));
+    let kept = kept.map(|finalist| (finalist.genome.clone(), finalist.generation));
+    let heard = champion.map(|champion| (champion.genome, champion.generation));
+    // Of equals the first.
+    let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
+    let best = kept.or(heard).or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
+    Ok(best.map(|(genome, generation)| {
+        let (topology, weights) = genome.net(expressed);
+        (topology, weights, generation)
+    }))
 }

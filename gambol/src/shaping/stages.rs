@@ -2,15 +2,15 @@ use super::{
     Curriculum, Leg, PlannedStage, StageSettings,
     carry::{CarryError, Manner, check_planned},
 };
+use crate::Registry;
 use crate::{
-    config::{Assembly, ConfigError, RunConfig, preset, strategy},
+    config::{Assembly, ConfigError, RunConfig},
     setup::{Setup, SetupError},
 };
 use creatures::Sensor;
 use ne_core::{Decision, Moment, Promotion, Rule, SettingError};
 use serde_json::{Value, json};
 use std::sync::Arc;
-use tasks::MovementCatalogue;
 
 /// The stages of a configuration, in their order: a stage that is passed is followed by the next, one that is left by the
 /// one before.
@@ -58,23 +58,24 @@ impl Stages {
     ///
     /// # Errors
     /// Names the stage and the field.
-    pub fn new(config: &RunConfig, catalogue: &MovementCatalogue) -> Result<Self, StageError> {
+    pub fn new(config: &RunConfig, registry: &Registry) -> Result<Self, StageError> {
         let mut stages: Vec<(StageSettings, RunConfig)> = Vec::new();
         let mut before = RunConfig { stages: Vec::new(), origin: None, ..config.clone() };
         let mut setup_before: Option<Setup> = None;
         for (index, settings) in config.stages.iter().enumerate() {
             let wrong = |problem: StageProblem| StageError { index, name: settings.name.clone(), problem };
             check_name(settings, &stages).map_err(|error| wrong(error.into()))?;
-            let resolved = resolve(&before, settings).map_err(wrong)?;
-            let setup = Setup::new(&resolved, catalogue).map_err(|error| wrong(error.into()))?;
+            let resolved = resolve(&before, settings, registry).map_err(wrong)?;
+            let setup = Setup::new(&resolved, registry).map_err(|error| wrong(error.into()))?;
             let place = (index == 0, index + 1 == config.stages.len());
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
             if let Some(setup_before) = &setup_before {
                 let manner = Manner { carried: settings.carry, forget: settings.forget };
                 let (earlier, this) = ((&before.strategy, setup_before), (&resolved.strategy, &setup));
-                check_planned(earlier, this, manner).map_err(|error| wrong(error.into()))?;
+                check_planned(earlier, this, manner, &registry.strategies).map_err(|error| wrong(error.into()))?;
                 if settings.demotion.is_some() {
-                    check_planned(this, earlier, BACK).map_err(|error| wrong(StageProblem::Demotion(error.into())))?;
+                    check_planned(this, earlier, BACK, &registry.strategies)
+                        .map_err(|error| wrong(StageProblem::Demotion(error.into())))?;
                 }
             }
             setup_before = Some(setup);
@@ -136,7 +137,7 @@ impl Promotion for Rules {
 }
 
 /// The configuration of a stage, from that of the stage before.
-fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, StageProblem> {
+fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) -> Result<RunConfig, StageProblem> {
     let forbidden = ["stages", "origin", "stop", "seed", "record", "preset"];
     if let Some(&field) = forbidden.iter().find(|&&field| settings.changes.contains_key(field)) {
         let allowed = "left to the whole run; what ends a stage is its promotion";
@@ -153,11 +154,11 @@ fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, St
     let movement = settings.changes.get("movement");
     let renamed = movement.and_then(|movement| movement.get("name")).and_then(Value::as_str);
     if let Some(name) = renamed.filter(|&name| name != before.movement.name)
-        && let Some(preset) = preset(&before.preset)
+        && let Ok(preset) = registry.presets.find(&before.preset)
     {
-        let mut fresh = preset.config(creature, name);
+        let mut fresh = preset.config(creature, name, registry);
         fresh.movement.objectives.clone_from(&before.movement.objectives);
-        let former = preset.config(before.creature.clone(), &before.movement.name);
+        let former = preset.config(before.creature.clone(), &before.movement.name, registry);
         if fresh.physics.water.is_some() != former.physics.water.is_some() {
             // Into the water or out of it, and to the engine that has it.
             assembly.lay_over(json!({ "physics": { "water": fresh.physics.water }, "engine": fresh.engine }));
@@ -167,16 +168,17 @@ fn resolve(before: &RunConfig, settings: &StageSettings) -> Result<RunConfig, St
         assembly.lay_over(json!({ "movement": fresh.movement }));
     }
     let chosen = settings.changes.get("strategy").and_then(Value::as_object).and_then(|choice| choice.keys().next());
-    if let Some(entry) = chosen.and_then(|name| strategy(name)).filter(|entry| entry.name != before.strategy.name()) {
+    let chosen = chosen.and_then(|name| registry.strategies.find(name));
+    if let Some(entry) = chosen.filter(|entry| entry.name() != before.strategy.name()) {
         // Another strategy begins with its own defaults.
-        assembly.lay_over(json!({ "strategy": (entry.settings)() }));
+        assembly.lay_over(json!({ "strategy": entry.settings() }));
     }
     if settings.changes.contains_key("terrain") {
         // A terrain is chosen as a whole: the one before must not shine through.
         assembly.lay_over(json!({ "terrain": null }));
     }
     assembly.lay_over(Value::Object(settings.changes.clone()));
-    let mut config = assembly.finish()?;
+    let mut config = assembly.finish(registry)?;
     if !settings.add_sensors.is_empty() {
         let own = config.creature.sensors.clone();
         let sensors: &mut Vec<Sensor> = config.sensors.get_or_insert(own);

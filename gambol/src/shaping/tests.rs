@@ -1,8 +1,9 @@
 //! Nets that grow: every creature, every kind of topology, to the bit.
 
 use super::*;
+use crate::Registry;
 use crate::{
-    config::{FrozenTopology, RunConfig, preset},
+    config::{FrozenTopology, RunConfig},
     setup::Setup,
     training::TrainError,
 };
@@ -11,14 +12,13 @@ use envs_rapier::Variation;
 use ne_core::{Decision, EvolutionError, Phenotype, Progress, StopReason};
 use ne_net::{Activation, GraphNeuron, GraphShape, Growth};
 use serde_json::json;
-use tasks::MovementCatalogue;
 
 fn config(creature: &str) -> RunConfig {
-    preset("default").expect("there").config(creatures::find(creature).expect("shipped"), "running")
+    Registry::default().config("default", creatures::find(creature).expect("shipped"), "running").expect("a preset")
 }
 
 fn setup(config: &RunConfig) -> Setup {
-    Setup::new(config, &MovementCatalogue::default()).expect("valid")
+    Setup::new(config, &Registry::default()).expect("valid")
 }
 
 /// With senses added in front, in the middle and at the end.
@@ -98,7 +98,7 @@ fn a_frozen_net_does_the_same_with_more_senses() {
 fn stages(stages: serde_json::Value) -> Result<Stages, String> {
     let mut config = config("biped-1");
     config.stages = serde_json::from_value(stages).map_err(|error| error.to_string())?;
-    Stages::new(&config, &MovementCatalogue::default()).map_err(|error| error.to_string())
+    Stages::new(&config, &Registry::default()).map_err(|error| error.to_string())
 }
 
 #[test]
@@ -118,7 +118,7 @@ fn a_stage_changes_what_it_names_and_keeps_the_rest() {
     assert_eq!((&configs[1].sensors, &configs[2].sensors), (&Some(more.clone()), &Some(more)));
     assert_eq!((&configs[1].movement, configs[1].rehearsal), (&plain.movement, plain.rehearsal));
     // What the preset knows of another movement comes with its name.
-    let jumping = preset("default").expect("there").config(plain.creature.clone(), "jumping");
+    let jumping = Registry::default().config("default", plain.creature.clone(), "jumping").expect("a preset");
     assert_eq!((&configs[2].movement, configs[2].rehearsal), (&jumping.movement, jumping.rehearsal));
 }
 
@@ -136,7 +136,7 @@ fn water_comes_with_swimming_and_goes_with_it() {
     .expect("valid");
     let given: Vec<_> = stages.configs().map(|(_, config)| (config.physics, config.engine)).collect();
     let plain = config("biped-1");
-    let swimming = preset("default").expect("there").config(plain.creature.clone(), "swimming");
+    let swimming = Registry::default().config("default", plain.creature.clone(), "swimming").expect("a preset");
     assert!(swimming.physics.water.is_some() && swimming.engine != plain.engine);
     let (dry, wet) = ((plain.physics, plain.engine), (swimming.physics, swimming.engine));
     assert_eq!(given[..3], [dry, wet, dry]);
@@ -153,7 +153,7 @@ fn objectives_stay_with_another_movement() {
         { "name": "cruise", "changes": { "movement": { "name": "cruising" } } }
     ]);
     config.stages = serde_json::from_value(stages).expect("stages");
-    let stages = Stages::new(&config, &MovementCatalogue::default()).expect("valid");
+    let stages = Stages::new(&config, &Registry::default()).expect("valid");
     let last = stages.configs().last().expect("two").1;
     assert_eq!((&*last.movement.name, &last.movement.objectives), ("cruising", &config.movement.objectives));
 }
@@ -172,8 +172,11 @@ fn a_stage_has_a_creature_of_its_own_as_a_whole() {
     let configs: Vec<&RunConfig> = stages.configs().map(|(_, config)| config).collect();
     assert_eq!((&configs[1].creature, &configs[2].creature), (&worm, &config("biped-1").creature));
     // Who has no legs is coached as one without.
-    let coached = preset("default").expect("there").config(worm, "backwards").movement;
-    assert_ne!(coached, preset("default").expect("there").config(configs[0].creature.clone(), "backwards").movement);
+    let coached = Registry::default().config("default", worm, "backwards").expect("a preset").movement;
+    assert_ne!(
+        coached,
+        Registry::default().config("default", configs[0].creature.clone(), "backwards").expect("a preset").movement
+    );
     assert_eq!(configs[1].movement, coached);
     // Nothing of the movement is new where it is the same.
     assert_eq!(configs[2].movement, coached);
@@ -307,14 +310,14 @@ fn errors_name_stage_and_field() {
         ),
         (
             two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),
-            "stages[1] (\"b\"): NEAT goes on from a population of its own, and from no single net",
+            "stages[1] (\"b\"): neat goes on from a population of its own, and from no single net",
         ),
         (
             json!([
                 { "name": "a", "promotion": { "generations": 3 }, "changes": { "strategy": { "neat": {} } } },
                 { "name": "b", "demotion": { "generations": 3 }, "changes": { "strategy": { "cma-es": {} } } }
             ]),
-            "stages[1] (\"b\"): demotion: NEAT goes on from a population of its own, and from no single net",
+            "stages[1] (\"b\"): demotion: neat goes on from a population of its own, and from no single net",
         ),
         (
             two(json!({ "name": "b", "changes": { "creature": "biped-2" } })),

@@ -17,6 +17,7 @@ mod palette;
 mod tests;
 mod text;
 
+use crate::Registry;
 use crate::{champion::Champion, gait::Stage, setup::SetupError};
 use canvas::{Canvas, PAPER};
 use charts::Charts;
@@ -25,7 +26,7 @@ use envs_core::Ground;
 use frames::Frames;
 use heading::Heading;
 use moments::Moments;
-use tasks::{MovementCatalogue, Snapshot, gait::GaitReport};
+use tasks::{Snapshot, gait::GaitReport};
 
 /// The width of a sheet, pixels. Its height depends on what it shows.
 pub const WIDTH: u32 = 1440;
@@ -111,12 +112,8 @@ pub fn draw(subject: &Subject<'_>) -> Result<Vec<u8>, SheetError> {
 ///
 /// # Errors
 /// If the champion's world cannot be built, or its episode breaks off at once.
-pub fn of_champion(
-    champion: &Champion,
-    report: &GaitReport,
-    catalogue: &MovementCatalogue,
-) -> Result<Vec<u8>, SheetError> {
-    let stage = Stage::new(champion.episode_parts(), catalogue)?;
+pub fn of_champion(champion: &Champion, report: &GaitReport, registry: &Registry) -> Result<Vec<u8>, SheetError> {
+    let stage = Stage::new(champion.episode_parts(), registry)?;
     let snapshots = stage.record(&champion.network).snapshots;
     let environment = stage.environment();
     draw(&Subject {

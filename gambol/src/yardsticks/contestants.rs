@@ -35,7 +35,7 @@ pub fn contestants() -> Vec<Contestant> {
 fn neat(task: Yardstick) -> Vec<Contestant> {
     let with = |settings, description| Contestant {
         task,
-        settings: StrategySettings::Neat(Box::new(settings)),
+        settings: StrategySettings::new("neat", &settings),
         topology: DenseShape::new(task.inputs(), Vec::new(), 1).into(),
         output_range: OutputRange::ZeroToOne,
         bias_input: false,
@@ -55,7 +55,7 @@ fn cma_es(task: Yardstick) -> Contestant {
         Yardstick::Xor => CmaEsSettings::default(),
         _ => CmaEsSettings::pole_balancing(),
     };
-    on_its_net(task, StrategySettings::CmaEs(settings))
+    on_its_net(task, StrategySettings::new("cma-es", &settings))
 }
 
 fn cosyne(task: Yardstick) -> Contestant {
@@ -63,18 +63,18 @@ fn cosyne(task: Yardstick) -> Contestant {
         Yardstick::Xor => CosyneSettings::default(),
         _ => CosyneSettings::pole_balancing(),
     };
-    on_its_net(task, StrategySettings::Cosyne(settings))
+    on_its_net(task, StrategySettings::new("cosyne", &settings))
 }
 
 fn open_es(task: Yardstick) -> Contestant {
-    on_its_net(task, StrategySettings::OpenEs(OpenEsSettings::default()))
+    on_its_net(task, StrategySettings::new("open-es", &OpenEsSettings::default()))
 }
 
 fn conventional(task: Yardstick) -> Contestant {
     // The default mutates one gene in twenty, which leaves most children of so small nets as they were.
     let mutation = MutationChoice::Gaussian(GaussianMutation { rate: 0.4, deviation: 1.0 });
     let settings = ConventionalNeSettings { mutation, ..ConventionalNeSettings::default() };
-    on_its_net(task, StrategySettings::Conventional(settings))
+    on_its_net(task, StrategySettings::new("conventional", &settings))
 }
 
 /// A search for the weights of the net the task is given.

@@ -1,6 +1,6 @@
 use super::{Contestant, Yardstick};
-use crate::search::{Search, SearchVisitor};
-use ne_core::{Evaluation, Genome, Seed, SettingError, Strategy, Task};
+use crate::strategies::{AnyStrategy, StrategyCatalogue, StrategyError};
+use ne_core::{Evaluation, Genome, Seed, Strategy, Task};
 use ne_net::Network;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -45,9 +45,10 @@ pub struct Measured {
 ///
 /// # Errors
 /// If a setting of the contestant is out of range.
-pub fn measure(contestant: &Contestant, seeds: u64) -> Result<Measured, SettingError> {
-    let attempt = |seed| contestant.settings.visit(Try { contestant, seed });
-    let attempts = (1..=seeds).into_par_iter().map(attempt).collect::<Result<_, _>>()?;
+pub fn measure(contestant: &Contestant, seeds: u64) -> Result<Measured, StrategyError> {
+    let strategies = StrategyCatalogue::default();
+    let attempts = (1..=seeds).into_par_iter().map(|seed| attempt(contestant, &strategies, seed));
+    let attempts = attempts.collect::<Result<_, _>>()?;
     let (strategy, description) = (contestant.settings.name().to_owned(), contestant.description.to_owned());
     Ok(Measured { strategy, task: contestant.task, description, attempts })
 }
@@ -67,46 +68,30 @@ impl Measured {
 }
 
 /// Tries a task with one seed.
-struct Try<'a> {
-    contestant: &'a Contestant,
-    seed: u64,
-}
-
-impl SearchVisitor for Try<'_> {
-    type Output = Result<Attempt, SettingError>;
-
-    fn visit<S: Search>(self, settings: &S::Settings) -> Self::Output {
-        let Self { contestant: &Contestant { task, ref topology, output_range, bias_input, .. }, seed } = self;
-        let benchmark = task.task(output_range, bias_input)?;
-        let poles = task.poles(output_range, bias_input)?;
-        let strategy = S::build(settings, topology)?;
-        let began = Instant::now();
-        let (evaluations, solution) = match task {
-            Yardstick::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
-            _ => solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit()),
-        };
-        let seconds = began.elapsed().as_secs_f64();
-        let (hidden, connections) = solution.as_ref().map(size).unzip();
-        let solved = solution.is_some();
-        let has_starts = matches!(task, Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles);
-        let generalization = solution
-            .filter(|_| has_starts)
-            .and_then(|mut solution| poles.generalization(&mut solution).ok())
-            .map(|starts| starts.held);
-        Ok(Attempt { seed, evaluations, solved, hidden, connections, seconds, generalization })
-    }
-
-    fn foreign(self, name: &str) -> Self::Output {
-        Err(SettingError::new("strategy", name, "one of Gambol's"))
-    }
+fn attempt(contestant: &Contestant, strategies: &StrategyCatalogue, seed: u64) -> Result<Attempt, StrategyError> {
+    let &Contestant { task, ref settings, ref topology, output_range, bias_input, .. } = contestant;
+    let benchmark = task.task(output_range, bias_input)?;
+    let poles = task.poles(output_range, bias_input)?;
+    let strategy = strategies.build(settings, topology)?;
+    let began = Instant::now();
+    let (evaluations, solution) = match task {
+        Yardstick::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
+        _ => solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit()),
+    };
+    let seconds = began.elapsed().as_secs_f64();
+    let (hidden, connections) = solution.as_ref().map(size).unzip();
+    let solved = solution.is_some();
+    let has_starts = matches!(task, Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles);
+    let generalization = solution
+        .filter(|_| has_starts)
+        .and_then(|mut solution| poles.generalization(&mut solution).ok())
+        .map(|starts| starts.held);
+    Ok(Attempt { seed, evaluations, solved, hidden, connections, seconds, generalization })
 }
 
 /// Searches until somebody solves the task or so many evaluations are used up. Individuals are evaluated one after the
 /// other; as soon as one solves the task nobody else is.
-fn solve<S>(mut strategy: S, task: &dyn Benchmark, seed: Seed, limit: u64) -> (u64, Option<Network>)
-where
-    S: Strategy<Genome: Genome<Phenotype: Into<Network>>>,
-{
+fn solve(mut strategy: AnyStrategy, task: &dyn Benchmark, seed: Seed, limit: u64) -> (u64, Option<Network>) {
     let mut used = 0;
     for generation in 1.. {
         let seed = seed.generation(generation);
@@ -119,7 +104,7 @@ where
             let evaluation = task.evaluate(&mut phenotype, seed);
             used += 1;
             if task.is_candidate(&evaluation) && task.is_solved(&mut phenotype, &evaluation) {
-                return (used, Some(phenotype.into()));
+                return (used, Some(phenotype));
             }
             evaluations.push(evaluation);
         }
@@ -129,10 +114,7 @@ where
 }
 
 /// As [`solve`], but generation by generation: only the best of each is tried, and it has to hold from other starts too.
-fn solve_generally<S>(mut strategy: S, task: &DoublePole, seed: Seed, limit: u64) -> (u64, Option<Network>)
-where
-    S: Strategy<Genome: Genome<Phenotype: Into<Network>>>,
-{
+fn solve_generally(mut strategy: AnyStrategy, task: &DoublePole, seed: Seed, limit: u64) -> (u64, Option<Network>) {
     let mut used = 0;
     for generation in 1.. {
         let seed = seed.generation(generation);
@@ -148,7 +130,7 @@ where
                 && task.is_solved(&mut phenotype, evaluation)
                 && task.generalization(&mut phenotype).is_ok_and(|starts| starts.is_general())
             {
-                return (used, Some(phenotype.into()));
+                return (used, Some(phenotype));
             }
         }
         strategy.tell(&evaluations, seed);
@@ -172,15 +154,13 @@ fn size(network: &Network) -> (usize, usize) {
 #[cfg(test)]
 mod tests {
     use super::{super::contestants, *};
-    use crate::config::StrategySettings;
-    use ne_fixed::ConventionalNe;
 
     /// The genetic algorithm with its population of 50, and its task.
-    fn genetic_algorithm(task: Yardstick) -> (ConventionalNe, Contestant) {
+    fn genetic_algorithm(task: Yardstick) -> (AnyStrategy, Contestant) {
         let is_it = |one: &Contestant| one.task == task && one.settings.name() == "conventional";
         let contestant = contestants().into_iter().find(is_it).expect("it takes part in every task");
-        let StrategySettings::Conventional(settings) = contestant.settings.clone() else { panic!("another strategy") };
-        (ConventionalNe::new(settings, contestant.topology.clone()).expect("valid settings"), contestant)
+        let built = StrategyCatalogue::default().build(&contestant.settings, &contestant.topology);
+        (built.expect("valid settings"), contestant)
     }
 
     #[test]

@@ -35,7 +35,7 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("sede=3",                                      &["--set sede=3", "unknown field `sede`", "did you mean `seed`?"]),
     ("physics.timestep=0.01",                       &["physics.timestep: unknown field", "did you mean `time_step`?"]),
     ("strategy.conventional.popultion=3",           &["strategy.conventional.popultion", "did you mean `population`?"]),
-    ("strategy.convetional.population=3",           &["strategy", "did you mean `conventional`?"]),
+    ("strategy.convetional.population=3",           &["strategy", "did you mean \"conventional\"?"]),
     ("engine=lnaes",                                &["engine: unknown variant `lnaes`", "did you mean `lanes`?"]),
     ("physics.time_step.x=1",                       &["physics.time_step: has no field \"x\""]),
     // Types.

@@ -25,9 +25,9 @@ fn every_shipped_creature_is_listed_with_its_numbers() -> Outcome {
 fn every_movement_and_term_is_listed() -> Outcome {
     let plain = succeed(&mut gambol("movements"));
     let listed: Vec<Value> = serde_json::from_str(&succeed(gambol("movements").arg("--json")))?;
-    let catalogue = tasks::MovementCatalogue::default();
-    assert_eq!(listed.len(), catalogue.entries().len());
-    for (entry, row) in catalogue.entries().iter().zip(&listed) {
+    let registry = gambol::Registry::default();
+    assert_eq!(listed.len(), registry.movements.entries().len());
+    for (entry, row) in registry.movements.entries().iter().zip(&listed) {
         assert_says(&plain, &[&format!("\n  {} ", entry.name), &entry.description]);
         assert_eq!((row["name"].as_str(), row["unit"].as_str()), (Some(&*entry.name), Some(&*entry.unit)));
     }

@@ -135,7 +135,9 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         compare
     };
     for (arguments, says) in [
-        (&["--strategies", "ga,ga"][..], "the strategy \"ga\" is there twice"),
+        (&["--strategies", "gaa"][..], "there is no strategy or preset \"gaa\"; did you mean \"ga\"?"),
+        (&["--strategies", "../x=y.json"], "\"../x\" is no name for a strategy"),
+        (&["--strategies", "ga,ga"], "the strategy \"ga\" is there twice"),
         (&["--strategies", "ga", "--movements", "running,running"], "the movement \"running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean `biped-2`?"),
@@ -150,9 +152,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         assert_says(&fail(&mut compare(arguments)), &[says]);
     }
     for (arguments, says) in [
-        (&["--strategies", "gaa"][..], "there is no strategy or preset \"gaa\"; did you mean \"ga\"?"),
-        (&["--strategies", "../x=y.json"], "\"../x\" is no name for a strategy"),
-        (&["--strategies", "ga", "--part", "0/3"], "must be a number and how many parts there are, such as 3/20"),
+        (&["--strategies", "ga", "--part", "0/3"][..], "must be a number and how many parts there are, such as 3/20"),
         (&["--strategies", "ga", "--part", "4/3"], "such as 3/20"),
         (&["--strategies", "ga", "--seeds", "0"], "0 is not in 1.."),
     ] {

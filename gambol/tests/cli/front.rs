@@ -7,10 +7,10 @@ use crate::{
     program::{assert_says, fail, gambol, long_run, small_run, succeed, text},
     reporting::{assert_stands_alone, data},
 };
+use gambol::Registry;
 use gambol::{Setup, front::Front, run_folder::RunFolder};
 use ne_core::{Seed, Task};
 use std::{fs, path::Path, process::Command};
-use tasks::MovementCatalogue;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -98,7 +98,7 @@ fn a_front_holds_what_was_measured() -> Outcome {
         succeed(train_many(&path, 6, 24).args(["--set", &again, "--set", "trials.count=1"]));
         let run = RunFolder::open(&path)?;
         let (config, front) = (run.read_config()?, Front::read(&run.front())?);
-        let setup = Setup::new(&config, &MovementCatalogue::default())?;
+        let setup = Setup::new(&config, &Registry::default())?;
         let names: Vec<_> = front.objectives.iter().map(|objective| (&*objective.name, &*objective.unit)).collect();
         assert_eq!(names, [("running", "m"), ("energy", "J")]);
         assert_eq!(front.objectives[1].weight, -0.5);

@@ -97,11 +97,11 @@ fn a_run_interrupted_before_its_first_generation_is_a_run_all_the_same() -> Outc
     let folder = tempfile::tempdir()?;
     let (whole, broken) = (folder.path().join("whole"), folder.path().join("broken"));
     succeed(&mut small_run(&whole, 3));
-    let catalogue = tasks::MovementCatalogue::default();
+    let registry = gambol::Registry::default();
     let config = RunFolder::open(&whole)?.read_config()?;
     let signal = ne_core::StopSignal::default();
     signal.stop();
-    let options = TrainOptions { threads: 1, catalogue, signal, on_generation: &mut |_| unreachable!("it is stopped") };
+    let options = TrainOptions { threads: 1, registry, signal, on_generation: &mut |_| unreachable!("it is stopped") };
     let outcome = training::train(&config, &broken, options)?;
     assert_eq!((outcome.reason, outcome.progress.generations), (ne_core::StopReason::Interrupted, 0));
     assert!(outcome.champion.is_none());

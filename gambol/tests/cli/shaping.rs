@@ -182,7 +182,7 @@ fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
         &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); ", "; given up: speed of "],
     );
     succeed(gambol("verify").arg(run_folder.join("stages/03-run/champion.json")));
-    // So does a topology that NEAT has found; but NEAT itself takes nobody back.
+    // So does a topology that neat has found; but NEAT itself takes nobody back.
     config["strategy"] = json!({ "neat": { "population": 12 } });
     let weights = json!({
         "name": "weights", "changes": { "strategy": { "cma-es": { "population": 8 } } }, "promotion": { "generations": 3 }
@@ -198,7 +198,7 @@ fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
     assert!(inputs("04-weights") == inputs("02-weights") && inputs("03-feel") != inputs("02-weights"));
     config["stages"][1]["demotion"] = json!({ "generations": 3 });
     let config = write(folder.path(), &config);
-    let refused = ["stages[1] (\"weights\"): demotion: NEAT goes on from a population of its own"];
+    let refused = ["stages[1] (\"weights\"): demotion: neat goes on from a population of its own"];
     assert_says(&fail(gambol("check").arg(&config)), &refused);
     assert_says(&fail(&mut train(&config, &folder.path().join("refused"))), &refused);
     assert!(!folder.path().join("refused").exists());
@@ -479,7 +479,7 @@ fn what_cannot_be_carried_is_said_before_training() -> Outcome {
         &from(&["apod", "running"]),
         &["what was learned with it would be lost; keep it, or allow it with --forget"],
     );
-    assert_says(&from(&["biped-1", "running", "--strategy", "neat"]), &["NEAT goes on from a population of its own"]);
+    assert_says(&from(&["biped-1", "running", "--strategy", "neat"]), &["neat goes on from a population of its own"]);
     assert_says(
         &from(&["biped-1", "running", "--strategy", "ga", "--carry", "population"]),
         &["a population of cma-es is none of conventional"],

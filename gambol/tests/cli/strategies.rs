@@ -212,7 +212,7 @@ fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
         &["the topology does not fit the creature: it has 3 inputs, the creature has 5", "only the creature has"],
     );
     let message = fail(&mut train("biped-1", "neat"));
-    assert_says(&message, &["topology: NEAT finds its own, and cannot keep one"]);
+    assert_says(&message, &["topology: neat finds its own, and cannot keep one"]);
     let message = fail(gambol("train").args(["biped-1", "running", "--topology-from", "nowhere.json"]));
     assert_says(&message, &["nowhere.json"]);
     let config = found.join("config.json");

@@ -2,6 +2,7 @@
 
 use super::{Promise, Violation, check_phenotype, phenotype::same, probe::Behaviour};
 use crate::Genome;
+use serde::de::DeserializeOwned;
 
 /// There is something to check.
 pub const SAMPLE: Promise = Promise::new("check of genomes", "a sample of at least one genome");
@@ -23,7 +24,7 @@ pub const PROMISES: &[Promise] = &[SAMPLE, EXPRESSES_THE_SAME, CLONES, SURVIVES_
 ///
 /// # Errors
 /// The first promise that is not kept; the text says by which genome of the sample.
-pub fn check_genome<G: Genome>(sample: &[G]) -> Result<(), Violation> {
+pub fn check_genome<G: Genome + DeserializeOwned>(sample: &[G]) -> Result<(), Violation> {
     SAMPLE.check(|| if sample.is_empty() { Err("none".into()) } else { Ok(()) })?;
     for (index, genome) in sample.iter().enumerate() {
         let of_genome = |violation: Violation| violation.promise.broken(format!("genome {index}: {}", violation.found));
@@ -33,7 +34,7 @@ pub fn check_genome<G: Genome>(sample: &[G]) -> Result<(), Violation> {
     Ok(())
 }
 
-fn check_one<G: Genome>(genome: &G) -> Result<(), Violation> {
+fn check_one<G: Genome + DeserializeOwned>(genome: &G) -> Result<(), Violation> {
     let behaviour = EXPRESSES_THE_SAME.check(|| {
         // Both are built before either is used, so that what they share would show.
         let (mut first, mut second) = (genome.express(), genome.express());
@@ -60,7 +61,7 @@ pub(super) fn to_json(value: &impl serde::Serialize) -> Result<String, String> {
 }
 
 /// From text, the way a checkpoint is read.
-pub(super) fn from_json<T: serde::de::DeserializeOwned>(text: &str) -> Result<T, String> {
+pub(super) fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let field = error.path().to_string();

@@ -6,6 +6,7 @@ use super::{
     strategy_run::{Results, Told, generation, run, same},
 };
 use crate::{Seed, Strategy};
+use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 
 /// It can be run at all.
@@ -78,7 +79,10 @@ impl Default for StrategyOptions {
 ///
 /// # Errors
 /// The first promise that is not kept.
-pub fn check_strategy<S: Strategy>(make: impl Fn() -> S, options: &StrategyOptions) -> Result<(), Violation> {
+pub fn check_strategy<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned>(
+    make: impl Fn() -> S,
+    options: &StrategyOptions,
+) -> Result<(), Violation> {
     let StrategyOptions { ignores_seed, size_varies, .. } = *options;
     let (seed, generations) = (Seed::of_run(options.seed), options.generations.max(2));
     let plain = RUNS.check(|| run(make(), seed, generations, Results::Ordinary))?;
@@ -167,13 +171,17 @@ fn statistics<G>(run: &[Told<G>]) -> Result<(), String> {
 }
 
 /// Numbers that are not finite become `null` in JSON and cannot be read back.
-fn readable<S: Strategy>(run: &[Told<S::Genome>]) -> Result<(), String> {
+fn readable<S: Strategy<Genome: DeserializeOwned>>(run: &[Told<S::Genome>]) -> Result<(), String> {
     let mut genomes = run.iter().flat_map(|told| &told.genomes);
     genomes.try_for_each(|text| from_json::<S::Genome>(text).map(drop))
 }
 
 /// A run whose strategy is written and read back after each generation, and before the first.
-fn run_reloading<S: Strategy>(mut strategy: S, seed: Seed, generations: u64) -> Result<Vec<Told<S::Genome>>, String> {
+fn run_reloading<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned>(
+    mut strategy: S,
+    seed: Seed,
+    generations: u64,
+) -> Result<Vec<Told<S::Genome>>, String> {
     let mut run = Vec::new();
     for number in 1..=generations {
         let saved = to_json(&strategy)?;

@@ -3,6 +3,7 @@
 use ne_core::{Evaluation, Failure, Genome, Phenotype, Seed, Strategy, digest::Digest};
 use ne_fixed::WeightVector;
 use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
+use serde::de::DeserializeOwned;
 
 /// A small dense net: 26 weights.
 pub(crate) fn dense() -> DenseShape {
@@ -58,13 +59,13 @@ pub(crate) fn generation_of<S: Strategy<Genome = WeightVector>>(strategy: &mut S
 }
 
 /// Written and read back.
-pub(crate) fn reload<S: Strategy>(strategy: &S) -> S {
+pub(crate) fn reload<S: Strategy + DeserializeOwned>(strategy: &S) -> S {
     let text = serde_json::to_string(strategy).expect("serialises");
     serde_json::from_str(&text).expect("deserialises")
 }
 
 /// Checks that a strategy goes on to the bit when it is saved, between generations and in the middle of one.
-pub(crate) fn assert_resumes<S: Strategy<Genome = WeightVector>>(mut strategy: S, generations: u64) {
+pub(crate) fn assert_resumes<S: Strategy<Genome = WeightVector> + DeserializeOwned>(mut strategy: S, generations: u64) {
     for number in 1..=generations {
         let seed = Seed::of_run(1).generation(number);
         let mut copy = reload(&strategy);
@@ -81,7 +82,10 @@ pub(crate) fn assert_resumes<S: Strategy<Genome = WeightVector>>(mut strategy: S
 }
 
 /// Checks that reading the state with each damage is an error that says so.
-pub(crate) fn assert_damages_are_found<S: Strategy + std::fmt::Debug>(strategy: &S, damages: &[(Damage, &str)]) {
+pub(crate) fn assert_damages_are_found<S: Strategy + DeserializeOwned + std::fmt::Debug>(
+    strategy: &S,
+    damages: &[(Damage, &str)],
+) {
     let state = serde_json::to_value(strategy).expect("serialises");
     for (damage, message) in damages {
         let mut damaged = state.clone();

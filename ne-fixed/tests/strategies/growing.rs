@@ -70,7 +70,11 @@ fn trained<S: Strategy<Genome = WeightVector>>(mut strategy: S) -> (S, Vec<Vec<f
 }
 
 /// Checks a strategy whose first generation after the growth is the population there was.
-fn assert_population_goes_on<S: Strategy<Genome = WeightVector> + Clone>(old: Vec<Vec<f32>>, new: S, asked: usize) {
+fn assert_population_goes_on<S: Strategy<Genome = WeightVector> + Clone + serde::de::DeserializeOwned>(
+    old: Vec<Vec<f32>>,
+    new: S,
+    asked: usize,
+) {
     let population = new.clone().ask(Seed::of_run(2).generation(1)).to_vec();
     assert_eq!(population.len(), asked);
     assert_eq!(reload(&new).ask(Seed::of_run(2).generation(1)), population);

@@ -162,7 +162,9 @@ mod tests {
 
     #[test]
     fn stands_alone_with_anything_there_or_missing() {
-        let plan = Request { clock_minutes: Some(vec![1.0, 2.0, 5.0]), ..Request::default() }.plan().expect("a plan");
+        let plan = Request { clock_minutes: Some(vec![1.0, 2.0, 5.0]), ..Request::default() }
+            .plan(&crate::Registry::default())
+            .expect("a plan");
         for (clocked, runs) in [(true, 3), (false, 1), (false, 0)] {
             let plan = Plan { clock_minutes: plan.clock_minutes.clone().filter(|_| clocked), ..plan.clone() };
             let page = render(&outcome(&plan, runs));
@@ -177,7 +179,9 @@ mod tests {
 
     #[test]
     fn words_of_others_are_escaped() {
-        let plan = Request { creatures: vec!["apod".into()], ..Request::default() }.plan().expect("a plan");
+        let plan = Request { creatures: vec!["apod".into()], ..Request::default() }
+            .plan(&crate::Registry::default())
+            .expect("a plan");
         let page = render(&outcome(&plan, 2));
         assert!(page.contains("left &lt;leg&gt;: no touchdown") && !page.contains("<leg>"));
     }

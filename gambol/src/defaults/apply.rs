@@ -1,0 +1,83 @@
+//! From what is known of a movement to the settings of a run.
+
+use super::{BodyFacts, DefaultsCatalogue};
+use crate::config::{EngineChoice, RunConfig};
+use creatures::{Actuation, Blueprint, Sensor};
+use ne_net::Activation;
+
+/// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
+const MOTOR_GAIN: f32 = 200.0;
+
+/// Of one world alone the lucky would be the best: one near world, and two that vary.
+const TRIALS: u32 = 3;
+
+/// Sets in a configuration what the defaults have for its movement and its creature.
+pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
+    let defaults = catalogue.of(&config.movement.name, &BodyFacts::of(config));
+    let controller = &mut config.controller;
+    controller.hidden = vec![4];
+    controller.hidden_activation = Activation::Tanh;
+    controller.output_activation = Activation::Tanh;
+    controller.hidden_scale = 1.0;
+    controller.limbs = defaults.limbs;
+    controller.actuation = Actuation::Angle { gain: defaults.gain };
+    config.physics.motor_gain = MOTOR_GAIN;
+    config.sensors = Some(sensors(&config.creature.sensors, defaults.period, defaults.stands));
+    config.movement.terms = defaults.terms;
+    config.movement.steps = defaults.steps;
+    config.rehearsal = defaults.rehearsal;
+    config.trials.count = TRIALS;
+    if let Some(variation) = defaults.variation {
+        config.variation = variation;
+    }
+    if let Some(step_size) = defaults.step_size
+        && config.strategy.settings().contains_key("step_size")
+    {
+        config.strategy.set("step_size", step_size);
+    }
+    // What lanes refuse is trained in rapier rather than not at all.
+    if config.creature.self_collision {
+        config.engine = EngineChoice::Rapier;
+    }
+}
+
+impl BodyFacts {
+    /// The body of a configuration; one that is not valid is told apart later, and has no legs here.
+    fn of(config: &RunConfig) -> Self {
+        let clock = clock(&config.creature.sensors);
+        let Ok(blueprint) = Blueprint::new(config.creature.clone()) else {
+            return Self { legs: 0, limbs: 0, joints: 0, height: 1.0, clock };
+        };
+        let limbs = blueprint.legs().len();
+        Self {
+            legs: if blueprint.is_legless() { 0 } else { limbs },
+            limbs,
+            joints: blueprint.legs().iter().map(Vec::len).min().unwrap_or(0),
+            height: blueprint.start_height(),
+            clock,
+        }
+    }
+}
+
+/// What the creature's file asks for, if it asks for anything of its own, or else what a body feels; and a clock.
+fn sensors(own: &[Sensor], period: f32, stands: bool) -> Vec<Sensor> {
+    let mut sensors = own.to_vec();
+    if sensors == Sensor::defaults() {
+        sensors.insert(1, Sensor::TorsoSpin);
+        if stands {
+            sensors.extend([Sensor::FootContacts, Sensor::TorsoVelocity, Sensor::TorsoHeight]);
+        }
+    }
+    if clock(&sensors).is_none() {
+        sensors.push(Sensor::Clock { period });
+    }
+    sensors
+}
+
+/// The period of the first clock, s.
+fn clock(sensors: &[Sensor]) -> Option<f32> {
+    sensors.iter().find_map(|sensor| match *sensor {
+        Sensor::Clock { period } => Some(period),
+        _ => None,
+    })
+}

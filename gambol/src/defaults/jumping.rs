@@ -1,0 +1,50 @@
+//! Getting off the ground.
+
+use super::{BodyFacts, MovementDefaults, terms, with};
+use crate::config::LimbPhases;
+
+/// 5 s: a jump and its landing.
+pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
+    let mut terms = terms(&[("honest", 0.0), ("posture", 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)]);
+    for posture in terms.iter_mut().filter(|term| term.term == "posture") {
+        // A jump crouches, and nothing but feet may touch the ground, however shortly.
+        *posture = with(posture.clone(), "tilt", 35);
+        *posture = with(posture.clone(), "margin", 5);
+        *posture = with(posture.clone(), "height", 0.3);
+        *posture = with(posture.clone(), "brush", 0);
+    }
+    MovementDefaults {
+        steps: Some(250),
+        rehearsal: Some(250),
+        terms,
+        // Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves
+        // the ground and lands.
+        step_size: Some(0.2),
+        ..leap(body)
+    }
+}
+
+/// 5 s, of which training has 2.
+pub(super) fn long_jump(body: &BodyFacts) -> MovementDefaults {
+    // A somersault also gets far.
+    let terms = terms(&[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)]);
+    MovementDefaults { steps: Some(250), rehearsal: Some(100), terms, ..leap(body) }
+}
+
+/// 10 s, of which training has 4.
+pub(super) fn hopping(body: &BodyFacts) -> MovementDefaults {
+    let terms = terms(&[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)]);
+    let period = MovementDefaults::unknown(body).period;
+    MovementDefaults { steps: Some(500), rehearsal: Some(200), terms, period, ..leap(body) }
+}
+
+/// A leap with its run-up. Many legs leap together; two leap best if one net moves them both. The leap of a biped must follow
+/// closely, and many legs that snap at once tear at their joints.
+fn leap(body: &BodyFacts) -> MovementDefaults {
+    let (limbs, gain, period) = match body.legs {
+        0 => (Some(LimbPhases::Alternating), 20.0, 1.0),
+        1..=2 => (None, 20.0, body.pendulum(1.0)),
+        _ => (Some(LimbPhases::Together), 15.0, body.pendulum(1.0)),
+    };
+    MovementDefaults { limbs, gain, period, ..MovementDefaults::unknown(body) }
+}

@@ -1,0 +1,147 @@
+//! What the default preset adds to a bare search for a movement: reward shaping, a controller and senses.
+//!
+//! Each piece is a setting of the run like any other, so it can be changed or left out one by one; what each is worth is
+//! measured in `docs/ablation.md`. [`DefaultsCatalogue::add`] registers what is known of a movement, of Gambol's own and
+//! of yours alike; a movement without an entry gets a controller, and no terms.
+
+mod apply;
+mod jumping;
+mod running;
+mod standing;
+mod swimming;
+#[cfg(test)]
+mod tests;
+mod walking;
+
+pub use apply::apply;
+
+use crate::config::LimbPhases;
+use envs_rapier::Variation;
+use std::{collections::BTreeMap, fmt, sync::Arc};
+use tasks::TermSpec;
+
+/// What is known of a body before it moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyFacts {
+    /// Legs that carry it as it starts; 0 for one that crawls, or lies on its back.
+    pub legs: usize,
+    /// Legs that it has, whatever it starts on.
+    pub limbs: usize,
+    /// Motors of the leg that has the fewest; 0 without legs.
+    pub joints: usize,
+    /// Height of the torso's centre in the start pose, m.
+    pub height: f32,
+    /// The period of the clock that its file asks for, s.
+    pub clock: Option<f32>,
+}
+
+impl BodyFacts {
+    /// The time of a stride, s, that takes so many seconds where the torso is carried at 0.8 m: legs swing like pendulums, and
+    /// their time goes with the root of the height. A round number, since it stands in files.
+    pub fn pendulum(&self, seconds: f32) -> f32 {
+        let period = seconds * libm::sqrtf(self.height / 0.8).clamp(0.7, 1.4);
+        libm::roundf(100.0 * period) / 100.0
+    }
+}
+
+/// What the default preset sets for a movement and a body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MovementDefaults {
+    /// Steps of the champion's episode; `None`: the movement's own number.
+    pub steps: Option<u32>,
+    /// Steps of an episode of training; `None`: as many.
+    pub rehearsal: Option<u32>,
+    /// Terms added to the fitness.
+    pub terms: Vec<TermSpec>,
+    /// How limbs share a net; `None`: one net moves all joints.
+    pub limbs: Option<LimbPhases>,
+    /// Of the motors' angle law, 1/s.
+    pub gain: f32,
+    /// Of the clock that the net senses, unless the creature's file has one, s.
+    pub period: f32,
+    /// Whether the body feels how it stands: contacts of its feet, velocity and height of its torso.
+    pub stands: bool,
+    /// In place of the preset's variation between trials.
+    pub variation: Option<Variation>,
+    /// In place of the strategy's first mutation strength, if it has a setting `step_size`.
+    pub step_size: Option<f64>,
+}
+
+impl MovementDefaults {
+    /// What there is for a movement of which nothing is known: a controller, and no terms.
+    pub fn unknown(body: &BodyFacts) -> Self {
+        let walks = body.legs > 0;
+        Self {
+            steps: None,
+            rehearsal: None,
+            terms: Vec::new(),
+            limbs: Some(LimbPhases::Alternating),
+            gain: if walks { 10.0 } else { 20.0 },
+            period: if walks { body.pendulum(0.5) } else { 0.5 },
+            stands: walks,
+            variation: None,
+            step_size: None,
+        }
+    }
+}
+
+type Make = Arc<dyn Fn(&BodyFacts) -> MovementDefaults + Send + Sync>;
+
+/// What the default preset adds for which movement. The default has what there is for the built-in ones.
+#[derive(Clone)]
+pub struct DefaultsCatalogue {
+    makers: BTreeMap<String, Make>,
+}
+
+impl Default for DefaultsCatalogue {
+    fn default() -> Self {
+        let mut catalogue = Self { makers: BTreeMap::new() };
+        for like_a_run in ["running", "climbing", "carrying", "cruising"] {
+            catalogue.add(like_a_run, running::running);
+        }
+        catalogue
+            .add("backwards", running::backwards)
+            .add("walking", walking::walking)
+            .add("jumping", jumping::jumping)
+            .add("long-jump", jumping::long_jump)
+            .add("hopping", jumping::hopping)
+            .add("standing", standing::standing)
+            .add("getting-up", standing::getting_up)
+            .add("swimming", swimming::swimming);
+        catalogue
+    }
+}
+
+impl DefaultsCatalogue {
+    /// Says what the default preset adds for the movement of this name, in place of what there was.
+    pub fn add(
+        &mut self,
+        movement: &str,
+        make: impl Fn(&BodyFacts) -> MovementDefaults + Send + Sync + 'static,
+    ) -> &mut Self {
+        self.makers.insert(movement.into(), Arc::new(make));
+        self
+    }
+
+    /// What it adds for a movement and a body.
+    pub fn of(&self, movement: &str, body: &BodyFacts) -> MovementDefaults {
+        self.makers.get(movement).map_or_else(|| MovementDefaults::unknown(body), |make| make(body))
+    }
+}
+
+impl fmt::Debug for DefaultsCatalogue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_list().entries(self.makers.keys()).finish()
+    }
+}
+
+/// Terms by name and weight.
+fn terms(named: &[(&str, f64)]) -> Vec<TermSpec> {
+    named.iter().map(|&(term, weight)| TermSpec::new(term, weight)).collect()
+}
+
+/// A term with one more of its settings.
+fn with(mut term: TermSpec, field: &str, value: impl Into<serde_json::Value>) -> TermSpec {
+    term.settings.insert(field.into(), value.into());
+    term
+}

@@ -1,0 +1,65 @@
+//! Getting far, as fast as it goes.
+
+use super::{BodyFacts, MovementDefaults, terms, with};
+use crate::config::LimbPhases;
+use envs_rapier::Variation;
+use tasks::TermSpec;
+
+/// 20 s, of which training has 10.
+const STEPS: (Option<u32>, Option<u32>) = (Some(1000), Some(500));
+
+/// What ends an episode is charged for by the distance it then cannot cover.
+const CRAWLING: [(&str, f64); 5] =
+    [("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)];
+
+const ON_LEGS: [(&str, f64); 7] = [
+    ("honest", 0.0),
+    ("posture", -1.0),
+    ("headway", 0.0),
+    ("footfalls", -1.0),
+    ("vibration", -0.2),
+    ("slip", -1.0),
+    ("haste", -0.95),
+];
+
+pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
+    let BodyFacts { legs, joints, .. } = *body;
+    let is_biped = (1..=2).contains(&legs);
+    // Two legs that skip are quicker.
+    let period = match legs {
+        0 => 0.5,
+        1..=2 => body.pendulum(0.39),
+        _ => body.pendulum(0.5),
+    };
+    let mut on_legs = terms(&ON_LEGS);
+    for haste in on_legs.iter_mut().filter(|term| term.term == "haste") {
+        // Two legs that hurry fall.
+        haste.settings.insert("speed".into(), if legs <= 2 { 1.3.into() } else { 2.2.into() });
+    }
+    // Many legs keep time by themselves; two legs with knees find a rhythm of their own, and are not helped by another.
+    if legs <= 4 && (legs > 2 || joints == 1) {
+        // As short in a file as it is meant.
+        let stride = f64::from(libm::roundf(1000.0 * body.clock.unwrap_or(period)) / 1000.0);
+        on_legs.push(with(TermSpec::new("rhythm", -1.0), "period", stride));
+    }
+    MovementDefaults {
+        steps: STEPS.0,
+        rehearsal: STEPS.1,
+        terms: if legs == 0 { terms(&CRAWLING) } else { on_legs },
+        // Two legs run best if one net moves them both: they skip, the same leg always first, and a skip bears a stumble that
+        // an even stride does not.
+        limbs: (!is_biped).then_some(LimbPhases::Alternating),
+        period,
+        // Many legs bridge bumps by themselves.
+        variation: (1..=4).contains(&legs).then(Variation::bumpy),
+        ..MovementDefaults::unknown(body)
+    }
+}
+
+pub(super) fn backwards(body: &BodyFacts) -> MovementDefaults {
+    let mut defaults = running(body);
+    for headway in defaults.terms.iter_mut().filter(|term| term.term == "headway") {
+        headway.settings.insert("backwards".into(), true.into());
+    }
+    defaults
+}

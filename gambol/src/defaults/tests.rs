@@ -1,0 +1,81 @@
+use super::{BodyFacts, MovementDefaults};
+use crate::{
+    Registry,
+    config::{LimbPhases, RunConfig},
+};
+use creatures::{Actuation, Sensor};
+use ne_fixed::CmaEsSettings;
+
+fn config(creature: &str, movement: &str) -> RunConfig {
+    let creature = creatures::find(creature).expect("shipped");
+    Registry::default().config("default", creature, movement).expect("there is one")
+}
+
+#[test]
+fn limbs_leap_together_or_alternate_and_bipeds_leap_and_run_with_one_net() {
+    let (alternating, together) = (Some(LimbPhases::Alternating), Some(LimbPhases::Together));
+    for (creature, movement, limbs) in [
+        ("biped-1", "running", None),
+        ("biped-2", "running", None),
+        ("biped-2", "walking", None),
+        ("biped-1", "jumping", None),
+        ("biped-2", "jumping", None),
+        ("biped-2", "swimming", alternating),
+        ("tetrapod-2", "running", alternating),
+        ("tetrapod-2", "jumping", together),
+        ("apod", "jumping", alternating),
+    ] {
+        assert_eq!(config(creature, movement).controller.limbs, limbs, "{creature} {movement}");
+    }
+}
+
+/// What docs/gaits.md says of them.
+#[test]
+fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
+    for (creature, movement, period, gain, step_size, bumps) in [
+        ("biped-1", "running", 0.39, 10.0, 0.5, true),
+        ("biped-2", "backwards", 0.39, 10.0, 0.5, true),
+        ("biped-1", "walking", 0.5, 10.0, 0.5, false),
+        ("tetrapod-1", "running", 0.5, 10.0, 0.5, true),
+        ("decapod-1", "running", 0.42, 10.0, 0.5, false),
+        ("apod", "running", 0.5, 20.0, 0.5, false),
+        ("biped-1", "jumping", 1.0, 20.0, 0.2, false),
+        ("decapod-1", "jumping", 0.84, 15.0, 0.2, false),
+        ("apod", "jumping", 1.0, 20.0, 0.2, false),
+    ] {
+        let config = config(creature, movement);
+        let name = format!("{creature} {movement}");
+        let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
+        assert_eq!((settings.step_size, settings.starts), (step_size, 4), "{name}");
+        assert_eq!((config.physics.motor_gain, config.trials.count), (200.0, 3), "{name}");
+        assert!(matches!(config.controller.actuation, Actuation::Angle { gain: found } if found == gain), "{name}");
+        assert_eq!(config.variation.bumps > 0.0, bumps, "{name}");
+        let clock = |sensor: &Sensor| match *sensor {
+            Sensor::Clock { period } => Some(period),
+            _ => None,
+        };
+        let found = config.sensors.iter().flatten().find_map(clock).expect("a clock");
+        assert!((found - period).abs() < 0.1, "{name}: a clock of {found} s");
+    }
+}
+
+/// A movement of another crate gets what its crate says, and a controller if it says nothing.
+#[test]
+fn anybody_can_say_what_the_default_preset_adds_for_a_movement() {
+    let mut registry = Registry::default();
+    let creature = || creatures::find("biped-2").expect("shipped");
+    let bare = registry.config("default", creature(), "high-kick").expect("a preset");
+    assert_eq!((bare.movement.terms.len(), bare.controller.limbs), (0, Some(LimbPhases::Alternating)));
+    registry.defaults.add("high-kick", |body: &BodyFacts| MovementDefaults {
+        steps: Some(100),
+        period: body.pendulum(1.0),
+        limbs: None,
+        ..MovementDefaults::unknown(body)
+    });
+    let config = registry.config("default", creature(), "high-kick").expect("a preset");
+    assert_eq!((config.movement.steps, config.controller.limbs), (Some(100), None));
+    assert_eq!(
+        registry.config("defualt", creature(), "running").expect_err("none").to_string(),
+        "there is no preset \"defualt\"; did you mean \"default\"? (there are: default, thesis, stanley-2002)"
+    );
+}

@@ -1,0 +1,153 @@
+//! Named starting points of a configuration.
+
+use crate::{
+    Registry,
+    config::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, default_finalists},
+    defaults, suggest,
+};
+use creatures::{Actuation, Creature, Terrain};
+use envs_rapier::{PhysicsSettings, Variation, Water};
+use ne_core::StopConditions;
+use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
+use ne_neat::NeatSettings;
+use ne_net::Activation;
+use tasks::{Medium, MovementSpec, Trials};
+
+/// A named starting point of a configuration.
+#[derive(Clone, Copy, Debug)]
+pub struct Preset {
+    /// Its name.
+    pub name: &'static str,
+    /// One sentence.
+    pub description: &'static str,
+    /// What it changes in a bare configuration for a creature and a movement: one with the default strategy, a net with ten
+    /// hidden neurons, motors that are given speeds, and nothing that varies.
+    pub change: fn(&mut RunConfig, &Registry),
+}
+
+/// The presets there are; the first is the default. By default those of Gambol.
+#[derive(Clone, Debug)]
+pub struct PresetCatalogue {
+    first: Preset,
+    others: Vec<Preset>,
+}
+
+const DEFAULT: Preset = Preset {
+    name: "default",
+    description: "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and rewards for gaits",
+    change: |config, registry| {
+        config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::gaits());
+        config.variation = Variation::light();
+        defaults::apply(config, &registry.defaults);
+    },
+};
+
+const THESIS: Preset = Preset {
+    name: "thesis",
+    description: "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite",
+    change: |config, _| {
+        config.strategy = StrategySettings::new("conventional", &ConventionalNeSettings::thesis());
+        config.controller.hidden_activation = Activation::RationalTanh;
+        config.controller.output_activation = Activation::RationalTanh;
+    },
+};
+
+const STANLEY_2002: Preset = Preset {
+    name: "stanley-2002",
+    description: "NEAT with the settings of Stanley & Miikkulainen 2002; outputs stretched to ±1, as motors want them",
+    change: |config, _| {
+        let output_activation = Activation::SteepTanh;
+        let settings = NeatSettings { output_activation, ..NeatSettings::stanley_2002() };
+        config.strategy = StrategySettings::new("neat", &settings);
+    },
+};
+
+impl Default for PresetCatalogue {
+    fn default() -> Self {
+        Self { first: DEFAULT, others: vec![THESIS, STANLEY_2002] }
+    }
+}
+
+impl PresetCatalogue {
+    /// Adds a preset, or replaces the one of the same name.
+    pub fn add(&mut self, preset: Preset) -> &mut Self {
+        let found = std::iter::once(&mut self.first).chain(&mut self.others).find(|found| found.name == preset.name);
+        match found {
+            Some(found) => *found = preset,
+            None => self.others.push(preset),
+        }
+        self
+    }
+
+    /// The default.
+    pub fn first(&self) -> &Preset {
+        &self.first
+    }
+
+    /// All of them, the default first.
+    pub fn entries(&self) -> impl Iterator<Item = &Preset> + Clone {
+        std::iter::once(&self.first).chain(&self.others)
+    }
+
+    /// The preset of this name.
+    ///
+    /// # Errors
+    /// Says which there are, and the nearest name.
+    pub fn find(&self, name: &str) -> Result<&Preset, String> {
+        let known = || self.entries().map(|preset| preset.name).collect::<Vec<_>>();
+        self.entries().find(|preset| preset.name == name).ok_or_else(|| suggest::unknown("preset", name, &known()))
+    }
+}
+
+impl Preset {
+    /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations. A creature that
+    /// is to swim is put into water.
+    pub fn config(&self, creature: Creature, movement: &str, registry: &Registry) -> RunConfig {
+        let mut config = RunConfig { preset: self.name.into(), ..bare(creature, movement) };
+        if registry.movements.find(movement).is_some_and(|entry| entry.medium == Medium::Water) {
+            // Only rapier has water.
+            config.physics.water = Some(Water::default());
+            config.engine = EngineChoice::Rapier;
+        }
+        (self.change)(&mut config, registry);
+        config
+    }
+}
+
+/// What presets change.
+fn bare(creature: Creature, movement: &str) -> RunConfig {
+    RunConfig {
+        preset: String::new(),
+        seed: 1,
+        movement: MovementSpec::new(movement),
+        trials: Trials::default(),
+        variation: Variation::default(),
+        rehearsal: None,
+        heats: Vec::new(),
+        engine: EngineChoice::Lanes,
+        strategy: StrategySettings::new("cma-es", &CmaEsSettings::default()),
+        controller: ControllerSettings {
+            hidden: vec![10],
+            hidden_activation: Activation::Tanh,
+            output_activation: Activation::Tanh,
+            hidden_scale: 3.0,
+            input_range: creatures::DEFAULT_INPUT_RANGE,
+            actuation: Actuation::Speed,
+            limbs: None,
+        },
+        topology: None,
+        stop: StopConditions { generations: Some(300), ..StopConditions::default() },
+        physics: PhysicsSettings::default(),
+        terrain: Terrain::default(),
+        record: RecordSettings {
+            checkpoint_every: 10,
+            populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],
+            finalists: default_finalists(),
+        },
+        stages: Vec::new(),
+        origin: None,
+        sensors: None,
+        creature,
+        companions: Vec::new(),
+    }
+}
