@@ -29,4 +29,8 @@ pub trait BodyView {
     fn distance_along_ray(&self, angle: f32, length: f32) -> f32;
     /// Time since the clock started, s.
     fn time(&self) -> f32;
+    /// Time since the body last landed, s: since a part touched the ground again after none had; since the clock started, if
+    /// it has not landed yet. What touches within 0.2 s of a landing belongs to that landing. [`Landings`](crate::Landings)
+    /// keeps this account for you.
+    fn time_since_landing(&self) -> f32;
 }

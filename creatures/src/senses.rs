@@ -90,6 +90,16 @@ pub enum Source {
         /// s.
         period: f32,
     },
+    /// The sine of a clock that begins anew at every landing: see [`BodyView::time_since_landing`].
+    LandingSine {
+        /// s.
+        period: f32,
+    },
+    /// The cosine of a clock that begins anew at every landing.
+    LandingCosine {
+        /// s.
+        period: f32,
+    },
 }
 
 impl Senses {
@@ -182,6 +192,12 @@ impl Senses {
                 self.push(format!("sine of {period} s clock"), "", [-1.0, 1.0], Source::ClockSine { period });
                 self.push(format!("cosine of {period} s clock"), "", [-1.0, 1.0], Source::ClockCosine { period });
             }
+            Sensor::LandingClock { period } => {
+                let period = *period;
+                let (sine, cosine) = (Source::LandingSine { period }, Source::LandingCosine { period });
+                self.push(format!("sine of {period} s clock from landing"), "", [-1.0, 1.0], sine);
+                self.push(format!("cosine of {period} s clock from landing"), "", [-1.0, 1.0], cosine);
+            }
         }
     }
 
@@ -250,6 +266,8 @@ impl Source {
             Self::GapWidth { length } => body.next_gap(length)[1],
             Self::ClockSine { period } => libm::sinf(clock_phase(body.time(), period)),
             Self::ClockCosine { period } => libm::cosf(clock_phase(body.time(), period)),
+            Self::LandingSine { period } => libm::sinf(clock_phase(body.time_since_landing(), period)),
+            Self::LandingCosine { period } => libm::cosf(clock_phase(body.time_since_landing(), period)),
         }
     }
 }

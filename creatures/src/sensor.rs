@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
 /// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`,
-/// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`.
+/// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`, `{"landing-clock": {"period": 1}}`.
 /// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -57,11 +57,18 @@ pub enum Sensor {
         #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 100.0)))]
         length: f32,
     },
+    /// As a clock, but one that begins anew whenever the body lands: when a part touches the ground again after none did.
+    /// Contacts within 0.2 s of a landing belong to it. Two channels, -1 to 1.
+    LandingClock {
+        /// Time of one turn, s, 0.02 to 100.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
+        period: f32,
+    },
 }
 
 impl Sensor {
     /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 12] = [
+    pub const NAMES: [&'static str; 13] = [
         "torso-rotation",
         "joint-angles",
         "joint-speeds",
@@ -74,6 +81,7 @@ impl Sensor {
         "height-above-ground",
         "foot-slip",
         "next-gap",
+        "landing-clock",
     ];
 
     /// The sensor's name as files write it.
@@ -91,6 +99,7 @@ impl Sensor {
             Self::HeightAboveGround => Self::NAMES[9],
             Self::FootSlip => Self::NAMES[10],
             Self::NextGap { .. } => Self::NAMES[11],
+            Self::LandingClock { .. } => Self::NAMES[12],
         }
     }
 
@@ -119,6 +128,7 @@ mod tests {
             Sensor::HeightAboveGround,
             Sensor::FootSlip,
             Sensor::NextGap { length: 4.0 },
+            Sensor::LandingClock { period: 1.0 },
         ];
         for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
             assert_eq!(sensor.name(), name);

@@ -58,6 +58,10 @@ impl BodyView for Body {
     fn time(&self) -> f32 {
         self.time
     }
+
+    fn time_since_landing(&self) -> f32 {
+        self.time - 2.0
+    }
 }
 
 fn all_sensors() -> Vec<Sensor> {
@@ -240,6 +244,16 @@ fn a_clock_goes_round() {
     assert_eq!(at(0.5)[0], 1.0);
     assert!((at(1.0)[1] + 1.0).abs() < 1e-6);
     assert_eq!(at(2000.5), at(0.5));
+}
+
+#[test]
+fn a_landing_clock_begins_anew_at_every_landing() {
+    let [clock, landing] = [Sensor::Clock { period: 2.0 }, Sensor::LandingClock { period: 2.0 }];
+    let [clock, landing] = [senses(&[clock], 1.0), senses(&[landing], 1.0)];
+    // It landed at 2 s.
+    let at = |senses, time| read(senses, &Body { time, ..Body::default() });
+    assert_eq!(at(&landing, 2.3), at(&clock, 2.3 - 2.0));
+    assert_eq!(landing.channels()[0].name, "sine of 2 s clock from landing");
 }
 
 #[test]

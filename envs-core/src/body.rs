@@ -1,5 +1,5 @@
 use crate::Engine;
-use creatures::{Blueprint, BodyView, Hinge, Shape};
+use creatures::{Blueprint, BodyView, Hinge, Landings, Shape};
 use tasks::{PartState, Snapshot};
 
 /// What the senses need to know of a creature besides where its parts are now.
@@ -67,6 +67,7 @@ pub(crate) struct Body<'a, E> {
     pub(crate) rest: &'a RestPose,
     /// From left to right, m.
     pub(crate) gaps: &'a [[f32; 2]],
+    pub(crate) landings: Landings,
 }
 
 /// What [`BodyView::next_gap`] tells of these gaps (from and to, m, from left to right) at x, m.
@@ -145,5 +146,9 @@ impl<E: Engine> BodyView for Body<'_, E> {
 
     fn time(&self) -> f32 {
         self.snapshot.time
+    }
+
+    fn time_since_landing(&self) -> f32 {
+        self.landings.since(self.snapshot.time)
     }
 }

@@ -2,7 +2,7 @@ use crate::{
     Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, PushSchedule, RestPose, Settled,
     Variation, anatomy::body_of, body::Body, settled::advance,
 };
-use creatures::{Actuation, Blueprint, Motors, Senses, Sensor, Terrain, TerrainError};
+use creatures::{Actuation, Blueprint, Landings, Motors, Senses, Sensor, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
 use std::{borrow::Cow, sync::Arc};
 use tasks::{Environment, Snapshot};
@@ -51,6 +51,7 @@ struct State<E> {
     gaps: Arc<[[f32; 2]]>,
     pushes: PushSchedule,
     snapshot: Snapshot,
+    landings: Landings,
     /// Seconds a step of this trial lasts.
     time_step: f32,
     steps: u32,
@@ -325,13 +326,14 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
     }
 
     fn sense(&self, inputs: &mut [f32]) {
-        let State { engine, snapshot, rest, gaps, .. } = &self.state;
-        self.plan.senses.read(&Body { engine, snapshot, rest, gaps }, inputs);
+        let State { engine, snapshot, rest, gaps, landings, .. } = &self.state;
+        self.plan.senses.read(&Body { engine, snapshot, rest, gaps, landings: *landings }, inputs);
     }
 
     fn act(&mut self, outputs: &[f32]) {
-        let State { engine, wanted, speeds, snapshot, rest, gaps, .. } = &mut self.state;
-        self.plan.motors.speeds(&Body { engine, snapshot, rest, gaps }, outputs, wanted);
+        let State { engine, wanted, speeds, snapshot, rest, gaps, landings, .. } = &mut self.state;
+        let body = Body { engine, snapshot, rest, gaps, landings: *landings };
+        self.plan.motors.speeds(&body, outputs, wanted);
         for ((actuated, &wanted), speed) in self.plan.actuated.iter().zip(&*wanted).zip(speeds) {
             // A speed that is no number stays out of the engine; `step` reports it.
             if wanted != *speed && !wanted.is_nan() {
@@ -379,7 +381,19 @@ impl<E: Engine> State<E> {
     fn new(settled: Settled<E>, motors: usize) -> Self {
         let Settled { engine, rest, gaps, pushes, snapshot, time_step } = settled;
         let still = vec![0.0; motors];
-        Self { engine, rest, gaps, pushes, snapshot, time_step, steps: 0, speeds: still.clone(), wanted: still }
+        let landings = Landings::default();
+        Self {
+            engine,
+            rest,
+            gaps,
+            pushes,
+            snapshot,
+            landings,
+            time_step,
+            steps: 0,
+            speeds: still.clone(),
+            wanted: still,
+        }
     }
 
     /// One step, with everything that is measured after it.
@@ -392,6 +406,7 @@ impl<E: Engine> State<E> {
         self.steps += 1;
         self.snapshot.time = self.steps as f32 * self.time_step;
         let parts = &self.snapshot.parts;
+        self.landings.observe(parts.iter().any(|part| part.touching), self.snapshot.time);
         let power = |&ActuatedHinge { hinge, parent, child }: &ActuatedHinge| {
             (self.engine.motor_torque(hinge) * (parts[child].spin - parts[parent].spin)).abs()
         };

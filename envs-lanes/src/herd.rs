@@ -7,7 +7,7 @@ use crate::{
     senses::{Clocks, LaneSenses},
     solver::LaneWorld,
 };
-use creatures::{Actuation, Motors};
+use creatures::{Actuation, Landings, Motors};
 use envs_core::{ActuatedHinge, PushSchedule, Settled};
 use ne_core::Failure;
 use ne_net::{Network, Topology};
@@ -38,6 +38,9 @@ pub(crate) struct Herd<const W: usize> {
     steps: [u32; W],
     time_step: Lanes<W>,
     time: Lanes<W>,
+    /// The landings of each lane, if a sense needs them.
+    landings: Option<[Landings; W]>,
+    since_landing: Lanes<W>,
     rest_height: Lanes<W>,
     gaps: [Arc<[[f32; 2]]>; W],
     pushes: [PushSchedule; W],
@@ -63,10 +66,13 @@ impl<const W: usize> Herd<W> {
             world.copy_lane(lane, settled.engine.world());
         }
         let zeros = |count| vec![Lanes::ZERO; count];
+        let senses = LaneSenses::new(environment.senses(), &settled.rest);
         Self {
             instructions,
             world,
-            senses: LaneSenses::new(environment.senses(), &settled.rest),
+            landings: senses.hears_landings().then(|| [Landings::default(); W]),
+            since_landing: Lanes::ZERO,
+            senses,
             actuated: environment.actuated().to_vec(),
             motors: environment.motors().clone(),
             unstable_speed: environment.settings().unstable_speed,
@@ -94,6 +100,10 @@ impl<const W: usize> Herd<W> {
         self.unusable[lane] = None;
         self.time_step.0[lane] = settled.time_step;
         self.time.0[lane] = 0.0;
+        self.since_landing.0[lane] = 0.0;
+        if let Some(landings) = &mut self.landings {
+            landings[lane] = Landings::default();
+        }
         self.rest_height.0[lane] = settled.rest.height();
         self.gaps[lane] = settled.gaps.clone();
         self.pushes[lane] = settled.pushes.clone();
@@ -159,6 +169,13 @@ impl<const W: usize> Herd<W> {
             self.steps[lane] += u32::from(self.unusable[lane].is_none());
             self.time.0[lane] = self.steps[lane] as f32 * self.time_step.0[lane];
         }
+        if let Some(landings) = &mut self.landings {
+            let touching = self.world.touching();
+            for (lane, landings) in landings.iter_mut().enumerate() {
+                landings.observe(touching.0[lane] > 0.0, self.time.0[lane]);
+                self.since_landing.0[lane] = landings.since(self.time.0[lane]);
+            }
+        }
     }
 
     /// Pushes the torsos of all lanes whose time has come.
@@ -212,8 +229,8 @@ impl<const W: usize> Work for Sense<'_, W> {
 
     #[inline(always)]
     fn run(self) {
-        let Herd { world, senses, net, inputs, outputs, time, rest_height, gaps, .. } = self.0;
-        senses.read(world, &Clocks { time, rest_height, gaps }, inputs);
+        let Herd { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, .. } = self.0;
+        senses.read(world, &Clocks { time, since_landing, rest_height, gaps }, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);
         }

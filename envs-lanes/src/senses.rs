@@ -19,6 +19,8 @@ pub(crate) struct LaneSenses {
 pub(crate) struct Clocks<'a, const W: usize> {
     /// Seconds since the trial began.
     pub(crate) time: &'a Lanes<W>,
+    /// Seconds since the last landing; zeros unless a [landing clock](LaneSenses::hears_landings) needs them.
+    pub(crate) since_landing: &'a Lanes<W>,
     /// Height of the torso's centre as the trial began, m.
     pub(crate) rest_height: &'a Lanes<W>,
     /// The gaps of each lane's ground: from and to, m, from left to right.
@@ -28,6 +30,11 @@ pub(crate) struct Clocks<'a, const W: usize> {
 impl LaneSenses {
     pub(crate) fn new(senses: &Senses, rest: &RestPose) -> Self {
         Self { probes: senses.probes().to_vec(), range: senses.input_range(), rest: rest.clone() }
+    }
+
+    /// Whether a clock begins anew at landings.
+    pub(crate) fn hears_landings(&self) -> bool {
+        self.probes.iter().any(|probe| matches!(probe.source, Source::LandingSine { .. }))
     }
 
     #[inline(always)]
@@ -79,6 +86,8 @@ impl LaneSenses {
             Source::Ray { angle, length } => world.distance_to_ground((torso.x, torso.y), angle, length),
             Source::ClockSine { period } => clocks.time.map(|time| libm::sinf(clock_phase(time, period))),
             Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
+            Source::LandingSine { period } => clocks.since_landing.map(|time| libm::sinf(clock_phase(time, period))),
+            Source::LandingCosine { period } => clocks.since_landing.map(|time| libm::cosf(clock_phase(time, period))),
         }
     }
 }

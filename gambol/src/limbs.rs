@@ -240,8 +240,12 @@ fn sees(limb: &Limb, senses: &Senses, together: Option<usize>) -> Sights {
                 let slot = *slips.get_or_insert_with(|| sights.add(["slip of foot".to_owned()]));
                 limb.parts.contains(&part).then_some((Sight::Foot, slot))
             }
-            Source::ClockSine { .. } => Some((Sight::ClockSine, sights.add([channel.name.clone()]))),
-            Source::ClockCosine { .. } => Some((Sight::ClockCosine, sights.add([channel.name.clone()]))),
+            Source::ClockSine { .. } | Source::LandingSine { .. } => {
+                Some((Sight::ClockSine, sights.add([channel.name.clone()])))
+            }
+            Source::ClockCosine { .. } | Source::LandingCosine { .. } => {
+                Some((Sight::ClockCosine, sights.add([channel.name.clone()])))
+            }
             Source::TorsoRotation | Source::TorsoSpin if together.is_some() => {
                 let by_place = format!("{}, by place", channel.name);
                 Some((Sight::Tilt, sights.add([channel.name.clone(), by_place])))

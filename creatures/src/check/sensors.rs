@@ -28,6 +28,9 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             Sensor::Clock { period } => {
                 check_number(|| format!("{path}.clock.period"), *period, CLOCK_PERIOD, problems);
             }
+            Sensor::LandingClock { period } => {
+                check_number(|| format!("{path}.landing-clock.period"), *period, CLOCK_PERIOD, problems);
+            }
             Sensor::NextGap { length } => {
                 check_number(|| format!("{path}.next-gap.length"), *length, GAP_SIGHT, problems);
             }

@@ -149,6 +149,12 @@ impl<const W: usize> LaneWorld<W> {
         self.contacts.pressing(part)
     }
 
+    /// 1 in the lanes in which any part presses on the ground, 0 in the others.
+    pub(crate) fn touching(&self) -> Lanes<W> {
+        let pressing = (0..self.bodies.len()).map(|part| self.pressing(part));
+        pressing.reduce(Mask::or).unwrap_or(Mask::NONE).select(Lanes::ONE, Lanes::ZERO)
+    }
+
     /// The torque the motor of a hinge gave at the end of the last step, N·m.
     #[inline(always)]
     pub(crate) fn motor_torques(&self, hinge: usize) -> Lanes<W> {

@@ -27,6 +27,7 @@ pub(crate) fn all_sensors(blueprint: &Blueprint) -> Vec<Sensor> {
         Sensor::TorsoHeight,
         Sensor::Rangefinder { angles: vec![-90.0, -80.0, -45.0, -10.0, 0.0, 30.0, -135.0, 180.0], length: 2.0 },
         Sensor::Clock { period: 0.7 },
+        Sensor::LandingClock { period: 0.9 },
         Sensor::HeightAboveGround,
         Sensor::NextGap { length: 3.0 },
     ];

@@ -95,7 +95,9 @@ fn every_command_knows_the_strategy() {
         let message = said(here, 1, &[&train[..], &["--set", &wrong, "--out", "wrong"]].concat());
         assert!(message.contains(says), "{message}");
     }
-    assert!(said(here, 1, &["train", "apod", "running", "--strategy", "anealing"]).contains("did you mean \"annealing\"?"));
+    assert!(
+        said(here, 1, &["train", "apod", "running", "--strategy", "anealing"]).contains("did you mean \"annealing\"?")
+    );
 
     let train = [&train[..], &["--population", "16", "--generations", "12", "--quiet"]].concat();
     said(here, 0, &[&train[..], &["--out", "whole"]].concat());
@@ -104,7 +106,10 @@ fn every_command_knows_the_strategy() {
     assert!(report.contains("annealing"), "the report names it");
     let config = fs::read_to_string(here.join("whole/config.json")).expect("a configuration");
     let config: serde_json::Value = serde_json::from_str(&config).expect("JSON");
-    assert_eq!(config["content"]["strategy"], serde_json::json!({ "annealing": { "population": 16, "cooling": 0.95 } }));
+    assert_eq!(
+        config["content"]["strategy"],
+        serde_json::json!({ "annealing": { "population": 16, "cooling": 0.95 } })
+    );
 
     // On from where it was, by a file, and in parts.
     said(here, 0, &[&train[..], &["--out", "parts", "--generations", "5"]].concat());

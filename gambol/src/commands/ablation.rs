@@ -33,8 +33,12 @@ pub(super) const VARIANTS: &[Variant] = &[
     },
     Variant {
         name: "no clock",
-        change: |config| keep_sensors(config, |sensor| !matches!(sensor, Sensor::Clock { .. })),
+        change: |config| {
+            keep_sensors(config, |sensor| !matches!(sensor, Sensor::Clock { .. } | Sensor::LandingClock { .. }));
+        },
     },
+    Variant { name: "a clock that begins anew at landings", change: |config| set_landing(config, true) },
+    Variant { name: "a clock that does not hear landings", change: |config| set_landing(config, false) },
     Variant { name: "a clock of 0.5 s", change: |config| set_period(config, 0.5) },
     Variant {
         name: "no foot contacts",
@@ -101,10 +105,19 @@ fn keep_sensors(config: &mut RunConfig, keep: fn(&Sensor) -> bool) {
     }
 }
 
+/// Has the clock begin anew at landings, or not.
+fn set_landing(config: &mut RunConfig, from_landing: bool) {
+    for sensor in config.sensors.iter_mut().flatten() {
+        if let Sensor::Clock { period } | Sensor::LandingClock { period } = *sensor {
+            *sensor = if from_landing { Sensor::LandingClock { period } } else { Sensor::Clock { period } };
+        }
+    }
+}
+
 /// Of the clock, s, and of the rhythm that goes with it.
 fn set_period(config: &mut RunConfig, seconds: f32) {
     for sensor in config.sensors.iter_mut().flatten() {
-        if let Sensor::Clock { period } = sensor {
+        if let Sensor::Clock { period } | Sensor::LandingClock { period } = sensor {
             *period = seconds;
         }
     }

@@ -1,6 +1,6 @@
 //! From what is known of a movement to the settings of a run.
 
-use super::{BodyFacts, DefaultsCatalogue};
+use super::{BodyFacts, DefaultsCatalogue, MovementDefaults};
 use crate::config::{EngineChoice, RunConfig};
 use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
@@ -22,7 +22,7 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     controller.limbs = defaults.limbs;
     controller.actuation = Actuation::Angle { gain: defaults.gain };
     config.physics.motor_gain = MOTOR_GAIN;
-    config.sensors = Some(sensors(&config.creature.sensors, defaults.period, defaults.stands));
+    config.sensors = Some(sensors(&config.creature.sensors, &defaults));
     config.movement.terms = defaults.terms;
     config.movement.steps = defaults.steps;
     config.rehearsal = defaults.rehearsal;
@@ -60,7 +60,8 @@ impl BodyFacts {
 }
 
 /// What the creature's file asks for, if it asks for anything of its own, or else what a body feels; and a clock.
-fn sensors(own: &[Sensor], period: f32, stands: bool) -> Vec<Sensor> {
+fn sensors(own: &[Sensor], defaults: &MovementDefaults) -> Vec<Sensor> {
+    let &MovementDefaults { period, from_landing, stands, .. } = defaults;
     let mut sensors = own.to_vec();
     if sensors == Sensor::defaults() {
         sensors.insert(1, Sensor::TorsoSpin);
@@ -69,7 +70,7 @@ fn sensors(own: &[Sensor], period: f32, stands: bool) -> Vec<Sensor> {
         }
     }
     if clock(&sensors).is_none() {
-        sensors.push(Sensor::Clock { period });
+        sensors.push(if from_landing { Sensor::LandingClock { period } } else { Sensor::Clock { period } });
     }
     sensors
 }
@@ -77,7 +78,7 @@ fn sensors(own: &[Sensor], period: f32, stands: bool) -> Vec<Sensor> {
 /// The period of the first clock, s.
 fn clock(sensors: &[Sensor]) -> Option<f32> {
     sensors.iter().find_map(|sensor| match *sensor {
-        Sensor::Clock { period } => Some(period),
+        Sensor::Clock { period } | Sensor::LandingClock { period } => Some(period),
         _ => None,
     })
 }

@@ -59,6 +59,8 @@ pub struct MovementDefaults {
     pub gain: f32,
     /// Of the clock that the net senses, unless the creature's file has one, s.
     pub period: f32,
+    /// Whether that clock begins anew at every landing.
+    pub from_landing: bool,
     /// Whether the body feels how it stands: contacts of its feet, velocity and height of its torso.
     pub stands: bool,
     /// In place of the preset's variation between trials.
@@ -78,6 +80,7 @@ impl MovementDefaults {
             limbs: Some(LimbPhases::Alternating),
             gain: if walks { 10.0 } else { 20.0 },
             period: if walks { body.pendulum(0.5) } else { 0.5 },
+            from_landing: false,
             stands: walks,
             variation: None,
             step_size: None,

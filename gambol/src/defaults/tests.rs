@@ -51,7 +51,7 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         assert!(matches!(config.controller.actuation, Actuation::Angle { gain: found } if found == gain), "{name}");
         assert_eq!(config.variation.bumps > 0.0, bumps, "{name}");
         let clock = |sensor: &Sensor| match *sensor {
-            Sensor::Clock { period } => Some(period),
+            Sensor::Clock { period } | Sensor::LandingClock { period } => Some(period),
             _ => None,
         };
         let found = config.sensors.iter().flatten().find_map(clock).expect("a clock");

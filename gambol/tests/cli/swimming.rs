@@ -48,7 +48,7 @@ fn what_is_wrong_with_water_is_named() -> Outcome {
         ),
         (&["--set", "physics.water.drag=11"], "physics.water.drag = 11: must be from 0 to 10"),
         (&["--set", "physics.water.density=0"], "physics.water.density = 0: must be from 0.01 to 100000"),
-        (&["--set", "physics.water=null"], "physics.water = null: must be water, for whoever is to swim"),
+        (&["--set", "physics.water=null"], "physics.water = null: must be water, which swimming is done in"),
         (&["--set", "physics.water.depth=3"], "unknown field `depth`"),
         (&["--terrain", "gaps"], "physics.water = water: must be null on ground that is not flat: water has no ground"),
     ];
