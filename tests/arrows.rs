@@ -20,7 +20,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
-    ("own-program",     &["gambol", "tasks"]),
+    ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "tasks"]),
     ("gambol-tests",    &[]),
 ];
 

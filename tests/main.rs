@@ -2,6 +2,7 @@
 //! drawn, that runs come out as they always did, and that a movement of one's own is as short as promised.
 
 mod arrows;
+mod circles;
 mod documents;
 mod engines;
 mod golden;

@@ -13,8 +13,8 @@ use creatures::Blueprint;
 use gambol::Registry;
 use gambol::{
     champion::Champion,
+    episode_parts::EpisodeParts,
     run_folder::RunFolder,
-    setup::EpisodeParts,
     training::{TrainOptions, resume, train},
 };
 use ne_core::{Seed, StopConditions, Task};

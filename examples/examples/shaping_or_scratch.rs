@@ -11,9 +11,10 @@
 use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::{Request, RunConfig},
+    config::RunConfig,
+    episode_parts::EpisodeParts,
     obstacles::ObstaclesPassed,
-    setup::EpisodeParts,
+    request::Request,
     shaping::{Journey, Stages, train_stages},
     training::{Outcome, TrainOptions, train},
     trajectory::Recording,

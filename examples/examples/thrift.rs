@@ -11,9 +11,10 @@
 use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::{Request, RunConfig},
-    gait::Stage,
+    config::RunConfig,
+    request::Request,
     shaping::{Journey, train_stages},
+    stage::Stage,
     training::TrainOptions,
 };
 use ne_core::StopConditions;

@@ -14,9 +14,10 @@ use creatures::{Creature, Shape};
 use gambol::Registry;
 use gambol::{
     champion::Champion,
-    config::{FrozenTopology, Request, RunConfig},
+    config::{FrozenTopology, RunConfig},
+    episode_parts::EpisodeParts,
     gait,
-    setup::EpisodeParts,
+    request::Request,
     shaping::{Journey, train_stages},
     training::{TrainOptions, train},
 };

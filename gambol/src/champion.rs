@@ -3,13 +3,14 @@
 use crate::Registry;
 use crate::{
     config::{EngineChoice, RunConfig},
-    setup::{EpisodeParts, Setup, SetupError},
-    trajectory::{TrajectoryDigest, TrajectoryDigester},
+    episode_parts::{EpisodeParts, SetupError},
+    setup::Setup,
+    trajectory::{TrajectoryDigest, replay},
 };
 use creatures::{Actuation, Channel, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, RAPIER_VERSION, RapierEnvironment, Variation};
 use ne_core::{
-    Evaluation, Fitness, Genome, Seed, Task,
+    Evaluation, Fitness, Genome, Seed,
     archive::{self, ArchiveError, Layout},
 };
 use ne_net::Network;
@@ -239,28 +240,6 @@ impl Champion {
         let diverges_at = self.trajectory.first_difference(&trajectory);
         Ok(Verification { evaluation, recorded: self.fitness, diverges_at })
     }
-}
-
-/// Plays a controller: what it does in the first trial, and what it is worth. One of another shape does nothing.
-pub(crate) fn replay(
-    episode: &Episode<RapierEnvironment>,
-    trials: Trials,
-    network: &Network,
-    seed: Seed,
-) -> (TrajectoryDigest, Evaluation) {
-    let mut network = network.clone();
-    if let Err(failure) = episode.check_shape(&network) {
-        return (TrajectoryDigest::default(), Evaluation::failed(failure));
-    }
-    let mut digester = TrajectoryDigester::default();
-    let played = episode.play(&mut network, seed.trial(0), &mut digester);
-    // Of a single trial nothing more can be learned.
-    let evaluation = match played.failure {
-        _ if trials.count > 1 => episode.evaluate(&mut network, seed),
-        Some(failure) => Evaluation::failed(failure),
-        None => Evaluation::new(played.movement.value()),
-    };
-    (digester.finish(), evaluation)
 }
 
 /// What a replay of a champion showed.

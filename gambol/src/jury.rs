@@ -1,7 +1,7 @@
 //! The jury of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
 //! whole episode of the creature, in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, gait::USABLE, proving::Trial, setup::Nominal};
+use crate::{config::EngineChoice, nominal::Nominal, proving::Trial, stage::USABLE};
 use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};

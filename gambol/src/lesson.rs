@@ -4,8 +4,8 @@ use crate::Registry;
 use crate::{
     champion::{Champion, Verification},
     config::RunConfig,
+    episode_parts::SetupError,
     report::{ReportError, write_report},
-    setup::SetupError,
     training::{TrainError, TrainOptions, train},
 };
 use std::path::Path;

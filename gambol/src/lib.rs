@@ -52,21 +52,19 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-mod bodies;
+pub mod assembly;
 pub mod champion;
 mod commands;
 pub mod compare;
 pub mod config;
 pub mod defaults;
 pub mod dot;
+pub mod episode_parts;
 pub mod front;
 pub mod gait;
 mod jury;
 pub mod lesson;
-mod limbs;
-mod lines;
-mod near;
-mod nominal;
+pub mod nominal;
 pub mod obstacles;
 mod perturbation;
 pub mod presets;
@@ -75,18 +73,20 @@ mod recorder;
 mod registry;
 pub mod report;
 pub mod reproduce;
+pub mod request;
 pub mod robust;
 pub mod run_folder;
 pub mod setup;
 pub mod shaping;
 pub mod sheet;
 pub mod source;
+pub mod stage;
 pub mod strategies;
 pub mod suggest;
+mod topology;
 pub mod training;
-mod training_task;
+pub mod training_task;
 pub mod trajectory;
-pub mod worlds;
 pub mod yardsticks;
 
 pub use commands::program;

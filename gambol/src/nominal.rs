@@ -1,6 +1,11 @@
 //! The world of the jury.
 
-use crate::{champion, gait::Stage, proving::ProvingGround, training_task::TrainingTask, trajectory::TrajectoryDigest};
+use crate::{
+    proving::ProvingGround,
+    stage::Stage,
+    training_task::TrainingTask,
+    trajectory::{TrajectoryDigest, replay},
+};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Seed};
 use ne_net::Network;
@@ -56,7 +61,7 @@ impl Nominal {
             known.map(|known| known.result.clone())
         });
         known.unwrap_or_else(|| {
-            let result = champion::replay(&self.episode, Trials::default(), network, seed);
+            let result = replay(&self.episode, Trials::default(), network, seed);
             if let Ok(mut last) = self.last.lock() {
                 *last = Some(Replay { network: network.clone(), seed, result: result.clone() });
             }

@@ -1,6 +1,6 @@
 //! Worlds that are not quite the one a champion learned in.
 
-use crate::gait::Stage;
+use crate::stage::Stage;
 use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
 use ne_core::{Purpose, Seed};
 use rand::RngExt;
@@ -116,7 +116,7 @@ impl World {
 pub(crate) mod tests {
     use super::*;
     use crate::Registry;
-    use crate::setup::EpisodeParts;
+    use crate::episode_parts::EpisodeParts;
     use creatures::{Actuation, DEFAULT_INPUT_RANGE, Terrain};
     use envs_core::GroundShape;
     use envs_rapier::{PhysicsSettings, Variation};

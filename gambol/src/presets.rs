@@ -1,9 +1,9 @@
 //! Named starting points of a configuration.
 
 use crate::{
-    Registry,
     config::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, default_finalists},
-    defaults, suggest,
+    defaults::{self, DefaultsCatalogue},
+    suggest,
 };
 use creatures::{Actuation, Creature, Terrain};
 use envs_rapier::{PhysicsSettings, Variation, Water};
@@ -11,7 +11,7 @@ use ne_core::StopConditions;
 use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
 use ne_neat::NeatSettings;
 use ne_net::Activation;
-use tasks::{Medium, MovementSpec, Trials};
+use tasks::{Medium, MovementCatalogue, MovementSpec, Trials};
 
 /// A named starting point of a configuration.
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ pub struct Preset {
     pub description: &'static str,
     /// What it changes in a bare configuration for a creature and a movement: one with the default strategy, a net with ten
     /// hidden neurons, motors that are given speeds, and nothing that varies.
-    pub change: fn(&mut RunConfig, &Registry),
+    pub change: fn(&mut RunConfig, &DefaultsCatalogue),
 }
 
 /// The presets there are; the first is the default. By default those of Gambol.
@@ -35,10 +35,10 @@ pub struct PresetCatalogue {
 const DEFAULT: Preset = Preset {
     name: "default",
     description: "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and rewards for gaits",
-    change: |config, registry| {
+    change: |config, known| {
         config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::gaits());
         config.variation = Variation::light();
-        defaults::apply(config, &registry.defaults);
+        defaults::apply(config, known);
     },
 };
 
@@ -102,14 +102,20 @@ impl PresetCatalogue {
 impl Preset {
     /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations. A creature that
     /// is to swim is put into water.
-    pub fn config(&self, creature: Creature, movement: &str, registry: &Registry) -> RunConfig {
+    pub fn config(
+        &self,
+        creature: Creature,
+        movement: &str,
+        movements: &MovementCatalogue,
+        known: &DefaultsCatalogue,
+    ) -> RunConfig {
         let mut config = RunConfig { preset: self.name.into(), ..bare(creature, movement) };
-        if registry.movements.find(movement).is_some_and(|entry| entry.medium == Medium::Water) {
+        if movements.find(movement).is_some_and(|entry| entry.medium == Medium::Water) {
             // Only rapier has water.
             config.physics.water = Some(Water::default());
             config.engine = EngineChoice::Rapier;
         }
-        (self.change)(&mut config, registry);
+        (self.change)(&mut config, known);
         config
     }
 }

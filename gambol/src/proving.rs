@@ -1,9 +1,8 @@
 //! Where it is tried whether a finalist's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
-    gait::Stage,
     perturbation::{Cause, World},
-    worlds::Worlds,
+    stage::{Stage, worlds::Worlds},
 };
 use envs_core::{Conditions, Landscape};
 use ne_core::{Purpose, Seed};
@@ -99,9 +98,9 @@ mod tests {
     use crate::Registry;
     use crate::{
         champion::Champion,
-        config::Request,
-        gait::USABLE,
         perturbation::tests::stage,
+        request::Request,
+        stage::USABLE,
         training::{TrainOptions, train},
     };
     use envs_core::Ground;

@@ -4,8 +4,10 @@ use crate::{
     champion::Champion,
     config::RunConfig,
     front::Front,
-    lines::{Kept, LineFile},
-    run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing},
+    run_folder::{
+        FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing,
+        lines::{Kept, LineFile},
+    },
     setup::Setup,
 };
 use ne_core::{

@@ -1,4 +1,9 @@
-use crate::{config::RunConfig, defaults::DefaultsCatalogue, presets::PresetCatalogue, strategies::StrategyCatalogue};
+use crate::{
+    config::RunConfig,
+    defaults::DefaultsCatalogue,
+    presets::{Preset, PresetCatalogue},
+    strategies::StrategyCatalogue,
+};
 use creatures::Creature;
 use tasks::MovementCatalogue;
 
@@ -42,12 +47,16 @@ pub struct UnknownPreset(String);
 
 impl Registry {
     /// The configuration a preset gives for a creature and a movement, with seed 1 and 300 generations: see
-    /// [`Preset::config`](crate::presets::Preset::config).
+    /// [`Preset::config`].
     ///
     /// # Errors
     /// If there is no such preset. Whether there is such a movement, [`Setup`](crate::Setup) checks.
     pub fn config(&self, preset: &str, creature: Creature, movement: &str) -> Result<RunConfig, UnknownPreset> {
-        let preset = self.presets.find(preset).map_err(UnknownPreset)?;
-        Ok(preset.config(creature, movement, self))
+        Ok(self.configure(self.presets.find(preset).map_err(UnknownPreset)?, creature, movement))
+    }
+
+    /// As [`config`](Self::config), of a preset at hand.
+    pub fn configure(&self, preset: &Preset, creature: Creature, movement: &str) -> RunConfig {
+        preset.config(creature, movement, &self.movements, &self.defaults)
     }
 }

@@ -7,10 +7,12 @@
 use crate::Registry;
 use crate::{
     champion::Champion,
-    gait::Stage,
+    episode_parts::SetupError,
     perturbation::World,
-    setup::SetupError,
-    worlds::{Worlds, is_usable},
+    stage::{
+        Stage,
+        worlds::{Worlds, is_usable},
+    },
 };
 use envs_core::Conditions;
 use envs_lanes::LANES;

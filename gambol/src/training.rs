@@ -4,10 +4,11 @@ use crate::Registry;
 use crate::{
     champion::Champion,
     config::RunConfig,
+    episode_parts::SetupError,
     jury::NominalJury,
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
-    setup::{Setup, SetupError},
+    setup::Setup,
     strategies::AnyStrategy,
 };
 use ne_core::{

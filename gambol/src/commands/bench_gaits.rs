@@ -5,9 +5,11 @@ use super::{
 use crate::{
     Registry,
     champion::Champion,
-    config::{Request, RunConfig},
+    config::RunConfig,
     gait,
+    request::Request,
     robust::robustness,
+    stage::USABLE,
     training::{TrainOptions, train},
 };
 use clap::Args;
@@ -203,7 +205,7 @@ impl Gaits {
         let mut config = request.resolve(registry)?;
         config.seed = seed;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
-        let grade = (!self.whole).then_some(gait::USABLE);
+        let grade = (!self.whole).then_some(USABLE);
         config.stop = StopConditions { minutes, steps: self.steps, grade, ..StopConditions::default() };
         Ok(config)
     }
@@ -218,7 +220,7 @@ impl Gaits {
             registry: registry.clone(),
             signal: Default::default(),
             on_generation: &mut |generation| {
-                if first.is_none() && generation.grade >= gait::USABLE {
+                if first.is_none() && generation.grade >= USABLE {
                     first = Some((began.elapsed().as_secs_f64(), generation.steps));
                 }
             },

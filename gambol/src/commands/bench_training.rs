@@ -1,7 +1,7 @@
 use super::Outcome;
 use crate::{
     Registry,
-    config::Request,
+    request::Request,
     training::{TrainOptions, train},
 };
 use clap::Args;

@@ -2,7 +2,7 @@ use super::{Outcome, balance};
 use crate::{
     Registry, Setup,
     champion::{CHAMPION_FORMAT, Champion},
-    config::Request,
+    request::Request,
     shaping::Stages,
     source,
 };

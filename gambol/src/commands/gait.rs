@@ -4,7 +4,7 @@ use crate::{
     champion::Champion,
     gait,
     run_folder::RunFolder,
-    sheet, source, suggest,
+    sheet, source, stage, suggest,
     trajectory::{CsvTrajectory, read_csv},
 };
 use clap::Args;
@@ -61,7 +61,7 @@ pub(crate) struct Gait {
 
 /// A gait that was measured, and whose.
 struct Measured {
-    gait: gait::Gait,
+    gait: stage::Gait,
     name: String,
     /// Its contact sheet, if asked for.
     sheet: Option<Vec<u8>>,
@@ -150,7 +150,7 @@ fn of_trajectory(
     };
     let sheet = with_sheet.then(|| sheet::draw(&subject)).transpose()?;
     let movement = movement.map_or_else(String::new, |movement| format!(" {movement}"));
-    let gait = gait::Gait { report, obstacles: Vec::new() };
+    let gait = stage::Gait { report, obstacles: Vec::new() };
     Ok(Measured { gait, name: format!("{}{movement}", blueprint.name()), sheet })
 }
 

@@ -3,8 +3,8 @@
 use crate::Registry;
 use crate::{
     champion::Champion,
-    config::RunConfig,
-    shaping::{Origin, PlannedStage},
+    config::{Origin, RunConfig},
+    shaping::PlannedStage,
     training::Outcome,
 };
 use indicatif::{ProgressBar, ProgressStyle};

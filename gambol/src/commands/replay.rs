@@ -1,7 +1,7 @@
 use super::{Outcome, gait::champion_file};
 use crate::{
-    Registry, Setup, champion::Champion, dot::dot, front::Front, gait::Stage, report, run_folder::RunFolder,
-    shaping::legs, trajectory::Recording,
+    Registry, Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::legs,
+    stage::Stage, trajectory::Recording,
 };
 use clap::Args;
 use ne_core::archive;

@@ -2,9 +2,10 @@ use super::{INTERRUPTED, NOT_USABLE, Outcome, progress::Show};
 use crate::{
     Registry, Setup,
     champion::Champion,
-    config::{Request, RunConfig},
+    config::{Carried, RunConfig},
     gait, report,
-    shaping::{self, Carried, Journey},
+    request::Request,
+    shaping::{self, Journey},
     suggest,
     training::{self, TrainOptions},
 };
@@ -170,7 +171,7 @@ impl Limits {
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);
-        let grade = self.until.map(|Until::Usable| crate::gait::USABLE);
+        let grade = self.until.map(|Until::Usable| crate::stage::USABLE);
         StopConditions { generations, evaluations, steps, minutes, target, grade, stagnation }
     }
 }

@@ -1,6 +1,9 @@
 use crate::Registry;
-use crate::config::{Request, RequestError, RunConfig};
 use crate::suggest;
+use crate::{
+    config::RunConfig,
+    request::{Request, RequestError},
+};
 use ne_core::StopConditions;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};

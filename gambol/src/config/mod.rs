@@ -1,20 +1,19 @@
 //! The configuration of a run: everything needed to repeat it.
 
-mod assembly;
 mod engine;
 mod heats;
-mod request;
+mod origin;
+mod stage;
 mod strategy;
 mod variations;
 
-pub use assembly::{Assembly, ConfigError};
 pub use engine::EngineChoice;
 pub use heats::HeatSettings;
-pub use request::{Request, RequestError};
+pub use origin::{Carried, Origin};
+pub use stage::StageSettings;
 pub use strategy::StrategySettings;
 pub use variations::{VARIATIONS, variation};
 
-use crate::shaping::{Origin, StageSettings};
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{Hearings, SettingError, StopConditions};

@@ -20,6 +20,9 @@ pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
         // Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves
         // the ground and lands.
         step_size: Some(0.2),
+        // One jump of two legs is longer than the other: the next begins when they have landed, and not by the clock. More
+        // legs, whose clocks run ahead of each other by genes, get worse by it.
+        from_landing: (1..=2).contains(&body.legs),
         ..leap(body)
     }
 }

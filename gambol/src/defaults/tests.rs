@@ -59,6 +59,22 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
     }
 }
 
+/// What docs/gaits.md says of it.
+#[test]
+fn two_legs_that_jump_have_a_clock_that_begins_anew_when_they_land() {
+    for (creature, movement, from_landing) in [
+        ("biped-1", "jumping", true),
+        ("biped-2", "jumping", true),
+        ("biped-1", "running", false),
+        ("tetrapod-1", "jumping", false),
+        ("apod", "jumping", false),
+    ] {
+        let sensors = config(creature, movement).sensors.expect("the preset says which");
+        let is_it = |sensor: &Sensor| matches!(sensor, Sensor::LandingClock { .. });
+        assert_eq!(sensors.iter().any(is_it), from_landing, "{creature} {movement}");
+    }
+}
+
 /// A movement of another crate gets what its crate says, and a controller if it says nothing.
 #[test]
 fn anybody_can_say_what_the_default_preset_adds_for_a_movement() {

@@ -261,7 +261,10 @@ pub(super) fn versions() -> Vec<Version> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::config::{FrozenTopology, Request, StrategySettings};
+    use crate::{
+        config::{FrozenTopology, StrategySettings},
+        request::Request,
+    };
     use ne_neat::NeatSettings;
     use ne_net::DenseShape;
 

@@ -1,6 +1,6 @@
 //! The champion's gait for the page.
 
-use crate::{gait::Gait, obstacles::ObstaclesPassed};
+use crate::{obstacles::ObstaclesPassed, stage::Gait};
 use base64::{Engine, engine::general_purpose::STANDARD};
 use serde::Serialize;
 use tasks::gait::GaitReport;

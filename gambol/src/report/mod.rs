@@ -15,11 +15,11 @@ mod stages;
 use crate::Registry;
 use crate::{
     champion::Champion,
+    episode_parts::SetupError,
     front::Front,
-    gait::Stage,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
-    setup::SetupError,
     sheet::{self, SheetError},
+    stage::Stage,
     trajectory::Recording,
 };
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};

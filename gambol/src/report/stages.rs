@@ -9,9 +9,9 @@ use super::{
 use crate::Registry;
 use crate::{
     champion::Champion,
-    config::RunConfig,
+    config::{RunConfig, StageSettings},
     run_folder::{FolderError, RunFolder},
-    shaping::{self, Leg, StageSettings},
+    shaping::{self, Leg},
 };
 use creatures::Creature;
 use ne_core::{Decision, StopReason};

@@ -180,7 +180,7 @@ impl Cell {
         registry: &Registry,
     ) -> Result<RunConfig, creatures::UnknownCreature> {
         let creature = creatures::find(self.scenario.creature)?;
-        let mut config = self.preset.config(creature, self.scenario.movement, registry);
+        let mut config = registry.configure(&self.preset, creature, self.scenario.movement);
         config.seed = seed;
         config.stop = stop;
         // Nobody looks at whole populations here.

@@ -2,9 +2,9 @@ use super::{Cell, ReproduceError};
 use crate::Registry;
 use crate::{
     champion::Champion,
+    episode_parts::SetupError,
     gait::{self, GaitOfChampionError},
     run_folder::{FolderError, RunFolder},
-    setup::SetupError,
 };
 use serde::{Deserialize, Serialize};
 

@@ -1,14 +1,12 @@
 //! From what was learned to a new search: on another task, with more senses, by another strategy.
 
-use super::{
-    Carried, Origin,
-    source::{ChampionNet, Kind, Source, names_of, read_checkpoint},
-};
+use super::source::{ChampionNet, Kind, Source, names_of, read_checkpoint};
 use crate::Registry;
 use crate::{
-    config::{FrozenTopology, RunConfig, StrategySettings},
+    config::{Carried, FrozenTopology, Origin, RunConfig, StrategySettings},
+    episode_parts::SetupError,
     run_folder::FolderError,
-    setup::{Setup, SetupError},
+    setup::Setup,
     strategies::{AnyStrategy, StrategyCatalogue, StrategyEntry, Transfer},
 };
 use creatures::Channel;

@@ -1,5 +1,5 @@
-use super::{Carried, Leg};
-use crate::config::RunConfig;
+use super::Leg;
+use crate::config::{Carried, RunConfig};
 use ne_core::Promotion;
 use std::sync::Arc;
 

@@ -1,15 +1,16 @@
 //! The way through the stages: each leg is a run folder that begins where the one before ended.
 
 use super::{
-    Carried, Curriculum, Leg, Origin, PlannedStage, StageError, Stages,
+    Curriculum, Leg, PlannedStage, StageError, Stages,
     carry::{CarryError, Departure, Manner},
     legs::{keep_champion, leg, total},
     source::{Source, latest_leg},
 };
 use crate::{
-    config::RunConfig,
+    config::{Carried, Origin, RunConfig},
+    episode_parts::SetupError,
     run_folder::{FolderError, FolderLock, RunFolder},
-    setup::{Setup, SetupError},
+    setup::Setup,
     training::{self, Outcome, TrainError, TrainOptions},
 };
 use ne_core::{Decision, Progress, StopConditions, StopReason};

@@ -7,20 +7,16 @@
 //!
 //! | piece | what it is |
 //! |---|---|
-//! | [`StageSettings`] | a stage in a configuration: what changes, when it is passed |
+//! | [`StageSettings`](crate::config::StageSettings) | a stage in a configuration: what changes, when it is passed |
 //! | [`Curriculum`] | says which stage comes next; [`Stages`] follows the list in a configuration, yours does what it likes |
 //! | [`Promotion`](ne_core::Promotion) | says when a stage is passed; [`Rule`](ne_core::Rule) has the usual conditions |
-//! | [`Carried`], [`Origin`] | what goes from one stage to the next, and what went |
+//! | [`Carried`](crate::config::Carried), [`Origin`](crate::config::Origin) | what goes from one stage to the next, and what went |
 //! | [`train_stages`], [`resume_stages`] | the way through the stages |
 
 mod carry;
 mod curriculum;
-mod grown_topology;
 mod journey;
 mod legs;
-mod names;
-mod origin;
-mod settings;
 mod source;
 mod stages;
 
@@ -30,18 +26,7 @@ pub use journey::{
     Journey, ShapingError, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
 };
 pub use legs::{Leg, legs, run_of_stage};
-pub use origin::{Carried, Origin};
-pub use settings::StageSettings;
 pub use stages::{StageError, StageProblem, Stages};
-
-use creatures::Channel;
-use ne_net::Topology;
-
-/// The names of a topology's weights, for these inputs and outputs.
-pub(crate) fn weight_names(topology: &Topology, inputs: &[Channel], outputs: &[Channel]) -> Vec<String> {
-    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
-    names::of_weights(topology, &names(inputs), &names(outputs))
-}
 
 #[cfg(test)]
 mod tests;

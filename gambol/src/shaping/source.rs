@@ -1,13 +1,15 @@
 //! What a new search can begin from: a run, or a champion alone.
 
-use super::{carry::CarryError, legs, names};
+use super::{carry::CarryError, legs};
 use crate::Registry;
 use crate::{
     champion::{Champion, ChannelRecord},
     config::RunConfig,
+    episode_parts::SetupError,
     run_folder::{FolderError, RunFolder},
-    setup::{Setup, SetupError},
+    setup::Setup,
     strategies::{AnyGenome, AnyStrategy, StrategyEntry},
+    topology,
 };
 use ne_core::{Checkpoint, Genome};
 use ne_net::Topology;
@@ -96,7 +98,7 @@ impl Source {
         match &self.kind {
             Kind::Champion(champion) => {
                 let topology = champion.network.topology();
-                let names = names::of_weights(&topology, &inputs, &outputs);
+                let names = topology::of_weights(&topology, &inputs, &outputs);
                 let weights = champion.network.weights().to_vec();
                 Ok(ChampionNet { topology, weights, names, generation: champion.generation })
             }
@@ -106,7 +108,7 @@ impl Source {
                     found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
                 let names = match topology == setup.topology {
                     true => setup.weight_names.clone(),
-                    false => names::of_weights(&topology, &inputs, &outputs),
+                    false => topology::of_weights(&topology, &inputs, &outputs),
                 };
                 Ok(ChampionNet { topology, weights, names, generation })
             }

@@ -1,11 +1,13 @@
 use super::{
-    Curriculum, Leg, PlannedStage, StageSettings,
+    Curriculum, Leg, PlannedStage,
     carry::{CarryError, Manner, check_planned},
 };
 use crate::Registry;
 use crate::{
-    config::{Assembly, ConfigError, RunConfig},
-    setup::{Setup, SetupError},
+    assembly::{Assembly, ConfigError},
+    config::{RunConfig, StageSettings},
+    episode_parts::SetupError,
+    setup::Setup,
 };
 use creatures::Sensor;
 use ne_core::{Decision, Moment, Promotion, Rule, SettingError};
@@ -156,9 +158,9 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
     if let Some(name) = renamed.filter(|&name| name != before.movement.name)
         && let Ok(preset) = registry.presets.find(&before.preset)
     {
-        let mut fresh = preset.config(creature, name, registry);
+        let mut fresh = registry.configure(preset, creature, name);
         fresh.movement.objectives.clone_from(&before.movement.objectives);
-        let former = preset.config(before.creature.clone(), &before.movement.name, registry);
+        let former = registry.configure(preset, before.creature.clone(), &before.movement.name);
         if fresh.physics.water.is_some() != former.physics.water.is_some() {
             // Into the water or out of it, and to the engine that has it.
             assembly.lay_over(json!({ "physics": { "water": fresh.physics.water }, "engine": fresh.engine }));

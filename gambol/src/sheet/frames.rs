@@ -1,5 +1,6 @@
 //! The frames: the creature, moment by moment, all to the same scale.
 
+use super::corners::corners;
 use super::{
     FRAMES, MARGIN, SheetError, Subject, WIDTH,
     axis::ticks,
@@ -8,7 +9,6 @@ use super::{
     moments::Moments,
     text::{Anchor, Style},
 };
-use crate::report::ground::corners;
 use tasks::Snapshot;
 use tiny_skia::Transform;
 

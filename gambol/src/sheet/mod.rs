@@ -7,6 +7,7 @@
 mod axis;
 mod canvas;
 mod charts;
+mod corners;
 mod creature;
 mod footfalls;
 mod frames;
@@ -17,8 +18,10 @@ mod palette;
 mod tests;
 mod text;
 
+pub(crate) use corners::corners;
+
 use crate::Registry;
-use crate::{champion::Champion, gait::Stage, setup::SetupError};
+use crate::{champion::Champion, episode_parts::SetupError, stage::Stage};
 use canvas::{Canvas, PAPER};
 use charts::Charts;
 use creatures::Blueprint;

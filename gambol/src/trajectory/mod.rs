@@ -2,8 +2,10 @@
 
 mod csv;
 mod play;
+mod replay;
 
 pub use csv::{CsvError, CsvTrajectory, read_csv};
+pub(crate) use replay::replay;
 
 use ne_core::digest::Digest;
 use ne_net::Network;

@@ -6,7 +6,10 @@ use crate::{
     folder::{assert_same_run, read},
     program::{Ended, LONG, assert_says, gambol, long_run, small_run, start_and_read, succeed, text},
 };
-use gambol::{run_folder::RunFolder, training, training::TrainOptions};
+use gambol::{
+    run_folder::RunFolder,
+    training::{self, TrainOptions},
+};
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader, Read},

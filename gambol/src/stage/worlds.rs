@@ -1,7 +1,7 @@
 //! Worlds in which gaits are judged, each by itself.
 
-use crate::gait::{Gait, Stage, record, steps_of};
 use crate::obstacles::ObstaclesPassed;
+use crate::stage::{Gait, Stage, record, steps_of};
 use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Landscape};
 use envs_lanes::{LANES, LaneEnvironment, Play};
 use envs_rapier::RapierEnvironment;

@@ -1,5 +1,6 @@
 //! What the weights of a net are for, in words: by them a grown net finds again what it had.
 
+use creatures::Channel;
 use ne_net::{DenseShape, GraphShape, Topology};
 
 /// The name of each weight of a topology, in the order of its weights; equal names in two nets mean the same connection.
@@ -52,4 +53,10 @@ fn graph(shape: &GraphShape, inputs: &[String], outputs: &[String]) -> Vec<Strin
         names.extend(neuron.sources.iter().map(|&source| format!("{} to {target}", nodes[source])));
     }
     names
+}
+
+/// The names of a topology's weights, for these inputs and outputs.
+pub(crate) fn weight_names(topology: &Topology, inputs: &[Channel], outputs: &[Channel]) -> Vec<String> {
+    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+    of_weights(topology, &names(inputs), &names(outputs))
 }

@@ -5,12 +5,12 @@ use ne_core::Phenotype;
 use ne_net::Topology;
 
 const EXAMPLES: [&str; 6] = [
-    include_str!("../../../examples/creatures/biped-with-feet.json"),
-    include_str!("../../../examples/creatures/hexapod.json"),
-    include_str!("../../../examples/creatures/hopper.json"),
-    include_str!("../../../examples/creatures/long-apod.json"),
-    include_str!("../../../examples/creatures/tetrapod-on-its-back.json"),
-    include_str!("../../../examples/creatures/tripod.json"),
+    include_str!("../../../../examples/creatures/biped-with-feet.json"),
+    include_str!("../../../../examples/creatures/hexapod.json"),
+    include_str!("../../../../examples/creatures/hopper.json"),
+    include_str!("../../../../examples/creatures/long-apod.json"),
+    include_str!("../../../../examples/creatures/tetrapod-on-its-back.json"),
+    include_str!("../../../../examples/creatures/tripod.json"),
 ];
 
 fn all_creatures() -> Vec<Blueprint> {

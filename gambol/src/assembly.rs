@@ -1,7 +1,11 @@
 //! A configuration put together from a preset, a file and single settings, later ones winning.
 
-use super::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig, VARIATIONS, variation};
-use crate::{Registry, strategies::StrategyError, suggest};
+use crate::{
+    Registry,
+    config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig, VARIATIONS, variation},
+    strategies::StrategyError,
+    suggest,
+};
 use creatures::Terrain;
 use serde_json::{Map, Value, json};
 

@@ -1,8 +1,10 @@
 //! The folder of a run: which file is what, and how each is written.
 
+pub(crate) mod lines;
+
 use crate::{
     config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig},
-    lines::read_lines,
+    run_folder::lines::read_lines,
 };
 use ne_core::{
     CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Decision, Fitness, GenerationReport, Progress,

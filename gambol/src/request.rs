@@ -1,13 +1,13 @@
 //! What a user asks for, and the configuration that follows from it.
 
-use super::{Assembly, ConfigError, EngineChoice, FrozenTopology, RunConfig, VARIATIONS, variation};
-use crate::Registry;
 use crate::{
+    Registry,
+    assembly::{self, Assembly, ConfigError},
     champion::{Champion, ChannelRecord},
+    config::{EngineChoice, FrozenTopology, RunConfig, VARIATIONS, variation},
     presets::Preset,
     shaping::{self, ShapingError},
-    source,
-    source::SourceError,
+    source::{self, SourceError},
     strategies::StrategyEntry,
     suggest,
 };
@@ -114,7 +114,7 @@ impl Request {
         }
         let creature = self.creature(layer.as_ref())?;
         let movement = self.movement(layer.as_ref(), registry)?;
-        let mut base = self.preset(layer.as_ref(), registry)?.config(creature, &movement, registry);
+        let mut base = registry.configure(self.preset(layer.as_ref(), registry)?, creature, &movement);
         let entry = self.strategy(layer.as_mut(), registry)?;
         if let Some(entry) = entry.filter(|entry| entry.name() != base.strategy.name()) {
             base.strategy = entry.settings();
@@ -283,7 +283,7 @@ struct Layer {
 impl Layer {
     fn read(path: &Path) -> Result<Self, RequestError> {
         let text = fs::read_to_string(path).map_err(|source| RequestError::Read { path: path.into(), source })?;
-        let value = super::assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
+        let value = assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
         Ok(Self { path: path.into(), value })
     }
 

@@ -1,9 +1,9 @@
 use super::*;
 use crate::{Setup, config::EngineChoice};
 use creatures::Sensor;
-use ne_core::Failure;
+use ne_core::{Evaluation, Failure, Phenotype, Seed, Task};
 use ne_net::Network;
-use tasks::Trials;
+use tasks::{Combine, Trials};
 
 /// A body like the creature's, but for its weight.
 fn heavier(creature: &Creature, times: f32) -> Creature {

@@ -1,4 +1,10 @@
-use crate::{bodies::SeveralBodies, config::EngineChoice};
+//! What a population is evaluated on.
+
+mod several;
+
+pub use several::SeveralBodies;
+
+use crate::config::EngineChoice;
 use envs_lanes::LaneEpisode;
 use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Phenotype, Seed, Task, Threads};

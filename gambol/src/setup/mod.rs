@@ -1,0 +1,208 @@
+//! From a configuration to the things a run is made of.
+
+mod companions;
+
+use crate::{
+    Registry,
+    config::{ControllerSettings, HeatSettings, RunConfig, StrategySettings},
+    episode_parts::SetupError,
+    nominal::Nominal,
+    stage::Stage,
+    topology::{
+        self,
+        limbs::{self, Limbs},
+    },
+    training_task::TrainingTask,
+};
+use creatures::{Actuation, Channel};
+use envs_rapier::RapierEnvironment;
+use ne_core::{Heat, Seed, SettingError};
+use ne_net::{DenseShape, Topology};
+use serde::{Deserialize, Serialize};
+use tasks::{Episode, Medium, MovementSpec, TermSpec};
+
+/// The task and the topology of the controller a configuration describes: checked, built, ready.
+#[derive(Clone)]
+pub struct Setup {
+    /// The task of training.
+    pub task: TrainingTask,
+    /// What comes before it.
+    heats: Vec<HeatSettings>,
+    /// The same in rapier: what is shown and proved.
+    pub episode: Episode<RapierEnvironment>,
+    /// Where the champion is chosen, if a [jury](RunConfig::has_jury) does that.
+    pub nominal: Option<Nominal>,
+    /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
+    pub topology: Topology,
+    /// What each weight of the topology is for; equal names in two topologies mean the same.
+    pub weight_names: Vec<String>,
+    /// The unit of the fitness.
+    pub unit: String,
+    /// What a strategy that searches for several objectives finds compromises between; the fitness alone if the
+    /// movement has no objectives.
+    pub objectives: Vec<Objective>,
+}
+
+/// One of the objectives of a search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Objective {
+    /// The name of what is measured.
+    pub name: String,
+    /// Its unit.
+    pub unit: String,
+    /// What the measured value is multiplied with to be maximised: below 0 where less is better.
+    pub weight: f64,
+}
+
+impl Setup {
+    /// Checks a configuration and builds its task.
+    ///
+    /// # Errors
+    /// Names the field that is wrong.
+    pub fn new(config: &RunConfig, registry: &Registry) -> Result<Self, SetupError> {
+        config.stop.validate().map_err(|error| error.within("stop"))?;
+        config.record.validate().map_err(|error| error.within("record"))?;
+        let input_range = f64::from(config.controller.input_range);
+        SettingError::check_range("input_range", input_range, 0.001, 1000.0)
+            .map_err(|error| error.within("controller"))?;
+        if let Actuation::Angle { gain } = config.controller.actuation
+            && !config.controller.actuation.is_valid()
+        {
+            let [low, high] = Actuation::GAINS;
+            let error = SettingError::new("actuation.angle.gain", gain, format!("from {low} to {high}"));
+            return Err(error.within("controller").into());
+        }
+        let is_in_water = registry.movements.find(&config.movement.name).is_some_and(|it| it.medium == Medium::Water);
+        if is_in_water && config.physics.water.is_none() {
+            let allowed = format!("water, which {} is done in", config.movement.name);
+            return Err(SettingError::new("physics.water", "null", allowed).into());
+        }
+        let parts = config.episode_parts();
+        let (episode, task) = parts.build_both(config.engine, registry)?;
+        let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
+        let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
+        let entry = registry.strategies.of(&config.strategy)?;
+        let mut weight_names = None;
+        let topology = match &config.topology {
+            None => match config.controller.limbs {
+                None => shape.into(),
+                Some(phases) => {
+                    let environment = episode.environment();
+                    let Limbs { topology, names } = limbs::topology(
+                        environment.blueprint(),
+                        environment.senses(),
+                        environment.motors(),
+                        &config.controller,
+                        phases,
+                    );
+                    weight_names = Some(names);
+                    topology.into()
+                }
+            },
+            Some(_) if entry.finds_topology() => return Err(SetupError::Evolving { strategy: entry.name().into() }),
+            Some(frozen) => frozen.fitting(senses, motors)?,
+        };
+        let weight_names = weight_names.unwrap_or_else(|| topology::weight_names(&topology, senses, motors));
+        registry.strategies.validate(&config.strategy, &topology)?;
+        check_size(&config.strategy, &topology)?;
+        let unit = registry.movements.build(&config.movement)?.unit().to_owned();
+        let objectives = objectives(&config.movement, registry, &unit);
+        if let Some(steps) = config.rehearsal {
+            SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
+        }
+        let nominal = match config.has_jury() {
+            false => None,
+            true => {
+                let (episode, task) = parts.nominal().build_both(config.engine, registry)?;
+                let stage = Stage::new(parts, registry)?;
+                let proof = match config.variation.is_none() {
+                    true => None,
+                    false => Some(parts.proof().build_both(config.engine, registry)?.1),
+                };
+                Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
+            }
+        };
+        if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+            let judged: Vec<&str> = registry.movements.judged().collect();
+            let allowed = format!(
+                "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
+                 rehearsal or companions",
+                judged.join(", ")
+            );
+            return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
+        }
+        let task = companions::with_companions(config, task, [senses, motors], registry)?;
+        let task = match config.rehearsal {
+            Some(steps) => task.shortened(steps),
+            None => task,
+        };
+        HeatSettings::validate(&config.heats, task.steps(), config.trials.count)?;
+        Ok(Self { task, heats: config.heats.clone(), episode, nominal, topology, weight_names, unit, objectives })
+    }
+
+    /// The heats that come before the task of training, the first one first.
+    pub fn heats(&self) -> Vec<Heat> {
+        let heat = |&HeatSettings { steps, trials, share }: &HeatSettings| {
+            let task = self.task.shortened(steps.unwrap_or(u32::MAX));
+            Heat { task: Box::new(task.with_fewer_trials(trials.unwrap_or(u32::MAX))), share }
+        };
+        self.heats.iter().map(heat).collect()
+    }
+
+    /// What each input of the controller is.
+    pub fn inputs(&self) -> &[Channel] {
+        self.episode.environment().senses().channels()
+    }
+
+    /// What each output of the controller does.
+    pub fn outputs(&self) -> &[Channel] {
+        self.episode.environment().motors().channels()
+    }
+}
+
+/// What is measured for a search with several objectives, or else the fitness.
+fn objectives(movement: &MovementSpec, registry: &Registry, unit: &str) -> Vec<Objective> {
+    if movement.objectives.is_empty() {
+        return vec![Objective { name: "fitness".into(), unit: unit.into(), weight: 1.0 }];
+    }
+    let objective = |spec: &TermSpec| Objective {
+        name: spec.term.clone(),
+        unit: registry.movements.find(&spec.term).map_or_else(String::new, |entry| entry.unit.clone()),
+        weight: spec.weight,
+    };
+    movement.objectives.iter().map(objective).collect()
+}
+
+/// The most weights that a population has altogether: 1 GiB of them.
+const MOST_WEIGHTS: usize = 1 << 28;
+
+/// Checks that a population fits into memory.
+fn check_size(strategy: &StrategySettings, topology: &Topology) -> Result<(), SettingError> {
+    let (Some(population), weights) = (strategy.population(), topology.weight_count()) else { return Ok(()) };
+    let most = MOST_WEIGHTS / weights.max(1);
+    if population <= most {
+        return Ok(());
+    }
+    let field = format!("strategy.{}.population", strategy.name());
+    Err(SettingError::new(field, population, format!("at most {most} for nets of {weights} weights")))
+}
+
+impl ControllerSettings {
+    /// The shape of a controller with these settings.
+    ///
+    /// # Errors
+    /// If a layer is empty or too wide, or the scale is out of range.
+    pub fn shape(&self, inputs: usize, outputs: usize) -> Result<DenseShape, SettingError> {
+        let shape = DenseShape {
+            inputs,
+            hidden: self.hidden.clone(),
+            outputs,
+            hidden_activation: self.hidden_activation,
+            output_activation: self.output_activation,
+            hidden_scale: self.hidden_scale,
+        };
+        shape.validate()?;
+        Ok(shape)
+    }
+}

@@ -1,0 +1,190 @@
+//! Where gaits are judged: the reference world, and worlds near it.
+
+mod near;
+pub mod worlds;
+
+use crate::Registry;
+use crate::{
+    episode_parts::{EpisodeParts, SetupError},
+    obstacles::ObstaclesPassed,
+    trajectory::Recording,
+};
+use envs_core::Landscape;
+use envs_lanes::LaneEnvironment;
+use envs_rapier::{RapierEnvironment, Variation};
+use ne_core::Seed;
+use ne_net::Network;
+use serde::Serialize;
+use std::sync::{Arc, OnceLock};
+use tasks::{
+    Episode, Movement, MovementSpec, Trials,
+    gait::{GaitReport, Judgement, NearWorlds, Rules},
+};
+
+use near::near_worlds;
+use worlds::{Worlds, is_usable};
+
+/// The world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
+/// asks for. Nothing ends the episode early. A gait that is usable there is tried in [near worlds](NearWorlds) too.
+#[derive(Clone)]
+pub struct Stage {
+    episode: Episode<RapierEnvironment>,
+    movement: Box<dyn Movement>,
+    rules: Option<Arc<dyn Rules>>,
+    /// The creature in the same world in lanes, which have rapier's bits; `None` if they cannot simulate it.
+    lanes: Option<LaneEnvironment>,
+    /// Built when they are first needed.
+    near: Arc<OnceLock<Worlds>>,
+}
+
+/// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those whose gait is usable in perturbed
+/// worlds too have up to 4 more; a champion that is not usable has 0.
+pub const USABLE: u8 = 1;
+
+/// A movement that is not judged is watched for so long, s.
+const UNJUDGED_SECONDS: f64 = 20.0;
+
+impl Stage {
+    /// The stage for a creature with its sensors, motors and physics.
+    ///
+    /// # Errors
+    /// If a field is out of range or the movement is unknown.
+    pub fn new(parts: EpisodeParts<'_>, registry: &Registry) -> Result<Self, SetupError> {
+        parts.physics.validate().map_err(|error| error.within("physics"))?;
+        let rules = registry.movements.rules(&parts.movement.name);
+        let steps = Some(steps_of(judged_seconds(rules.as_deref()), parts.physics.time_step));
+        let movement = MovementSpec { steps, terms: Vec::new(), objectives: Vec::new(), ..parts.movement.clone() };
+        let parts =
+            EpisodeParts { movement: &movement, trials: Trials::default(), variation: Variation::default(), ..parts };
+        let episode = parts.build(registry)?;
+        let movement = registry.movements.build(&movement)?;
+        let lanes = parts.build_lanes(registry).ok().map(|episode| episode.environment().clone());
+        Ok(Self { episode, movement, rules, lanes, near: Arc::default() })
+    }
+
+    /// The creature in this world.
+    pub fn environment(&self) -> &RapierEnvironment {
+        self.episode.environment()
+    }
+
+    /// The same in lanes, if they can simulate it.
+    pub(crate) fn lanes(&self) -> Option<&LaneEnvironment> {
+        self.lanes.as_ref()
+    }
+
+    pub(crate) fn movement(&self) -> Box<dyn Movement> {
+        self.movement.clone()
+    }
+
+    /// How long an episode lasts here, in steps.
+    pub fn steps(&self) -> u32 {
+        self.episode.steps()
+    }
+
+    /// By which rules a gait is judged here, if it is.
+    pub fn rules(&self) -> Option<&Arc<dyn Rules>> {
+        self.rules.as_ref()
+    }
+
+    /// How long a gait is played here, s.
+    pub(crate) fn seconds(&self) -> f64 {
+        judged_seconds(self.rules.as_deref())
+    }
+
+    /// What a controller does here. A body that explodes, and a controller of another shape, leave a short recording.
+    pub fn record(&self, network: &Network) -> Recording {
+        record(&self.episode, network)
+    }
+
+    /// Measures what a controller does here, and judges it here and in near worlds; `None` for one that falls silent at
+    /// once: there is nothing to measure.
+    pub fn judge(&self, network: &Network) -> Option<GaitReport> {
+        self.measure(network).map(|gait| gait.report)
+    }
+
+    /// The same, and how many obstacles it passes. What is not usable here is not tried in near worlds.
+    pub fn measure(&self, network: &Network) -> Option<Gait> {
+        let mut gait = self.measure_alone(network)?;
+        if let Some(verdict) = gait.report.verdict.take() {
+            let near = verdict.usable.then(|| self.try_near_worlds(network));
+            gait.report.verdict = Some(with_near_worlds(verdict, near));
+        }
+        Some(gait)
+    }
+
+    /// The same, judged here alone.
+    pub fn measure_alone(&self, network: &Network) -> Option<Gait> {
+        worlds::measure(self.environment(), self.rules.as_deref(), &self.record(network).snapshots)
+    }
+
+    /// In how many near worlds a controller's gait is usable, on the threads of the current pool.
+    pub fn try_near_worlds(&self, network: &Network) -> NearWorlds {
+        let worlds = self.near.get_or_init(|| {
+            let landscape: &Landscape = self.environment().landscape();
+            let conditions = near_worlds(self.environment().motors().len()).into_iter();
+            Worlds::new(self, &conditions.map(|conditions| (conditions, landscape.clone())).collect::<Vec<_>>())
+        });
+        NearWorlds { usable: worlds.usable(network), worlds: worlds.len() }
+    }
+
+    /// Whether a controller's gait is usable, here and in near worlds; never for a movement that is not judged.
+    pub fn is_usable(&self, network: &Network) -> bool {
+        self.judge(network).is_some_and(|report| is_usable(&report))
+    }
+
+    /// The first of these controllers whose gait is usable, on the threads of the current pool. All are played at once, in
+    /// lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the jury to ask: it
+    /// has a champion's episode played again by rapier.
+    pub fn first_usable(&self, networks: &[Network]) -> Option<usize> {
+        let Some(nominal) = Worlds::nominal(self) else {
+            return networks.iter().position(|network| self.is_usable(network));
+        };
+        let verdicts = nominal.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
+        networks.iter().zip(verdicts).position(|(network, verdict)| {
+            let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
+            with_near_worlds(verdict, Some(self.try_near_worlds(network))).usable
+        })
+    }
+
+    /// The same stage, where nothing is played in lanes.
+    #[cfg(test)]
+    pub(crate) fn in_rapier(self) -> Self {
+        Self { lanes: None, near: Arc::default(), ..self }
+    }
+}
+
+fn with_near_worlds(verdict: Judgement, near: Option<NearWorlds>) -> Judgement {
+    match near {
+        Some(near) => verdict.with_near_worlds(near),
+        None => verdict,
+    }
+}
+
+/// What a controller does in the one world of an episode.
+pub(crate) fn record(episode: &Episode<RapierEnvironment>, network: &Network) -> Recording {
+    let mut recording = Recording::default();
+    // Without variation nothing comes from the seed.
+    episode.play(&mut network.clone(), Seed::of_run(0), &mut recording);
+    recording
+}
+
+/// A gait, and how far it got on its terrain.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Gait {
+    /// What was measured of it.
+    #[serde(flatten)]
+    pub report: GaitReport,
+    /// How many obstacles of each kind it passed; empty on flat ground.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub obstacles: Vec<ObstaclesPassed>,
+}
+
+/// How long an episode must be for the judgement, s.
+fn judged_seconds(rules: Option<&dyn Rules>) -> f64 {
+    rules.map_or(UNJUDGED_SECONDS, Rules::seconds)
+}
+
+/// The steps of an episode of so many seconds.
+pub(crate) fn steps_of(seconds: f64, time_step: f32) -> u32 {
+    (seconds / f64::from(time_step)).round() as u32
+}
