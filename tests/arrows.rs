@@ -17,7 +17,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("envs-rapier",     &["ne-core", "tasks", "creatures", "envs-core"]),
     ("envs-lanes",      &["ne-core", "ne-net", "tasks", "creatures", "envs-core"]),
     ("ne-neat",         &["ne-core", "ne-net"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes"]),
+    ("gambol-runs",     &["ne-core", "ne-net", "ne-fixed", "ne-neat", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes"]),
+    ("gambol-reports",  &["ne-core", "ne-net", "ne-neat", "tasks", "creatures", "envs-core", "envs-rapier", "gambol-runs"]),
+    ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-experiments"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
     ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "tasks"]),

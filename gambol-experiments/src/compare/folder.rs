@@ -1,0 +1,246 @@
+use super::{
+    Plan,
+    plan::{Job, PlanError, folder_name},
+    result::RunResult,
+};
+use gambol_runs::training::TrainError;
+use ne_core::archive::{self, ArchiveError, Layout};
+use std::{
+    io,
+    path::{Path, PathBuf},
+};
+
+const PLAN_FORMAT: &str = "gambol comparison";
+const RESULT_FORMAT: &str = "gambol comparison result";
+const VERSION: u32 = 1;
+
+/// The folder of a comparison.
+///
+/// | file | what it is |
+/// |---|---|
+/// | `comparison.json` | the plan: everything needed to repeat it |
+/// | `runs/METHOD/SCENARIO/seed-N/` | the folder of a run |
+/// | `results/METHOD/SCENARIO/seed-N.json` | what is kept of a run that has ended |
+/// | `comparison.html` | to look at |
+/// | `scores.csv`, `curves.csv` | the raw data |
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ComparisonFolder {
+    path: PathBuf,
+}
+
+/// Why a comparison cannot be made or go on.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompareError {
+    /// The plan is not one.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// There is something else in the folder.
+    #[error("{} already exists and is no comparison; choose another folder with --out", path.display())]
+    Exists {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// There is another comparison in the folder.
+    #[error(
+        "{} holds another comparison ({what}); choose another folder with --out, or repeat the command it was begun with",
+        path.display()
+    )]
+    Other {
+        /// The folder.
+        path: PathBuf,
+        /// What differs first.
+        what: &'static str,
+    },
+    /// It is no folder of a comparison.
+    #[error("{} is not the folder of a comparison: it has no comparison.json", path.display())]
+    NotOne {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// The parts are not of one comparison.
+    #[error("{} and {} are not parts of one comparison: they differ in {what}", first.display(), second.display())]
+    NotTogether {
+        /// A part.
+        first: PathBuf,
+        /// Another.
+        second: PathBuf,
+        /// What differs first.
+        what: &'static str,
+    },
+    /// Two parts have another result for the same run.
+    #[error("{run}: the results in {} and {} differ, so one was changed or made by another Gambol", first.display(), second.display())]
+    Contradiction {
+        /// The run.
+        run: String,
+        /// A part.
+        first: PathBuf,
+        /// Another.
+        second: PathBuf,
+    },
+    /// A result is not of the run its place is for.
+    #[error("{} is the result of another run ({found}), not of {expected}", path.display())]
+    Misplaced {
+        /// The file.
+        path: PathBuf,
+        /// Which run it is of.
+        found: String,
+        /// Which run it should be of.
+        expected: String,
+    },
+    /// Runs are missing.
+    #[error("{missing} of {all} runs are missing; the first is: {first}")]
+    Incomplete {
+        /// How many are missing.
+        missing: usize,
+        /// How many there are.
+        all: usize,
+        /// The name of the first.
+        first: String,
+    },
+    /// A file cannot be read or written, or is damaged.
+    #[error(transparent)]
+    File(#[from] ArchiveError),
+    /// A folder or a page cannot be written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A run could not be done.
+    #[error("{run}: {source}")]
+    Run {
+        /// The run.
+        run: String,
+        /// What happened.
+        source: TrainError,
+    },
+}
+
+impl ComparisonFolder {
+    /// A new folder with this plan, or one with this plan that was begun before.
+    ///
+    /// # Errors
+    /// If there is something else in the folder, or it cannot be written.
+    pub fn create(path: &Path, plan: &Plan) -> Result<Self, CompareError> {
+        let folder = Self { path: path.into() };
+        if folder.plan_file().is_file() {
+            return match plan.difference(&folder.plan()?) {
+                None => Ok(folder),
+                Some(what) => Err(CompareError::Other { path: path.into(), what }),
+            };
+        }
+        if path.exists() && !path.read_dir().is_ok_and(|mut entries| entries.next().is_none()) {
+            return Err(CompareError::Exists { path: path.into() });
+        }
+        std::fs::create_dir_all(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
+        archive::write(&folder.plan_file(), PLAN_FORMAT, VERSION, plan, Layout::Pretty)?;
+        Ok(folder)
+    }
+
+    /// A folder with a comparison.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn open(path: &Path) -> Result<Self, CompareError> {
+        let folder = Self { path: path.into() };
+        if folder.plan_file().is_file() { Ok(folder) } else { Err(CompareError::NotOne { path: path.into() }) }
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The plan.
+    ///
+    /// # Errors
+    /// If it cannot be read or is damaged.
+    pub fn plan(&self) -> Result<Plan, CompareError> {
+        Ok(archive::read(&self.plan_file(), PLAN_FORMAT, VERSION)?)
+    }
+
+    /// The result of a run, if it has ended.
+    ///
+    /// # Errors
+    /// If it cannot be read or is damaged.
+    pub fn result(&self, job: &Job<'_>) -> Result<Option<RunResult>, CompareError> {
+        let path = self.result_file(job);
+        if !path.is_file() {
+            return Ok(None);
+        }
+        let result: RunResult = archive::read(&path, RESULT_FORMAT, VERSION)?;
+        if (&result.method, &result.scenario, result.seed) == (&job.cell.method, &job.cell.scenario, job.seed) {
+            Ok(Some(result))
+        } else {
+            let found = format!("{}, {}, seed {}", result.method, result.scenario, result.seed);
+            Err(CompareError::Misplaced { path, found, expected: job.name() })
+        }
+    }
+
+    /// The results of all runs, in the plan's order.
+    ///
+    /// # Errors
+    /// If a run is missing, or a file cannot be read or is damaged.
+    pub fn results(&self, plan: &Plan) -> Result<Vec<RunResult>, CompareError> {
+        let (mut results, mut missing) = (Vec::new(), Vec::new());
+        for job in plan.jobs() {
+            match self.result(&job)? {
+                Some(result) => results.push(result),
+                None => missing.push(job.name()),
+            }
+        }
+        match missing.first() {
+            None => Ok(results),
+            Some(first) => {
+                Err(CompareError::Incomplete { missing: missing.len(), all: plan.jobs().count(), first: first.clone() })
+            }
+        }
+    }
+
+    /// Path of the page.
+    pub fn page(&self) -> PathBuf {
+        self.path.join("comparison.html")
+    }
+
+    pub(super) fn write_result(&self, job: &Job<'_>, result: &RunResult) -> Result<(), CompareError> {
+        let path = self.result_file(job);
+        if let Some(parent) = path.parent() {
+            std::fs::create_dir_all(parent).map_err(|source| CompareError::Write { path: parent.into(), source })?;
+        }
+        Ok(archive::write(&path, RESULT_FORMAT, VERSION, result, Layout::Compact)?)
+    }
+
+    pub(super) fn run_folder(&self, job: &Job<'_>) -> PathBuf {
+        self.place("runs", job).join(format!("seed-{}", job.seed))
+    }
+
+    fn result_file(&self, job: &Job<'_>) -> PathBuf {
+        self.place("results", job).join(format!("seed-{}.json", job.seed))
+    }
+
+    fn place(&self, folder: &str, job: &Job<'_>) -> PathBuf {
+        self.path.join(folder).join(folder_name(&job.cell.method)).join(folder_name(&job.cell.scenario))
+    }
+
+    fn plan_file(&self) -> PathBuf {
+        self.path.join("comparison.json")
+    }
+}
+
+impl Plan {
+    /// What differs first between two plans.
+    pub(super) fn difference(&self, other: &Self) -> Option<&'static str> {
+        [
+            (self.methods != other.methods, "the strategies"),
+            (self.scenarios != other.scenarios, "the creatures or movements"),
+            (self.seeds != other.seeds, "the seeds"),
+            (self.budget != other.budget, "the budget"),
+            (self.cells != other.cells, "the settings of the runs"),
+        ]
+        .into_iter()
+        .find_map(|(differs, what)| differs.then_some(what))
+    }
+}

@@ -1,0 +1,305 @@
+use gambol_runs::Registry;
+use gambol_runs::suggest;
+use gambol_runs::{
+    config::RunConfig,
+    request::{Request, RequestError},
+};
+use ne_core::StopConditions;
+use serde::{Deserialize, Serialize};
+use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};
+
+/// Everything needed to repeat a comparison.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// The methods' names, in the order they are shown.
+    pub methods: Vec<String>,
+    /// The scenarios' names, such as `biped-1 running`, in the order they are shown.
+    pub scenarios: Vec<String>,
+    /// The seeds: each method has a run with each of them on each scenario.
+    pub seeds: Vec<u64>,
+    /// The budget of each run: evaluations, physics steps, or both, whichever is used up first.
+    pub budget: StopConditions,
+    /// The configuration of each method on each scenario: for each scenario those of all methods.
+    pub cells: Vec<Cell>,
+}
+
+/// A method on a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cell {
+    /// The method's name.
+    pub method: String,
+    /// The scenario's name.
+    pub scenario: String,
+    /// The unit of its fitness.
+    pub unit: String,
+    /// The configuration of its runs, but for the seed.
+    pub config: RunConfig,
+}
+
+/// One run of a plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Job<'a> {
+    /// Which method on which scenario.
+    pub cell: &'a Cell,
+    /// With which seed.
+    pub seed: u64,
+}
+
+/// A way to search that is compared with others.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Method {
+    /// What it is called in tables.
+    pub name: String,
+    /// The preset it starts from; otherwise the default.
+    pub preset: Option<String>,
+    /// The strategy, with its default settings.
+    pub strategy: Option<String>,
+    /// A configuration file laid over the rest.
+    pub config: Option<PathBuf>,
+}
+
+/// What a user wants compared.
+#[derive(Clone, Debug, Default)]
+pub struct PlanRequest {
+    /// The methods, at least one.
+    pub methods: Vec<Method>,
+    /// Names of shipped creatures or creature files, at least one.
+    pub creatures: Vec<String>,
+    /// Movements, at least one.
+    pub movements: Vec<String>,
+    /// Seeds, at least one.
+    pub seeds: Vec<u64>,
+    /// The budget of each run: evaluations, steps, or both.
+    pub budget: StopConditions,
+    /// Single settings for all runs, `key=value`.
+    pub set: Vec<String>,
+    /// The engine of all runs, by name; otherwise what each method says.
+    pub engine: Option<String>,
+    /// The variation of all runs, by name; otherwise what each method's file says, or none.
+    pub variation: Option<String>,
+}
+
+/// Why a request is no plan.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// Something is missing.
+    #[error("say {0}")]
+    Missing(&'static str),
+    /// The same thing twice.
+    #[error("{what} \"{name}\" is there twice; give each a name of its own")]
+    Twice {
+        /// What it is.
+        what: &'static str,
+        /// Its name.
+        name: String,
+    },
+    /// A method is not one.
+    #[error("{0}")]
+    Method(String),
+    /// A method has no configuration for a scenario.
+    #[error("{method} on {scenario}: {source}")]
+    Request {
+        /// The method.
+        method: String,
+        /// Creature and movement.
+        scenario: String,
+        /// What is wrong.
+        source: Box<RequestError>,
+    },
+    /// A configuration cannot run.
+    #[error("{method} on {scenario}: {message}")]
+    Setup {
+        /// The method.
+        method: String,
+        /// Creature and movement.
+        scenario: String,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+impl PlanRequest {
+    /// The plan: every configuration put together and checked.
+    ///
+    /// # Errors
+    /// If something is missing or there twice, or a configuration is wrong; the error names the method and the field.
+    pub fn plan(&self, registry: &Registry) -> Result<Plan, PlanError> {
+        let missing = [
+            (self.methods.is_empty(), "which strategies to compare, such as --strategies ga,neat"),
+            (self.creatures.is_empty(), "on which creatures, such as --creatures biped-1,apod"),
+            (self.movements.is_empty(), "on which movements, such as --movements running,jumping"),
+            (self.seeds.is_empty(), "how many seeds, such as --seeds 10"),
+            (
+                self.budget.evaluations.or(self.budget.steps).is_none(),
+                "what each run may use up: --evaluations, --steps or both",
+            ),
+        ];
+        if let Some((_, what)) = missing.into_iter().find(|(missing, _)| *missing) {
+            return Err(PlanError::Missing(what));
+        }
+        unique("the strategy", self.methods.iter().map(|method| method.name.clone()))?;
+        unique("the movement", self.movements.iter().cloned())?;
+        unique("the seed", self.seeds.iter().map(u64::to_string))?;
+        let mut plan = Plan {
+            methods: self.methods.iter().map(|method| method.name.clone()).collect(),
+            scenarios: Vec::new(),
+            seeds: self.seeds.clone(),
+            budget: self.budget,
+            cells: Vec::new(),
+        };
+        for creature in &self.creatures {
+            for movement in &self.movements {
+                let cell = |method| self.cell(method, creature, movement, registry);
+                let cells = self.methods.iter().map(cell).collect::<Result<Vec<_>, _>>()?;
+                plan.scenarios.extend(cells.first().map(|cell| cell.scenario.clone()));
+                plan.cells.extend(cells);
+            }
+        }
+        // Names are also folders, on systems too that do not tell capitals from small letters.
+        unique("the scenario", plan.scenarios.iter().cloned())?;
+        unique("the folder of the scenario", plan.scenarios.iter().map(|name| folder_name(name).to_lowercase()))?;
+        unique("the folder of the strategy", plan.methods.iter().map(|name| folder_name(name).to_lowercase()))?;
+        Ok(plan)
+    }
+
+    fn cell(&self, method: &Method, creature: &str, movement: &str, registry: &Registry) -> Result<Cell, PlanError> {
+        let request = Request {
+            creature: Some(creature.into()),
+            movement: Some(movement.into()),
+            preset: method.preset.clone(),
+            strategy: method.strategy.clone(),
+            config: method.config.clone(),
+            set: self.set.clone(),
+            engine: self.engine.clone(),
+            variation: self.variation.clone(),
+            // A score at a budget must be that of the moment; a jury sits only now and then.
+            unvaried: true,
+            ..Request::default()
+        };
+        let (method, scenario) = (method.name.clone(), format!("{creature} {movement}"));
+        let config = request.resolve(registry);
+        let mut config = config.map_err(|source| PlanError::Request {
+            method: method.clone(),
+            scenario: scenario.clone(),
+            source: Box::new(source),
+        })?;
+        config.stop = self.budget;
+        // Seeds are paired by the plan; whole populations are not looked at in a comparison.
+        config.seed = 0;
+        config.record.populations_at.clear();
+        let scenario = format!("{} {movement}", config.creature.name);
+        match gambol_runs::Setup::new(&config, registry) {
+            Ok(setup) => Ok(Cell { method, scenario, unit: setup.unit, config }),
+            Err(error) => Err(PlanError::Setup { method, scenario, message: error.to_string() }),
+        }
+    }
+}
+
+impl Plan {
+    /// All runs. Those with the same seed stand together, so that what is done first can be compared first.
+    pub fn jobs(&self) -> impl Iterator<Item = Job<'_>> {
+        self.seeds.iter().flat_map(|&seed| self.cells.iter().map(move |cell| Job { cell, seed }))
+    }
+}
+
+impl Job<'_> {
+    /// The run's configuration.
+    pub fn config(&self) -> RunConfig {
+        RunConfig { seed: self.seed, ..self.cell.config.clone() }
+    }
+
+    /// What a file of the run is called: `neat, biped-1 running, seed 3`.
+    pub fn name(&self) -> String {
+        format!("{}, {}, seed {}", self.cell.method, self.cell.scenario, self.seed)
+    }
+}
+
+impl Method {
+    /// A strategy's name or alias (`neat`, `ga`), a preset's (`thesis`), or a name and a configuration file
+    /// (`large=large.json`).
+    ///
+    /// # Errors
+    /// If there is no such strategy or preset, or the name cannot be that of a folder.
+    pub fn parse(text: &str, registry: &Registry) -> Result<Self, PlanError> {
+        let none = Self { name: text.into(), preset: None, strategy: None, config: None };
+        if let Some((name, file)) = text.split_once('=') {
+            check_name(name)?;
+            return Ok(Self { name: name.into(), config: Some(file.into()), ..none });
+        }
+        if registry.strategies.find(text).is_some() {
+            return Ok(Self { strategy: Some(text.into()), ..none });
+        }
+        if registry.presets.find(text).is_ok() {
+            return Ok(Self { preset: Some(text.into()), ..none });
+        }
+        let mut known = registry.strategies.names();
+        known.extend(registry.presets.entries().map(|preset| preset.name));
+        let hint = "; or give it a name and a configuration file, NAME=FILE";
+        Err(PlanError::Method(suggest::unknown("strategy or preset", text, &known) + hint))
+    }
+}
+
+/// One of several machines' share of the runs: `3/20` does every twentieth run, from the third on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    number: usize,
+    of: usize,
+}
+
+impl Part {
+    /// The whole.
+    pub const ALL: Self = Self { number: 1, of: 1 };
+
+    /// Whether it has the run with this place among the [jobs](Plan::jobs), from 0.
+    pub fn has(self, index: usize) -> bool {
+        index % self.of == self.number - 1
+    }
+}
+
+impl FromStr for Part {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("must be a number and how many parts there are, such as 3/20".into()),
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
+
+/// What the folder of a scenario or strategy is called.
+pub(super) fn folder_name(name: &str) -> String {
+    let safe = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '-' };
+    name.chars().map(safe).collect()
+}
+
+/// A method's name is also that of a folder.
+fn check_name(name: &str) -> Result<(), PlanError> {
+    let fits = |letter: char| letter.is_ascii_alphanumeric() || "-_.".contains(letter);
+    if !name.is_empty() && name.chars().all(fits) && !name.starts_with('.') {
+        return Ok(());
+    }
+    Err(PlanError::Method(format!(
+        "\"{name}\" is no name for a strategy: use letters, digits, hyphens, dots and underscores"
+    )))
+}
+
+fn unique(what: &'static str, names: impl Iterator<Item = String>) -> Result<(), PlanError> {
+    let mut seen = BTreeSet::new();
+    for name in names {
+        if !seen.insert(name.clone()) {
+            return Err(PlanError::Twice { what, name });
+        }
+    }
+    Ok(())
+}

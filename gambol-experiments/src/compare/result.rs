@@ -1,0 +1,65 @@
+use super::plan::Job;
+use gambol_runs::{
+    champion::Champion,
+    run_folder::{FolderError, RunFolder},
+};
+use serde::{Deserialize, Serialize};
+
+/// What a comparison keeps of a run.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RunResult {
+    /// The method.
+    pub method: String,
+    /// The scenario.
+    pub scenario: String,
+    /// The seed.
+    pub seed: u64,
+    /// How the best fitness rose: a point for each generation that had a better champion, and one for the last.
+    pub points: Vec<Point>,
+}
+
+/// How far a run was after a generation.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Evaluations since the run began.
+    pub evaluations: u64,
+    /// Physics steps since the run began.
+    pub steps: u64,
+    /// Seconds of wall clock since the run began. The one number that differs between equal runs.
+    pub seconds: f64,
+    /// The best fitness so far; `None` while every evaluation failed, and before the first hearing of a jury.
+    pub best: Option<f64>,
+}
+
+impl RunResult {
+    /// What the log and the timing of an ended run say. What it comes to in the end is what its champion is worth: between
+    /// two hearings of a jury the log does not know yet.
+    pub(super) fn read(job: &Job<'_>, folder: &RunFolder) -> Result<Self, FolderError> {
+        let (log, timing) = (folder.read_log()?, folder.read_timing()?);
+        let mut seconds = 0.0;
+        let mut points: Vec<Point> = Vec::new();
+        for (place, report) in log.iter().enumerate() {
+            seconds += timing.get(place).map_or(0.0, |timing| timing.seconds);
+            let best = report.best_so_far.map(f64::from);
+            if points.last().is_none_or(|last| last.best != best) || place + 1 == log.len() {
+                points.push(Point { evaluations: report.evaluations, steps: report.steps, seconds, best });
+            }
+        }
+        if let Some(last) = points.last_mut().filter(|_| folder.champion().is_file()) {
+            last.best = Some(Champion::read(&folder.champion())?.fitness.get());
+        }
+        let Job { cell, seed } = *job;
+        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points })
+    }
+
+    /// Whether two results are of the same run: all but the seconds.
+    pub fn agrees_with(&self, other: &Self) -> bool {
+        let timeless = |result: &Self| {
+            let points: Vec<Point> = result.points.iter().map(|&point| Point { seconds: 0.0, ..point }).collect();
+            Self { points, ..result.clone() }
+        };
+        timeless(self) == timeless(other)
+    }
+}

@@ -1,0 +1,11 @@
+//! Many runs, and what can be said of them.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`compare`] | strategies against each other, with paired seeds and statistics |
+//! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
+//! | [`yardsticks`] | the strategies on classic tasks, beside published numbers |
+
+pub mod compare;
+pub mod reproduce;
+pub mod yardsticks;

@@ -1,0 +1,109 @@
+use super::Yardstick;
+use gambol_runs::config::StrategySettings;
+use ne_fixed::{
+    CmaEsSettings, ConventionalNeSettings, CosyneSettings, GaussianMutation, MutationChoice, OpenEsSettings,
+};
+use ne_neat::NeatSettings;
+use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
+use tasks::OutputRange;
+
+/// A strategy with the settings and the net it has for a task.
+#[derive(Clone, Debug)]
+pub struct Contestant {
+    /// The task.
+    pub task: Yardstick,
+    /// The strategy and its settings.
+    pub settings: StrategySettings,
+    /// The net whose weights are searched; NEAT takes the numbers of inputs and outputs from it.
+    pub topology: Topology,
+    /// The range of its outputs.
+    pub output_range: OutputRange,
+    /// Whether the task gives it a constant input, for nets that have no biases of their own.
+    pub bias_input: bool,
+    /// Settings and net, in words.
+    pub description: &'static str,
+}
+
+/// Each strategy with each task, some with more than one setting.
+pub fn contestants() -> Vec<Contestant> {
+    let others = |task| [cma_es(task), cosyne(task), open_es(task), conventional(task)];
+    let all = |task| neat(task).into_iter().chain(others(task));
+    Yardstick::ALL.into_iter().flat_map(all).collect()
+}
+
+/// NEAT as the paper has it, and where poles are balanced without velocities also with settings of our own.
+fn neat(task: Yardstick) -> Vec<Contestant> {
+    let with = |settings, description| Contestant {
+        task,
+        settings: StrategySettings::new("neat", &settings),
+        topology: DenseShape::new(task.inputs(), Vec::new(), 1).into(),
+        output_range: OutputRange::ZeroToOne,
+        bias_input: false,
+        description,
+    };
+    match task {
+        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => vec![
+            with(NeatSettings::stanley_2002_double_pole(), "NeatSettings::stanley_2002_double_pole"),
+            with(NeatSettings::pole_balancing(), "NeatSettings::pole_balancing"),
+        ],
+        _ => vec![with(NeatSettings::stanley_2002(), "NeatSettings::stanley_2002")],
+    }
+}
+
+fn cma_es(task: Yardstick) -> Contestant {
+    let settings = match task {
+        Yardstick::Xor => CmaEsSettings::default(),
+        _ => CmaEsSettings::pole_balancing(),
+    };
+    on_its_net(task, StrategySettings::new("cma-es", &settings))
+}
+
+fn cosyne(task: Yardstick) -> Contestant {
+    let settings = match task {
+        Yardstick::Xor => CosyneSettings::default(),
+        _ => CosyneSettings::pole_balancing(),
+    };
+    on_its_net(task, StrategySettings::new("cosyne", &settings))
+}
+
+fn open_es(task: Yardstick) -> Contestant {
+    on_its_net(task, StrategySettings::new("open-es", &OpenEsSettings::default()))
+}
+
+fn conventional(task: Yardstick) -> Contestant {
+    // The default mutates one gene in twenty, which leaves most children of so small nets as they were.
+    let mutation = MutationChoice::Gaussian(GaussianMutation { rate: 0.4, deviation: 1.0 });
+    let settings = ConventionalNeSettings { mutation, ..ConventionalNeSettings::default() };
+    on_its_net(task, StrategySettings::new("conventional", &settings))
+}
+
+/// A search for the weights of the net the task is given.
+fn on_its_net(task: Yardstick, settings: StrategySettings) -> Contestant {
+    // The constant input is one more.
+    let inputs = task.inputs() + 1;
+    let (topology, output_range, description): (Topology, _, _) = match task {
+        Yardstick::Xor => (DenseShape::new(2, vec![4], 1).into(), OutputRange::MinusOneToOne, "net 2-4-1, tanh"),
+        Yardstick::OnePole | Yardstick::TwoPoles => {
+            let description = "one logistic neuron, a constant among its inputs";
+            (single_neuron(inputs).into(), OutputRange::ZeroToOne, description)
+        }
+        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => {
+            let description = "two logistic neurons connected with all inputs, each other and themselves";
+            (fully_recurrent(inputs, 2).into(), OutputRange::ZeroToOne, description)
+        }
+    };
+    Contestant { task, settings, topology, output_range, bias_input: task != Yardstick::Xor, description }
+}
+
+/// One neuron without a bias, connected with all inputs.
+fn single_neuron(inputs: usize) -> GraphShape {
+    let neuron = GraphNeuron { activation: Activation::Logistic, bias: false, sources: (0..inputs).collect() };
+    GraphShape { inputs, recurrent: false, neurons: vec![neuron], outputs: vec![inputs] }
+}
+
+/// Neurons each connected with all of them and with all inputs; the last is the output.
+fn fully_recurrent(inputs: usize, neurons: usize) -> GraphShape {
+    let neuron =
+        GraphNeuron { activation: Activation::Logistic, bias: false, sources: (0..inputs + neurons).collect() };
+    GraphShape { inputs, recurrent: true, neurons: vec![neuron; neurons], outputs: vec![inputs + neurons - 1] }
+}

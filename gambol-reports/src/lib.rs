@@ -1,0 +1,13 @@
+//! Pages and pictures of runs.
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`report`] | a run as an HTML page that works offline |
+//! | [`sheet`] | a gait as one image: a contact sheet with charts |
+//! | [`dot`] | a champion's net as a drawing |
+//! | [`page`] | what all pages have in common |
+
+pub mod dot;
+pub mod page;
+pub mod report;
+pub mod sheet;

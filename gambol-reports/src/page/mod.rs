@@ -1,0 +1,63 @@
+//! What all pages have in common: their look, their charts, and how data and text get into them.
+
+/// The style of all pages.
+pub const STYLE: &str = include_str!("assets/style.css");
+
+/// The script that reads a page's data and formats numbers; first of all scripts.
+pub const DATA_SCRIPT: &str = include_str!("assets/data.js");
+
+/// The script of charts.
+pub const CHART_SCRIPT: &str = include_str!("assets/chart.js");
+
+/// Scripts as one, in a scope of their own.
+pub fn script(parts: &[&str]) -> String {
+    format!("(() => {{\n\"use strict\";\n{}\n}})();", parts.join("\n"))
+}
+
+/// Data for a script element: `<` is an escape in it, so that no text can end the element.
+pub fn data(data: &impl serde::Serialize) -> String {
+    // Plain data: serialising cannot fail; were it to, the page would say that it has no data.
+    serde_json::to_string(data).unwrap_or_else(|_| "null".into()).replace('<', "\\u003c")
+}
+
+/// Replaces each placeholder in one pass, so that a value which looks like a placeholder stays as it is.
+pub fn filled(template: &str, values: &[(&str, String)]) -> String {
+    let mut page = String::new();
+    let mut rest = template;
+    while let Some(start) = rest.find("{{") {
+        page.push_str(&rest[..start]);
+        rest = &rest[start..];
+        match values.iter().find(|(placeholder, _)| rest.starts_with(placeholder)) {
+            Some((placeholder, value)) => {
+                page.push_str(value);
+                rest = &rest[placeholder.len()..];
+            }
+            None => {
+                page.push_str("{{");
+                rest = &rest[2..];
+            }
+        }
+    }
+    page + rest
+}
+
+/// Text for the content or an attribute of an element.
+pub fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_that_look_like_placeholders_stay() {
+        let values = [("{{A}}", "{{B}}".to_owned()), ("{{B}}", "b".to_owned())];
+        assert_eq!(filled("<{{A}}|{{B}}|{{C}}>", &values), "<{{B}}|b|{{C}}>");
+    }
+
+    #[test]
+    fn titles_are_escaped() {
+        assert_eq!(escaped("<b> & \"c\""), "&lt;b&gt; &amp; &quot;c&quot;");
+    }
+}

@@ -1,0 +1,120 @@
+//! The page of a run with stages: that of its latest stage, with the curves of all and a film of each champion.
+
+use super::{
+    DRAWN, ReportError, champion_film,
+    data::{Fact, Replay, Report, Summary},
+    ground::GroundData,
+    history,
+};
+use creatures::Creature;
+use gambol_runs::Registry;
+use gambol_runs::{
+    champion::Champion,
+    config::{RunConfig, StageSettings},
+    run_folder::{FolderError, RunFolder},
+    shaping::{self, Leg},
+};
+use ne_core::{Decision, StopReason};
+use serde::Serialize;
+
+/// A leg of the way through the stages.
+#[derive(Serialize)]
+pub(super) struct StageData {
+    /// The stage's number, from 1.
+    number: usize,
+    name: String,
+    /// The generations of the run that were its, counted through all stages; none before the first was done.
+    first_generation: u64,
+    last_generation: u64,
+    fitness: Option<f64>,
+    unit: String,
+    facts: Vec<Fact>,
+    /// The champion's first seconds.
+    film: Option<Replay>,
+    /// What it moves on; `None`: flat ground.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ground: Option<GroundData>,
+    /// Its body, if that is another than the run's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    creature: Option<Creature>,
+}
+
+/// The report of a run with stages.
+pub(super) fn compose(
+    folder: &RunFolder,
+    config: &RunConfig,
+    registry: &Registry,
+    ended: Option<StopReason>,
+) -> Result<Report, ReportError> {
+    let legs = shaping::legs(folder)?;
+    let Some(last) = legs.last() else {
+        let missing = "stage that has begun".into();
+        return Err(FolderError::NotARun { path: folder.path().into(), missing }.into());
+    };
+    let mut report = super::compose(&RunFolder::at(&last.folder), registry, ended)?;
+    let (mut generations, mut evaluations, mut steps) = (0, 0, 0);
+    report.history.clear();
+    for leg in &legs {
+        let leg_folder = RunFolder::at(&leg.folder);
+        let log = leg_folder.read_log()?;
+        report.history.extend(history::points(&log, None).into_iter().map(|point| point.after(generations)));
+        let data = stage(leg, &leg_folder, config, generations, log.len() as u64, registry)?;
+        report.stages.push(data);
+        generations += log.len() as u64;
+        evaluations += log.last().map_or(0, |last| last.evaluations);
+        steps += log.last().map_or(0, |last| last.steps);
+    }
+    // The numbers of strategies and species are each stage's own; they are in its own report.
+    (report.species, report.statistics) = (Vec::new(), Vec::new());
+    report.summary =
+        report.summary.map(|summary| Summary { generations, evaluations, physics_steps: steps, ..summary });
+    report.config = serde_json::to_value(config).unwrap_or_default();
+    report.commands = super::commands(folder);
+    Ok(report)
+}
+
+fn stage(
+    leg: &Leg,
+    folder: &RunFolder,
+    run: &RunConfig,
+    before: u64,
+    generations: u64,
+    registry: &Registry,
+) -> Result<StageData, ReportError> {
+    let config = folder.read_config()?;
+    let champion = match folder.champion().is_file() {
+        true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
+        false => None,
+    };
+    let ground = champion.as_ref().map(|champion| champion.episode(registry)).transpose()?;
+    let ground = ground.and_then(|episode| GroundData::new(episode.environment().ground(), DRAWN));
+    let film = champion.as_ref().map(|champion| champion_film(champion, registry)).transpose()?;
+    Ok(StageData {
+        number: leg.stage + 1,
+        name: leg.name.clone(),
+        first_generation: before + 1,
+        last_generation: before + generations,
+        fitness: champion.as_ref().map(|champion| champion.fitness.get()),
+        unit: registry.movements.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone()),
+        facts: facts(leg, &config, run.stages.get(leg.stage)),
+        film,
+        ground,
+        creature: (config.creature != run.creature).then(|| config.creature.clone()),
+    })
+}
+
+fn facts(leg: &Leg, config: &RunConfig, settings: Option<&StageSettings>) -> Vec<Fact> {
+    let rule = settings.and_then(|settings| settings.promotion.as_ref());
+    let ended = match leg.decision {
+        Decision::Promote => "passed",
+        Decision::Demote => "sent back to the stage before",
+        Decision::Stay if rule.is_some() => "not passed when the run ended",
+        Decision::Stay => "went on until the run ended",
+    };
+    let mut facts = vec![Fact::new("Movement", &config.movement.name)];
+    facts.extend(rule.map(|rule| Fact::new("Passed with", rule)));
+    facts.push(Fact::new("Result", ended));
+    facts.push(Fact::new("Evaluations", leg.progress.evaluations));
+    facts.extend(config.origin.as_ref().map(|origin| Fact::new("Kept", origin)));
+    facts
+}

@@ -1,0 +1,76 @@
+//! One run: from what a user asks for to a champion in a folder.
+//!
+//! Its one decision: **a run is a folder.** Everything that happens is a file in it, written whole or not at all, and
+//! everything that looks at a run (resuming, reporting, verifying, replaying) reads those files and nothing else. So viewers
+//! attach and detach as they like, and a run can be killed at any moment. Nothing here prints, draws or reads a command line.
+//!
+//! From the bottom up; no module imports one below it:
+//!
+//! | module | what it does |
+//! |---|---|
+//! | [`config`] | the configuration of a run, as plain data |
+//! | [`strategies`], [`defaults`], [`presets`], [`Registry`] | what a configuration can name |
+//! | [`assembly`] | a configuration put together from parts, later ones winning |
+//! | [`episode_parts`], [`training_task`] | what a population is evaluated on |
+//! | [`stage`] | where gaits are judged: the reference world, and worlds near it |
+//! | [`setup`] | from a configuration to a task |
+//! | [`champion`], [`front`], [`trajectory`] | what a run has found, saved; verifying and recording it |
+//! | [`gait`], [`robust`] | a champion's gait, judged, also in perturbed worlds |
+//! | [`run_folder`] | which file is what |
+//! | [`training`] | train, resume |
+//! | [`shaping`] | train in stages, go on from what was learned |
+//! | [`request`], [`source`] | what a user asks for, by names and files |
+//!
+//! # Train, verify
+//!
+//! ```
+//! use gambol_runs::{Registry, training::{TrainOptions, train}};
+//!
+//! let registry = Registry::default();
+//! let mut config = registry.config("default", creatures::find("biped-1")?, "jumping")?;
+//! config.stop.generations = Some(2);
+//! config.movement.steps = Some(50);
+//! let folder = tempfile::tempdir()?;
+//! let options = TrainOptions {
+//!     threads: 1,
+//!     registry: registry.clone(),
+//!     signal: Default::default(),
+//!     on_generation: &mut |report| assert!(report.evaluations > 0),
+//! };
+//! let outcome = train(&config, &folder.path().join("run"), options)?;
+//! let champion = outcome.champion.expect("one of them jumped");
+//! assert!(champion.verify(&registry)?.is_identical());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+pub mod assembly;
+pub mod champion;
+pub mod config;
+pub mod defaults;
+pub mod episode_parts;
+pub mod front;
+pub mod gait;
+mod jury;
+pub mod nominal;
+pub mod obstacles;
+pub mod perturbation;
+pub mod presets;
+pub mod proving;
+mod recorder;
+mod registry;
+pub mod request;
+pub mod robust;
+pub mod run_folder;
+pub mod setup;
+pub mod shaping;
+pub mod source;
+pub mod stage;
+pub mod strategies;
+pub mod suggest;
+mod topology;
+pub mod training;
+pub mod training_task;
+pub mod trajectory;
+
+pub use registry::{Registry, UnknownPreset};
+pub use setup::Setup;

@@ -1,0 +1,333 @@
+//! The folder of a run: which file is what, and how each is written.
+
+pub(crate) mod lines;
+
+use crate::{
+    config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig},
+    run_folder::lines::read_lines,
+};
+use ne_core::{
+    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Decision, Fitness, GenerationReport, Progress,
+    archive::{self, ArchiveError, Layout},
+};
+use ne_net::Network;
+use serde::{Deserialize, Serialize};
+use std::{
+    fs::{self, File, TryLockError},
+    io,
+    path::{Path, PathBuf},
+};
+
+/// The folder of a run.
+///
+/// | file | what it is |
+/// |---|---|
+/// | `config.json` | everything needed to repeat the run |
+/// | `log.jsonl` | a line for each generation |
+/// | `gallery.jsonl` | each new champion, and whole populations at chosen generations |
+/// | `timing.jsonl` | seconds of wall clock for each generation: the one file that differs between equal runs |
+/// | `checkpoint` | to resume from |
+/// | `champion.json` | the best so far |
+/// | `front.json` | the compromises found so far, with strategies that search for several objectives |
+/// | `report.html` | to look at |
+/// | `stages/` | of a run with stages: the folder of each, in their order; the run itself has no log and no checkpoint |
+/// | `.lock` | empty; locked while a process works in the folder |
+///
+/// Each line of a `.jsonl` file ends with a field `digest`, over the file up to there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RunFolder {
+    path: PathBuf,
+}
+
+/// What can be wrong with a run folder.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// There is something already; nothing was touched.
+    #[error(
+        "{} already exists{}; choose another folder with --out{}", path.display(),
+        if path.is_dir() { " and is not empty" } else { " and is no folder" },
+        if path.join("config.json").is_file() { format!(", or go on with: gambol resume {}", path.display()) } else { String::new() }
+    )]
+    Exists {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Another process trains in it; nothing was touched.
+    #[error("another gambol is at work in {}; wait until it has ended, or stop it", path.display())]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// Its checkpoint is of another run; nothing was touched.
+    #[error("{} is not the checkpoint of this run: it differs from config.json in {what}", path.display())]
+    Foreign {
+        /// The checkpoint.
+        path: PathBuf,
+        /// What differs.
+        what: &'static str,
+    },
+    /// The folder cannot be made.
+    #[error("cannot create the folder {}: {source}", path.display())]
+    Create {
+        /// The folder.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// It is no folder of a run.
+    #[error("{} is not the folder of a run: it has no {missing}", path.display())]
+    NotARun {
+        /// The folder.
+        path: PathBuf,
+        /// The file that is missing.
+        missing: String,
+    },
+    /// A file cannot be read or written, or is damaged.
+    #[error(transparent)]
+    File(#[from] ArchiveError),
+    /// A line of a `.jsonl` file is not as it should be.
+    #[error("{}, line {line}: {message}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// From 1.
+        line: usize,
+        /// What is wrong.
+        message: String,
+    },
+}
+
+/// Where a run stands, whichever strategy it has.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct RunStanding {
+    /// What it has used up.
+    pub progress: Progress,
+    /// What the rules of its stage have decided after the last generation.
+    #[serde(default)]
+    pub decision: Decision,
+    /// Its champion.
+    pub champion: Option<ChampionStanding>,
+}
+
+/// Where the champion of a run stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+pub struct ChampionStanding {
+    /// Its fitness.
+    pub fitness: Fitness,
+    /// Its [grade](ne_core::Judgement::grades).
+    #[serde(default)]
+    pub grade: u8,
+    /// The generation it was found in.
+    pub generation: u64,
+}
+
+/// A line of `gallery.jsonl`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GalleryEntry {
+    /// The generation, from 1.
+    pub generation: u64,
+    /// Why it is kept.
+    pub kind: GalleryKind,
+    /// A champion alone, or a whole population in its order.
+    pub members: Vec<GalleryMember>,
+}
+
+/// Why a line of the gallery is there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GalleryKind {
+    /// A new best.
+    Champion,
+    /// Everybody.
+    Population,
+}
+
+/// An individual in the gallery.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GalleryMember {
+    /// Its fitness, unless its evaluation failed.
+    pub fitness: Option<Fitness>,
+    /// Its controller.
+    pub network: Network,
+}
+
+/// A line of `timing.jsonl`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timing {
+    /// The generation, from 1.
+    pub generation: u64,
+    /// Seconds it took, everything included.
+    pub seconds: f64,
+}
+
+/// The file that is locked while a process works in a folder; it stays, empty.
+const LOCK: &str = ".lock";
+
+/// The right to work in a [`RunFolder`], held by one process at a time.
+#[derive(Debug)]
+pub struct FolderLock {
+    /// Locked until it is closed.
+    _file: File,
+}
+
+impl RunFolder {
+    /// Makes a new folder, locks it and writes the configuration into it.
+    ///
+    /// # Errors
+    /// If there is a folder that is not empty (nothing is touched then), or it cannot be made or written.
+    pub fn create(path: &Path, config: &RunConfig) -> Result<(Self, FolderLock), FolderError> {
+        let occupied = || match fs::read_dir(path) {
+            Ok(entries) => entries.flatten().any(|entry| entry.file_name() != LOCK),
+            Err(_) => path.exists(),
+        };
+        let exists = || FolderError::Exists { path: path.into() };
+        if occupied() {
+            return Err(exists());
+        }
+        fs::create_dir_all(path).map_err(|source| FolderError::Create { path: path.into(), source })?;
+        let folder = Self { path: path.into() };
+        let lock = folder.lock()?;
+        // Somebody may have been faster.
+        if occupied() {
+            return Err(exists());
+        }
+        folder.write_config(config)?;
+        Ok((folder, lock))
+    }
+
+    /// Keeps other processes from working in the folder until the lock is dropped, or this process ends in whatever
+    /// way.
+    ///
+    /// # Errors
+    /// If another process has it.
+    pub fn lock(&self) -> Result<FolderLock, FolderError> {
+        let path = self.path.join(LOCK);
+        let failed = |source| ArchiveError::Write { path: path.clone(), source };
+        let file = File::options().create(true).append(true).open(&path).map_err(failed)?;
+        match file.try_lock() {
+            Ok(()) => Ok(FolderLock { _file: file }),
+            Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: self.path.clone() }),
+            Err(TryLockError::Error(source)) => Err(failed(source).into()),
+        }
+    }
+
+    /// A folder, whatever is in it; nothing is looked at.
+    pub fn at(path: &Path) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The folder of an earlier run.
+    ///
+    /// # Errors
+    /// If it has no configuration.
+    pub fn open(path: &Path) -> Result<Self, FolderError> {
+        let folder = Self { path: path.into() };
+        if folder.config().is_file() {
+            Ok(folder)
+        } else {
+            Err(FolderError::NotARun { path: path.into(), missing: "config.json".into() })
+        }
+    }
+
+    /// The folder itself.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Path of the configuration.
+    pub fn config(&self) -> PathBuf {
+        self.path.join("config.json")
+    }
+
+    /// Path of the log.
+    pub fn log(&self) -> PathBuf {
+        self.path.join("log.jsonl")
+    }
+
+    /// Path of the gallery.
+    pub fn gallery(&self) -> PathBuf {
+        self.path.join("gallery.jsonl")
+    }
+
+    /// Path of the timing.
+    pub fn timing(&self) -> PathBuf {
+        self.path.join("timing.jsonl")
+    }
+
+    /// Path of the checkpoint.
+    pub fn checkpoint(&self) -> PathBuf {
+        self.path.join("checkpoint")
+    }
+
+    /// Path of the champion.
+    pub fn champion(&self) -> PathBuf {
+        self.path.join("champion.json")
+    }
+
+    /// Path of the front.
+    pub fn front(&self) -> PathBuf {
+        self.path.join("front.json")
+    }
+
+    /// Path of the report.
+    pub fn report(&self) -> PathBuf {
+        self.path.join("report.html")
+    }
+
+    /// Path of the folder that holds those of the stages.
+    pub fn stages(&self) -> PathBuf {
+        self.path.join("stages")
+    }
+
+    /// Writes the configuration.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_config(&self, config: &RunConfig) -> Result<(), FolderError> {
+        Ok(archive::write(&self.config(), CONFIG_FORMAT, CONFIG_VERSION, config, Layout::Pretty)?)
+    }
+
+    /// Reads the configuration.
+    ///
+    /// # Errors
+    /// If it cannot be read, is damaged or of another version.
+    pub fn read_config(&self) -> Result<RunConfig, FolderError> {
+        Ok(archive::read(&self.config(), CONFIG_FORMAT, CONFIG_VERSION)?)
+    }
+
+    /// Reads where the run stands, from its checkpoint.
+    ///
+    /// # Errors
+    /// If it cannot be read, is damaged or of another version.
+    pub fn read_standing(&self) -> Result<RunStanding, FolderError> {
+        Ok(archive::read(&self.checkpoint(), CHECKPOINT_FORMAT, CHECKPOINT_VERSION)?)
+    }
+
+    /// Reads the log, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_log(&self) -> Result<Vec<GenerationReport>, FolderError> {
+        read_lines(&self.log())
+    }
+
+    /// Reads the timing, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_timing(&self) -> Result<Vec<Timing>, FolderError> {
+        read_lines(&self.timing())
+    }
+
+    /// Reads the gallery, of a run under way as well.
+    ///
+    /// # Errors
+    /// If a line is not as it was written; the error names file and line.
+    pub fn read_gallery(&self) -> Result<Vec<GalleryEntry>, FolderError> {
+        read_lines(&self.gallery())
+    }
+}
