@@ -99,6 +99,7 @@ fn every_command_knows_the_strategy() {
         said(here, 1, &["train", "apod", "running", "--strategy", "anealing"]).contains("did you mean \"annealing\"?")
     );
 
+    let short = [&train[..], &["--population", "16", "--generations", "5", "--quiet"]].concat();
     let train = [&train[..], &["--population", "16", "--generations", "12", "--quiet"]].concat();
     said(here, 0, &[&train[..], &["--out", "whole"]].concat());
     said(here, 0, &["verify", "whole/champion.json"]);
@@ -112,7 +113,7 @@ fn every_command_knows_the_strategy() {
     );
 
     // On from where it was, by a file, and in parts.
-    said(here, 0, &[&train[..], &["--out", "parts", "--generations", "5"]].concat());
+    said(here, 0, &[&short[..], &["--out", "parts"]].concat());
     said(here, 0, &["resume", "parts", "--generations", "12", "--quiet"]);
     let bytes = |name: &str| fs::read(here.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(bytes("whole/champion.json"), bytes("parts/champion.json"));
@@ -128,7 +129,7 @@ fn every_command_knows_the_strategy() {
         { "name": "long", "changes": { "movement": { "steps": 150 } } },
         ] });
     fs::write(here.join("stages.json"), stages.to_string()).expect("a file");
-    said(here, 0, &[&train[..], &["--config", "stages.json", "--generations", "6", "--out", "staged"]].concat());
+    said(here, 0, &[&short[..], &["--config", "stages.json", "--out", "staged"]].concat());
     assert!(here.join("staged/stages/02-long/champion.json").is_file());
 
     let compare = ["compare", "--strategies", "ga,annealing", "--creatures", "biped-1", "--set", "movement.steps=150"];
