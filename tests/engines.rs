@@ -49,7 +49,7 @@ fn a_run_in_lanes_is_the_run_in_rapier() -> Result<(), Box<dyn Error>> {
         let ((mut lanes, lanes_files), (mut rapier, rapier_files)) = (lanes?, rapier?);
         assert_eq!(lanes_files, rapier_files, "{creature} {movement}");
         let trained = lanes.trained.take().ok_or("it was trained in lanes")?;
-        assert!(!trained.parted);
+        assert!(!trained.diverged);
         assert_eq!((trained.engine, trained.variation, trained.trials), (EngineChoice::Lanes, variation, trials));
         if let Some(in_rapier) = rapier.trained.take() {
             assert_eq!((in_rapier.engine, in_rapier.fitness), (EngineChoice::Rapier, trained.fitness));

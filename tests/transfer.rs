@@ -34,21 +34,21 @@ fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2
     let champion: Champion = outcome.champion.ok_or("every evaluation failed")?;
     assert!(champion.verify(&registry)?.is_identical());
     let worth = |engine| -> Result<(f64, bool), Box<dyn Error>> {
-        let nominal = gambol::config::RunConfig {
+        let reference = gambol::config::RunConfig {
             engine,
             variation: Default::default(),
             trials: Trials::default(),
-            rehearsal: None,
+            training_steps: None,
             ..config.clone()
         };
-        let mut fallen = nominal.clone();
+        let mut fallen = reference.clone();
         // A term that ends an episode says whether it would have ended.
         fallen.movement.terms.push(serde_json::from_value(serde_json::json!({ "term": "fall-ends", "weight": 0.0 }))?);
         let evaluate = |config: &gambol::config::RunConfig| -> Result<ne_core::Evaluation, Box<dyn Error>> {
             let setup = Setup::new(config, &registry)?;
             Ok(setup.task.evaluate(&mut champion.network.clone(), Seed::of_run(seed)))
         };
-        let fitness = evaluate(&nominal)?.fitness().map_or(f64::NEG_INFINITY, f64::from);
+        let fitness = evaluate(&reference)?.fitness().map_or(f64::NEG_INFINITY, f64::from);
         let falls = evaluate(&fallen)?.measurements.get("fall-ends").is_some_and(|&falls| falls > 0.0);
         Ok((fitness, falls))
     };

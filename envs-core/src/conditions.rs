@@ -38,7 +38,7 @@ const FASTEST_PUSH: f32 = 100.0;
 
 impl Conditions {
     /// The world as the settings have it, for a creature with so many actuated joints.
-    pub fn nominal(motors: usize) -> Self {
+    pub fn reference(motors: usize) -> Self {
         Self {
             friction: 1.0,
             mass: 1.0,

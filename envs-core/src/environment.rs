@@ -144,9 +144,9 @@ impl<E: Engine> CreatureEnvironment<E> {
         if depth > DEEPEST_START {
             return Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth });
         }
-        let nominal = Conditions::nominal(motors.len());
-        let engine = E::new(&blueprint, &settings, &landscape.ground, &nominal)?;
-        let settled = Settled::new(engine, &blueprint, &settings, &nominal, &landscape)
+        let reference = Conditions::reference(motors.len());
+        let engine = E::new(&blueprint, &settings, &landscape.ground, &reference)?;
+        let settled = Settled::new(engine, &blueprint, &settings, &reference, &landscape)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
         let uneven_ground = landscape.ground != Ground::flat();

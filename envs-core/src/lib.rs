@@ -38,7 +38,7 @@
 //! let trial = Variation::light().draw(Seed::of_run(1), 2);
 //! assert!((0.7..=1.3).contains(&trial.friction));
 //! assert!(trial.turns.iter().all(|turn| turn.abs() <= 0.05));
-//! assert_eq!(Variation::default().draw(Seed::of_run(1), 2), Conditions::nominal(2));
+//! assert_eq!(Variation::default().draw(Seed::of_run(1), 2), Conditions::reference(2));
 //! # Ok::<(), ne_core::SettingError>(())
 //! ```
 

@@ -22,7 +22,7 @@ impl LaneEngine {
         &self.world
     }
 
-    /// Whether another creature's world is of the same kind: only then can one herd have both.
+    /// Whether another creature's world is of the same kind: only then can one batch have both.
     pub(crate) fn is_like(&self, other: &Self) -> bool {
         self.world.is_level() == other.world.is_level()
     }

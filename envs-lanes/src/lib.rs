@@ -42,9 +42,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod batch;
 mod engine;
 mod episode;
-mod herd;
 mod instructions;
 mod lanes;
 mod net;

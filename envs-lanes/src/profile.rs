@@ -1,4 +1,4 @@
-use crate::{Instructions, LANES, LaneEpisode, herd::Herd};
+use crate::{Instructions, LANES, LaneEpisode, batch::Batch};
 use ne_core::{Failure, Seed};
 use ne_net::Network;
 use std::time::Instant;
@@ -92,7 +92,7 @@ impl Profile {
 }
 
 impl LaneEpisode {
-    /// Times the parts of `steps` steps of a full herd in which every creature has this controller. The clock is read
+    /// Times the parts of `steps` steps of a full batch in which every creature has this controller. The clock is read
     /// between the parts, which slows them down a little; what reading takes is subtracted.
     ///
     /// # Errors
@@ -100,10 +100,10 @@ impl LaneEpisode {
     pub fn profile(&self, network: &Network, steps: u32, instructions: Instructions) -> Result<Profile, Failure> {
         let settled = self.environment().settled(Seed::of_run(1))?;
         let topology = network.topology();
-        let mut herd: Herd<LANES> = Herd::new(self.environment(), &settled, Some(&topology), instructions);
+        let mut batch: Batch<LANES> = Batch::new(self.environment(), &settled, Some(&topology), instructions);
         for lane in 0..LANES {
-            herd.load(lane, network);
-            herd.begin(lane, &settled);
+            batch.load(lane, network);
+            batch.begin(lane, &settled);
         }
         let mut snapshots: Vec<Snapshot> = vec![settled.snapshot.clone(); LANES];
         let mut profile = Profile { seconds: [f64::INFINITY; Part::ALL.len()] };
@@ -111,11 +111,11 @@ impl LaneEpisode {
             let mut laps = Laps::start();
             let steps = steps.div_ceil(ROUNDS);
             for _ in 0..steps {
-                herd.sense();
+                batch.sense();
                 laps.lap(Part::SenseAndThink);
-                herd.step_timed(Some(&mut laps));
+                batch.step_timed(Some(&mut laps));
                 for (lane, snapshot) in snapshots.iter_mut().enumerate() {
-                    herd.show(lane, snapshot)?;
+                    batch.show(lane, snapshot)?;
                 }
                 laps.lap(Part::Measure);
             }

@@ -1,4 +1,4 @@
-use crate::{LANES, LaneEngine, LaneEnvironment, herd::Herd, instructions::Instructions};
+use crate::{LANES, LaneEngine, LaneEnvironment, batch::Batch, instructions::Instructions};
 use envs_core::Settled;
 use ne_core::{Failure, Phenotype};
 use ne_net::Network;
@@ -40,9 +40,9 @@ pub fn play(
         let first = plays[first].start;
         let is_like = |&index: &usize| plays[index].start.engine.is_like(&first.engine);
         let (alike, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_like);
-        let herd = Herd::new(environment, first, common.as_ref(), Instructions::best());
-        let seats = (0..LANES).map(|_| None).collect();
-        Stage { plays, herd, seats, waiting: alike.into_iter() }.play(&mut observe, &mut outcomes);
+        let batch = Batch::new(environment, first, common.as_ref(), Instructions::best());
+        let slots = (0..LANES).map(|_| None).collect();
+        Stage { plays, batch, slots, waiting: alike.into_iter() }.play(&mut observe, &mut outcomes);
         waiting = others;
     }
     outcomes
@@ -61,13 +61,13 @@ fn check_shape(environment: &LaneEnvironment, network: &Network) -> Result<(), F
 /// Plays going on side by side.
 struct Stage<'a> {
     plays: &'a [Play<'a>],
-    herd: Herd<LANES>,
-    seats: Vec<Option<Seat>>,
+    batch: Batch<LANES>,
+    slots: Vec<Option<Slot>>,
     waiting: std::vec::IntoIter<usize>,
 }
 
 /// A play in a lane.
-struct Seat {
+struct Slot {
     play: usize,
     /// The controller, if it thinks for itself.
     network: Option<Network>,
@@ -77,45 +77,45 @@ struct Seat {
 impl Stage<'_> {
     fn play(&mut self, observe: &mut impl FnMut(usize, &Snapshot) -> bool, outcomes: &mut [Outcome]) {
         for lane in 0..LANES {
-            self.seat_next(lane, observe);
+            self.slot_next(lane, observe);
         }
-        while self.seats.iter().any(Option::is_some) {
-            let seats = &mut self.seats;
-            self.herd.think(|lane, inputs, outputs| {
-                if let Some(network) = seats[lane].as_mut().and_then(|seat| seat.network.as_mut()) {
+        while self.slots.iter().any(Option::is_some) {
+            let slots = &mut self.slots;
+            self.batch.think(|lane, inputs, outputs| {
+                if let Some(network) = slots[lane].as_mut().and_then(|slot| slot.network.as_mut()) {
                     network.activate(inputs, outputs);
                 }
             });
-            self.herd.step();
+            self.batch.step();
             for lane in 0..LANES {
-                let Some(seat) = &mut self.seats[lane] else { continue };
-                let (steps, time_step) = (self.herd.steps(lane), self.herd.time_step(lane));
-                let failure = self.herd.show(lane, &mut seat.snapshot).err();
-                let goes_on = failure.is_none() && observe(seat.play, &seat.snapshot);
-                if !goes_on || steps >= self.plays[seat.play].steps {
-                    outcomes[seat.play] = Outcome { steps, time_step, failure };
-                    self.seat_next(lane, observe);
+                let Some(slot) = &mut self.slots[lane] else { continue };
+                let (steps, time_step) = (self.batch.steps(lane), self.batch.time_step(lane));
+                let failure = self.batch.show(lane, &mut slot.snapshot).err();
+                let goes_on = failure.is_none() && observe(slot.play, &slot.snapshot);
+                if !goes_on || steps >= self.plays[slot.play].steps {
+                    outcomes[slot.play] = Outcome { steps, time_step, failure };
+                    self.slot_next(lane, observe);
                 }
             }
         }
     }
 
     /// Begins the next play that lasts longer than its start.
-    fn seat_next(&mut self, lane: usize, observe: &mut impl FnMut(usize, &Snapshot) -> bool) {
-        self.seats[lane] = None;
+    fn slot_next(&mut self, lane: usize, observe: &mut impl FnMut(usize, &Snapshot) -> bool) {
+        self.slots[lane] = None;
         for index in self.waiting.by_ref() {
             let Play { network, start, steps } = self.plays[index];
             if !observe(index, &start.snapshot) || steps == 0 {
                 continue;
             }
-            self.herd.load(lane, network);
-            self.herd.begin(lane, start);
-            let network = (!self.herd.thinks()).then(|| {
+            self.batch.load(lane, network);
+            self.batch.begin(lane, start);
+            let network = (!self.batch.thinks()).then(|| {
                 let mut network = network.clone();
                 network.reset();
                 network
             });
-            self.seats[lane] = Some(Seat { play: index, network, snapshot: start.snapshot.clone() });
+            self.slots[lane] = Some(Slot { play: index, network, snapshot: start.snapshot.clone() });
             return;
         }
     }

@@ -4,7 +4,7 @@
 //! what where is chance, and changes no result: a lane knows nothing of its neighbours, and the trials of an individual are
 //! added up in their order once all have been played.
 
-use crate::{LANES, LaneEngine, LaneEpisode, herd::Herd};
+use crate::{LANES, LaneEngine, LaneEpisode, batch::Batch};
 use envs_core::Settled;
 use ne_core::{Evaluation, Failure, Phenotype, Seed, Task, Threads};
 use ne_net::{DenseNet, GraphNet, Network, Topology};
@@ -227,13 +227,13 @@ impl<'a, 'b> Programme<'a, 'b> {
 struct Stage<'a, 'b> {
     episode: &'a LaneEpisode,
     programme: &'a Programme<'a, 'b>,
-    herd: Herd<LANES>,
-    seats: Vec<Seat<'b>>,
+    batch: Batch<LANES>,
+    slots: Vec<Slot<'b>>,
     done: Vec<(usize, u32, Trial)>,
 }
 
 /// A lane.
-struct Seat<'b> {
+struct Slot<'b> {
     /// What is played in it.
     playing: Option<Playing<'b>>,
     movement: Box<dyn Movement>,
@@ -261,16 +261,16 @@ impl<'a, 'b> Stage<'a, 'b> {
             return Vec::new();
         };
         programme.players.fetch_add(1, Relaxed);
-        let herd = Herd::new(episode.environment(), settled, programme.cast.topology(), episode.instructions());
-        let seat = || Seat { playing: None, movement: episode.movement.clone(), snapshot: Snapshot::default() };
-        let seats = (0..LANES).map(|_| seat()).collect();
-        let mut stage = Self { episode, programme, herd, seats, done: Vec::new() };
+        let batch = Batch::new(episode.environment(), settled, programme.cast.topology(), episode.instructions());
+        let slot = || Slot { playing: None, movement: episode.movement.clone(), snapshot: Snapshot::default() };
+        let slots = (0..LANES).map(|_| slot()).collect();
+        let mut stage = Self { episode, programme, batch, slots, done: Vec::new() };
         for lane in 0..LANES {
-            stage.seat_next(lane);
+            stage.slot_next(lane);
         }
         let (mut stepped, mut played) = (0, 0);
         loop {
-            let busy = stage.seats.iter().filter(|seat| seat.playing.is_some()).count();
+            let busy = stage.slots.iter().filter(|slot| slot.playing.is_some()).count();
             if busy == 0 {
                 break;
             }
@@ -290,24 +290,24 @@ impl<'a, 'b> Stage<'a, 'b> {
     }
 
     fn step(&mut self) {
-        let Self { herd, seats, .. } = self;
-        herd.think(|lane, inputs, outputs| match &mut seats[lane].playing {
+        let Self { batch, slots, .. } = self;
+        batch.think(|lane, inputs, outputs| match &mut slots[lane].playing {
             Some(Playing { mind: Mind::OfItsOwn(network), .. }) => network.activate(inputs, outputs),
             Some(Playing { mind: Mind::Other(phenotype), .. }) => phenotype.activate(inputs, outputs),
             Some(Playing { mind: Mind::InLanes, .. }) | None => {}
         });
-        herd.step();
+        batch.step();
     }
 
     /// How a lane's trial has ended, if it has.
     fn judge(&mut self, lane: usize) -> Option<Outcome> {
-        let (herd, seat) = (&self.herd, &mut self.seats[lane]);
-        seat.playing.as_ref()?;
-        let (steps, time_step) = (herd.steps(lane), herd.time_step(lane));
-        if let Err(failure) = herd.show(lane, &mut seat.snapshot) {
+        let (batch, slot) = (&self.batch, &mut self.slots[lane]);
+        slot.playing.as_ref()?;
+        let (steps, time_step) = (batch.steps(lane), batch.time_step(lane));
+        if let Err(failure) = batch.show(lane, &mut slot.snapshot) {
             return Some(Outcome { steps, time_step, failure: Some(failure) });
         }
-        let failure = match seat.movement.observe(&seat.snapshot) {
+        let failure = match slot.movement.observe(&slot.snapshot) {
             Verdict::Fail(reason) => Some(Failure::Unstable { what: reason.into() }),
             Verdict::GoOn if steps < self.episode.steps() => return None,
             Verdict::GoOn | Verdict::End => None,
@@ -318,10 +318,10 @@ impl<'a, 'b> Stage<'a, 'b> {
     /// Counts a trial, and begins the next.
     fn end_trial(&mut self, lane: usize, outcome: Outcome) {
         let programme = self.programme;
-        let seat = &mut self.seats[lane];
-        let Some(playing) = &mut seat.playing else { return };
+        let slot = &mut self.slots[lane];
+        let Some(playing) = &mut slot.playing else { return };
         let (individual, trial) = (playing.individual, programme.trials[playing.trials.start]);
-        let ended = Trial::new(outcome, &*seat.movement);
+        let ended = Trial::new(outcome, &*slot.movement);
         playing.trials.start += 1;
         if ended.failed() {
             programme.failed[individual].fetch_min(trial, Relaxed);
@@ -329,23 +329,23 @@ impl<'a, 'b> Stage<'a, 'b> {
         }
         self.done.push((individual, trial, ended));
         if playing.trials.is_empty() {
-            self.seat_next(lane);
+            self.slot_next(lane);
         } else {
             self.begin_trial(lane);
         }
     }
 
-    fn seat_next(&mut self, lane: usize) {
+    fn slot_next(&mut self, lane: usize) {
         let programme = self.programme;
-        if let Some(Playing { individual, mind: Mind::Other(phenotype), .. }) = self.seats[lane].playing.take()
+        if let Some(Playing { individual, mind: Mind::Other(phenotype), .. }) = self.slots[lane].playing.take()
             && let Cast::Others(others) = programme.cast
         {
             *others[individual].lock().unwrap_or_else(PoisonError::into_inner) = Some(phenotype);
         }
         let Some(&Job { individual, ref trials }) = programme.next() else { return };
         let mind = match programme.cast {
-            Cast::Nets { nets, .. } if self.herd.thinks() => {
-                self.herd.load(lane, &nets[individual]);
+            Cast::Nets { nets, .. } if self.batch.thinks() => {
+                self.batch.load(lane, &nets[individual]);
                 Mind::InLanes
             }
             Cast::Nets { nets, .. } => Mind::OfItsOwn(Box::new(nets[individual].clone().into_owned())),
@@ -357,12 +357,12 @@ impl<'a, 'b> Stage<'a, 'b> {
                 }
             }
         };
-        self.seats[lane].playing = Some(Playing { individual, trials: trials.clone(), mind });
+        self.slots[lane].playing = Some(Playing { individual, trials: trials.clone(), mind });
         self.begin_trial(lane);
     }
 
     fn begin_trial(&mut self, lane: usize) {
-        let Seat { playing: Some(Playing { trials, mind, .. }), movement, snapshot } = &mut self.seats[lane] else {
+        let Slot { playing: Some(Playing { trials, mind, .. }), movement, snapshot } = &mut self.slots[lane] else {
             return;
         };
         match mind {
@@ -371,7 +371,7 @@ impl<'a, 'b> Stage<'a, 'b> {
             Mind::Other(phenotype) => phenotype.reset(),
         }
         let Ok(settled) = &self.programme.starts[self.programme.trials[trials.start] as usize] else { return };
-        self.herd.begin(lane, settled);
+        self.batch.begin(lane, settled);
         snapshot.clone_from(&settled.snapshot);
         movement.begin(snapshot);
     }

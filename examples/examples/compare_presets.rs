@@ -93,7 +93,7 @@ fn best(
     let Ok(champion) = Champion::read(&folder.champion()) else { return Ok(f64::NEG_INFINITY) };
     let plain = MovementSpec::new(movement);
     let parts = EpisodeParts { movement: &plain, ..champion.episode_parts() };
-    let episode = parts.nominal().build(&Registry::default())?;
+    let episode = parts.reference().build(&Registry::default())?;
     let evaluation = episode.evaluate(&mut champion.network.clone(), Seed::of_run(seed));
     Ok(evaluation.fitness().map_or(f64::NEG_INFINITY, f64::from))
 }

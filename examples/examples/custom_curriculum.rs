@@ -6,7 +6,7 @@ use gambol::Registry;
 use gambol::{
     config::RunConfig,
     report::write_report,
-    shaping::{Curriculum, Journey, Leg, PlannedStage, legs, train_curriculum},
+    shaping::{Curriculum, Leg, PlannedStage, StageProgress, legs, train_curriculum},
     training::TrainOptions,
 };
 use ne_core::{Decision, Moment, Promotion};
@@ -58,7 +58,7 @@ impl Promotion for KeepsUp {
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut base = Registry::default().config("default", creatures::find("tetrapod-2")?, "running")?;
     base.strategy.set_population(16);
-    base.rehearsal = Some(100);
+    base.training_steps = Some(100);
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     let options = TrainOptions {
@@ -69,7 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let curriculum = WiderAndWider { base: base.clone(), stages: 6 };
     let told = &mut |stage: &PlannedStage, _: Option<&_>| println!("{}", stage.name);
-    let outcome = train_curriculum(&curriculum, &base, &path, Journey { on_leg: told }, options)?;
+    let outcome = train_curriculum(&curriculum, &base, &path, StageProgress { on_leg: told }, options)?;
     for leg in legs(&outcome.folder)? {
         println!("{:02}-{}: {:?} after {} generations", leg.number, leg.name, leg.decision, leg.progress.generations);
     }

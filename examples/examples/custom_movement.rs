@@ -6,7 +6,7 @@
 //! Run it: `cargo run --release -p gambol-examples --example custom_movement`
 
 use gambol::Registry;
-use gambol::lesson::teach;
+use gambol::complete_run::teach;
 use std::error::Error;
 use tasks::{Movement, Snapshot, Verdict, conformance::check_movement};
 

@@ -15,7 +15,7 @@ use gambol::{
     episode_parts::EpisodeParts,
     obstacles::ObstaclesPassed,
     request::Request,
-    shaping::{Journey, Stages, train_stages},
+    shaping::{StageProgress, Stages, train_stages},
     training::{Outcome, TrainOptions, train},
     trajectory::Recording,
 };
@@ -100,7 +100,7 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     };
     let _: Outcome = match config.stages.is_empty() {
         true => train(config, &part, options)?,
-        false => train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?,
+        false => train_stages(config, &part, StageProgress { on_leg: &mut |_, _| {} }, options)?,
     };
     Ok(fs::rename(part, folder)?)
 }
@@ -112,7 +112,7 @@ fn cross(folder: &Path, last: &RunConfig, registry: &Registry) -> Result<(usize,
     let steps = (SECONDS / last.physics.time_step).round() as u32;
     let movement = MovementSpec { steps: Some(steps), ..MovementSpec::new("running") };
     let parts = EpisodeParts { movement: &movement, terrain: &last.terrain, ..champion.episode_parts() };
-    let episode = parts.nominal().build(registry)?;
+    let episode = parts.reference().build(registry)?;
     let mut recording = Recording::default();
     episode.play(&mut champion.network.clone(), Seed::of_run(1), &mut recording);
     let passed = ObstaclesPassed::count(episode.environment().landscape(), &recording.snapshots);

@@ -18,7 +18,7 @@ use gambol::{
     episode_parts::EpisodeParts,
     gait,
     request::Request,
-    shaping::{Journey, train_stages},
+    shaping::{StageProgress, train_stages},
     training::{TrainOptions, train},
 };
 use ne_core::{Rule, Seed, StopConditions, Task};
@@ -150,7 +150,7 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     let options = TrainOptions { threads: 0, registry, signal: Default::default(), on_generation: &mut |_| {} };
     match config.stages.is_empty() {
         true => train(config, &part, options)?,
-        false => train_stages(config, &part, Journey { on_leg: &mut |_, _| {} }, options)?,
+        false => train_stages(config, &part, StageProgress { on_leg: &mut |_, _| {} }, options)?,
     };
     Ok(fs::rename(part, folder)?)
 }
@@ -160,7 +160,7 @@ fn judge(folder: &Path) -> Result<(f64, bool), Box<dyn Error>> {
     let registry = Registry::default();
     let Ok(champion) = Champion::read(&folder.join("champion.json")) else { return Ok((0.0, false)) };
     let movement = MovementSpec { steps: Some(1000), ..MovementSpec::new("running") };
-    let episode = EpisodeParts { movement: &movement, ..champion.episode_parts() }.nominal().build(&registry)?;
+    let episode = EpisodeParts { movement: &movement, ..champion.episode_parts() }.reference().build(&registry)?;
     let distance = episode.evaluate(&mut champion.network.clone(), Seed::of_run(1)).fitness().map_or(0.0, f64::from);
     let verdict = gait::judge(&champion, &registry)?.verdict;
     Ok((distance, verdict.is_some_and(|verdict| verdict.usable)))

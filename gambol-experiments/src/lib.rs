@@ -4,8 +4,8 @@
 //! |---|---|
 //! | [`compare`] | strategies against each other, with paired seeds and statistics |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
-//! | [`yardsticks`] | the strategies on classic tasks, beside published numbers |
+//! | [`benchmarks`] | the strategies on classic tasks, beside published numbers |
 
+pub mod benchmarks;
 pub mod compare;
 pub mod reproduce;
-pub mod yardsticks;

@@ -90,7 +90,7 @@ pub struct Training {
     pub bodies: usize,
     /// Whether the engine of training gives it, in the champion's world, another fitness than rapier.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub parted: bool,
+    pub diverged: bool,
 }
 
 fn one_body() -> usize {
@@ -144,19 +144,19 @@ impl Champion {
         strategy: &str,
         champion: &ne_core::Champion<G>,
     ) -> Self {
-        let ne_core::Champion { seed, generation, fitness, trained, parted, .. } = *champion;
+        let ne_core::Champion { seed, generation, fitness, trained, diverged, .. } = *champion;
         let network: Network = champion.genome.express().into();
-        let (trials, variation, (trajectory, evaluation)) = match &setup.nominal {
-            Some(nominal) => (Trials::default(), Variation::default(), nominal.replay(&network, seed)),
+        let (trials, variation, (trajectory, evaluation)) = match &setup.reference {
+            Some(reference) => (Trials::default(), Variation::default(), reference.replay(&network, seed)),
             None => (config.trials, config.variation, replay(&setup.episode, config.trials, &network, seed)),
         };
-        let training = (config.engine != EngineChoice::Rapier || setup.nominal.is_some()).then(|| Training {
+        let training = (config.engine != EngineChoice::Rapier || setup.reference.is_some()).then(|| Training {
             engine: config.engine,
             fitness: trained.unwrap_or(fitness),
             trials: config.trials,
             variation: config.variation,
             bodies: config.bodies(),
-            parted: parted || Some(fitness) != evaluation.fitness(),
+            diverged: diverged || Some(fitness) != evaluation.fitness(),
         });
         Self {
             creature: config.creature.clone(),
@@ -187,8 +187,8 @@ impl Champion {
     }
 
     /// Whether the engine of training and rapier disagree about it.
-    pub fn parted(&self) -> bool {
-        self.trained.is_some_and(|trained| trained.parted)
+    pub fn diverged(&self) -> bool {
+        self.trained.is_some_and(|trained| trained.diverged)
     }
 
     /// Reads a champion file.

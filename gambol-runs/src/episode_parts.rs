@@ -95,7 +95,7 @@ pub struct EpisodeParts<'a> {
     pub actuation: Actuation,
 }
 
-/// Varied worlds a finalist is proved in.
+/// Varied worlds a candidate is proved in.
 const PROOFS: u32 = 4;
 
 impl EpisodeParts<'_> {
@@ -139,7 +139,7 @@ impl EpisodeParts<'_> {
 
     /// The same without variation, and with one trial: more would all be alike.
     #[must_use]
-    pub fn nominal(self) -> Self {
+    pub fn reference(self) -> Self {
         Self { trials: Trials::default(), variation: Variation::default(), ..self }
     }
 

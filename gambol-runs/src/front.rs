@@ -90,11 +90,13 @@ impl Front {
 }
 
 impl SavedPoint {
-    /// The point as a champion, with all that is needed to move and to verify it. Where a jury chooses the
+    /// The point as a champion, with all that is needed to move and to verify it. Where a champion selection chooses the
     /// champion, it is one in the world, the episode and the body champions are judged in.
     pub fn champion(&self, config: &RunConfig, setup: &Setup) -> Champion {
-        let (seed, judged) = match &setup.nominal {
-            Some(nominal) => (nominal.seed, nominal.task.evaluate(&mut self.network.clone(), nominal.seed).fitness()),
+        let (seed, judged) = match &setup.reference {
+            Some(reference) => {
+                (reference.seed, reference.task.evaluate(&mut self.network.clone(), reference.seed).fitness())
+            }
             None => (Seed::of_run(config.seed).generation(self.generation), None),
         };
         let found = ne_core::Champion {
@@ -102,9 +104,9 @@ impl SavedPoint {
             fitness: judged.unwrap_or(self.fitness),
             generation: self.generation,
             seed,
-            trained: setup.nominal.as_ref().map(|_| self.fitness),
-            parted: false,
-            grade: 0,
+            trained: setup.reference.as_ref().map(|_| self.fitness),
+            diverged: false,
+            tier: 0,
         };
         Champion::new(config, setup, config.strategy.name(), &found)
     }

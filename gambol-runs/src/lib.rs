@@ -45,21 +45,21 @@
 
 pub mod assembly;
 pub mod champion;
+mod champion_selection;
 pub mod config;
 pub mod defaults;
 pub mod episode_parts;
 pub mod front;
 pub mod gait;
-mod jury;
-pub mod nominal;
 pub mod obstacles;
 pub mod perturbation;
 pub mod presets;
-pub mod proving;
 mod recorder;
+pub mod reference;
 mod registry;
 pub mod request;
 pub mod robust;
+pub mod robustness_check;
 pub mod run_folder;
 pub mod setup;
 pub mod shaping;

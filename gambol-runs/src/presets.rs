@@ -1,7 +1,7 @@
 //! Named starting points of a configuration.
 
 use crate::{
-    config::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, default_finalists},
+    config::{ControllerSettings, EngineChoice, RecordSettings, RunConfig, StrategySettings, default_candidates},
     defaults::{self, DefaultsCatalogue},
     suggest,
 };
@@ -128,8 +128,8 @@ fn bare(creature: Creature, movement: &str) -> RunConfig {
         movement: MovementSpec::new(movement),
         trials: Trials::default(),
         variation: Variation::default(),
-        rehearsal: None,
-        heats: Vec::new(),
+        training_steps: None,
+        rungs: Vec::new(),
         engine: EngineChoice::Lanes,
         strategy: StrategySettings::new("cma-es", &CmaEsSettings::default()),
         controller: ControllerSettings {
@@ -148,7 +148,7 @@ fn bare(creature: Creature, movement: &str) -> RunConfig {
         record: RecordSettings {
             checkpoint_every: 10,
             populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],
-            finalists: default_finalists(),
+            candidates: default_candidates(),
         },
         stages: Vec::new(),
         origin: None,

@@ -49,7 +49,7 @@ impl EarlierLines {
         let mut best = None;
         let mut entries = 0;
         for report in &reports {
-            let champion = report.best_so_far.map(|fitness| Standing { grade: report.grade, fitness });
+            let champion = report.best_so_far.map(|fitness| Standing { tier: report.tier, fitness });
             entries += usize::from(champion > best);
             entries += usize::from(config.record.populations_at.contains(&report.generation));
             best = champion;
@@ -76,14 +76,14 @@ impl<'a> Recorder<'a> {
 
     /// Brings everything to the disk: lines first, then champion and front, then checkpoint.
     ///
-    /// Between two hearings of a jury the champion file has whoever would be champion now. The checkpoint does not know of
+    /// Between two re-evaluations of a champion selection the champion file has whoever would be champion now. The checkpoint does not know of
     /// it, so that the run goes on as if nobody had asked.
     pub(crate) fn save<S: Strategy>(&mut self, evolution: &Evolution<S>) -> Result<(), FolderError>
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
         self.sync()?;
-        self.write_champion(evolution.strategy().name(), evolution.champion_if_heard().as_ref())?;
+        self.write_champion(evolution.strategy().name(), evolution.champion_if_re_evaluated().as_ref())?;
         self.write_front(evolution.strategy(), evolution.progress().generations)?;
         Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
     }

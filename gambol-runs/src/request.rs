@@ -121,7 +121,7 @@ impl Request {
         }
         if self.unvaried {
             base.variation = Variation::default();
-            base.rehearsal = None;
+            base.training_steps = None;
         }
         if let (Some(source), None) = (&self.from, &layer) {
             base = shaping::adopt(&base, source).map_err(|error| RequestError::From(Box::new(error)))?;

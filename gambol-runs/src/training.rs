@@ -3,17 +3,17 @@
 use crate::Registry;
 use crate::{
     champion::Champion,
+    champion_selection::ReferenceSelection,
     config::RunConfig,
     episode_parts::SetupError,
-    jury::NominalJury,
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
     setup::Setup,
     strategies::AnyStrategy,
 };
 use ne_core::{
-    Decision, Evolution, EvolutionError, GenerationReport, Genome, Heats, Moment, Observer, Parallel, Progress,
-    Promotion, Seed, SettingError, StopConditions, StopReason, StopSignal, Task, ThreadsError,
+    Decision, Evolution, EvolutionError, GenerationReport, Genome, Moment, Observer, Parallel, Progress, Promotion,
+    Seed, SettingError, StopConditions, StopReason, StopSignal, SuccessiveHalving, Task, ThreadsError,
 };
 use std::{path::Path, sync::Arc};
 
@@ -236,8 +236,11 @@ fn drive(
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError> {
     let mut evolution = evolution.with_signal(options.signal);
-    if let Some(nominal) = &setup.nominal {
-        evolution = evolution.with_jury(config.record.hearings(), NominalJury::new(nominal, evaluator.clone()));
+    if let Some(reference) = &setup.reference {
+        evolution = evolution.with_champion_selection(
+            config.record.re_evaluations(),
+            ReferenceSelection::new(reference, evaluator.clone()),
+        );
     }
     let generations = evolution.progress().generations;
     let mut recorder = Recorder::new(&folder, config, setup, earlier, options.on_generation)?;
@@ -247,8 +250,8 @@ fn drive(
     }
     let ended = {
         let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(&mut recorder)];
-        // The jury evaluates its finalists without heats: all of them are promising.
-        evolution.run(&setup.task, &Heats::new(&*evaluator, setup.heats()), &mut observers)
+        // The champion selection evaluates its candidates without rungs: all of them are promising.
+        evolution.run(&setup.task, &SuccessiveHalving::new(&*evaluator, setup.rungs()), &mut observers)
     };
     let progress = evolution.progress();
     let reason = ended.map_err(|source| TrainError::BrokeOff {

@@ -6,15 +6,15 @@
 //! | crate | modules |
 //! |---|---|
 //! | `gambol-runs`: one run | [`config`], [`strategies`], [`defaults`], [`presets`], [`Registry`], [`setup`], [`training`], [`shaping`], [`champion`], [`gait`], [`robust`], [`run_folder`] and others |
-//! | `gambol-experiments`: many runs | [`compare`], [`reproduce`], [`yardsticks`] |
+//! | `gambol-experiments`: many runs | [`compare`], [`reproduce`], [`benchmarks`] |
 //! | `gambol-reports`: pages and pictures | [`report`], [`sheet`], [`dot`] |
 //!
-//! [`lesson`] trains, reports and verifies in one call.
+//! [`complete_run`] trains, reports and verifies in one call.
 
 mod commands;
-pub mod lesson;
+pub mod complete_run;
 
 pub use commands::program;
-pub use gambol_experiments::{compare, reproduce, yardsticks};
+pub use gambol_experiments::{benchmarks, compare, reproduce};
 pub use gambol_reports::{dot, report, sheet};
 pub use gambol_runs::*;

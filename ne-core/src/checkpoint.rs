@@ -1,4 +1,4 @@
-use crate::{Champion, Decision, Finalist, Progress, Seed, Strategy, archive, archive::ArchiveError};
+use crate::{Candidate, Champion, Decision, Progress, Seed, Strategy, archive, archive::ArchiveError};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::path::Path;
 
@@ -21,9 +21,9 @@ pub struct Checkpoint<S: Strategy> {
     pub progress: Progress,
     /// The best so far.
     pub champion: Option<Champion<S::Genome>>,
-    /// Those who wait for the next hearing, if a jury chooses the champion.
+    /// Those who wait for the next re-evaluation, if a champion selection chooses the champion.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
-    pub finalists: Vec<Finalist<S::Genome>>,
+    pub candidates: Vec<Candidate<S::Genome>>,
     /// What a [`Promotion`](crate::Promotion) has decided after the last generation.
     #[serde(default, skip_serializing_if = "Decision::is_stay")]
     pub decision: Decision,
@@ -59,7 +59,7 @@ pub(crate) struct CheckpointRef<'a, S: Strategy> {
     pub(crate) progress: Progress,
     pub(crate) champion: Option<&'a Champion<S::Genome>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    pub(crate) finalists: &'a [Finalist<S::Genome>],
+    pub(crate) candidates: &'a [Candidate<S::Genome>],
     #[serde(skip_serializing_if = "Decision::is_stay")]
     pub(crate) decision: Decision,
     pub(crate) strategy: &'a S,

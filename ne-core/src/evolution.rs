@@ -1,10 +1,10 @@
 use crate::{
-    Checkpoint, Decision, Evaluation, Evaluator, Finalist, Fitness, Generation, GenerationReport, HearingReport,
-    Hearings, Jury, Moment, Observer, ObserverError, Promotion, Quantiles, Seed, Standing, StopConditions, StopReason,
-    StopSignal, Strategy, Task,
+    Candidate, ChampionSelection, Checkpoint, Decision, Evaluation, Evaluator, Fitness, Generation, GenerationReport,
+    Moment, Observer, ObserverError, Promotion, Quantiles, ReEvaluationReport, ReEvaluations, Seed, Standing,
+    StopConditions, StopReason, StopSignal, Strategy, Task,
     archive::ArchiveError,
+    champion_selection::{ScheduledSelection, ranking},
     checkpoint,
-    jury::{Court, ranking},
 };
 use serde::{Deserialize, Serialize};
 use std::{fmt, path::Path, time::Instant};
@@ -22,8 +22,8 @@ pub struct Evolution<S: Strategy> {
     signal: StopSignal,
     progress: Progress,
     champion: Option<Champion<S::Genome>>,
-    finalists: Vec<Finalist<S::Genome>>,
-    court: Option<Court<S::Genome>>,
+    candidates: Vec<Candidate<S::Genome>>,
+    selection: Option<ScheduledSelection<S::Genome>>,
     promotion: Option<Rules>,
     decision: Decision,
 }
@@ -47,12 +47,12 @@ pub struct Progress {
     pub evaluations: u64,
     /// Steps of work done.
     pub steps: u64,
-    /// Generations since the champion was found; with a [`Jury`], as of the last hearing.
+    /// Generations since the champion was found; with a [`ChampionSelection`], as of the last re-evaluation.
     pub stagnation: u64,
 }
 
-/// The best individual of a run: the one with the highest fitness, of equals the first. With a [`Jury`] the fitness that
-/// counts is the one before the jury.
+/// The best individual of a run: the one with the highest fitness, of equals the first. With a [`ChampionSelection`] the fitness that
+/// counts is the one before the champion selection.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Champion<G> {
@@ -62,35 +62,35 @@ pub struct Champion<G> {
     pub fitness: Fitness,
     /// The generation it was evaluated in, from 1.
     pub generation: u64,
-    /// The seed it was evaluated with: with it the task, or the jury, gives the fitness again.
+    /// The seed it was evaluated with: with it the task, or the champion selection, gives the fitness again.
     pub seed: Seed,
-    /// The fitness it had in its generation, if a jury has judged it since.
+    /// The fitness it had in its generation, if a champion selection has judged it since.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trained: Option<Fitness>,
-    /// Whether the jury's two ways of evaluating [parted](crate::Judgement::parted) at its hearing.
+    /// Whether the champion selection's two ways of evaluating [diverged](crate::Judgement::diverged) at its re-evaluation.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub parted: bool,
-    /// The [grade](crate::Judgement::grades) the jury gave it; 0 without a jury.
+    pub diverged: bool,
+    /// The [tier](crate::Judgement::tiers) the champion selection gave it; 0 without a champion selection.
     #[serde(default, skip_serializing_if = "is_zero")]
-    pub grade: u8,
+    pub tier: u8,
 }
 
 impl<G> Champion<G> {
     /// Where it stands.
     pub fn standing(&self) -> Standing {
-        Standing { grade: self.grade, fitness: self.fitness }
+        Standing { tier: self.tier, fitness: self.fitness }
     }
 
     /// The same champion with its genome as another type.
     pub fn map<H>(self, convert: impl FnOnce(G) -> H) -> Champion<H> {
-        let Self { genome, fitness, generation, seed, trained, parted, grade } = self;
-        Champion { genome: convert(genome), fitness, generation, seed, trained, parted, grade }
+        let Self { genome, fitness, generation, seed, trained, diverged, tier } = self;
+        Champion { genome: convert(genome), fitness, generation, seed, trained, diverged, tier }
     }
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
-fn is_zero(grade: &u8) -> bool {
-    *grade == 0
+fn is_zero(tier: &u8) -> bool {
+    *tier == 0
 }
 
 /// Why a run could not go on.
@@ -123,24 +123,31 @@ pub enum EvolutionError {
 impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {
-        let (progress, finalists, decision) = (Progress::default(), Vec::new(), Decision::Stay);
-        Self::resume(Checkpoint { seed, progress, champion: None, finalists, decision, strategy }, stop)
+        let (progress, candidates, decision) = (Progress::default(), Vec::new(), Decision::Stay);
+        Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, strategy }, stop)
     }
 
-    /// Goes on where a checkpoint was written. A run with a jury needs it [again](Self::with_jury), and so does one with a
+    /// Goes on where a checkpoint was written. A run with a champion selection needs it [again](Self::with_jury), and so does one with a
     /// [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
-        let Checkpoint { seed, progress, champion, finalists, decision, strategy } = checkpoint;
-        let (signal, court, promotion) = (StopSignal::default(), None, None);
-        Self { strategy, seed, stop, signal, progress, champion, finalists, court, promotion, decision }
+        let Checkpoint { seed, progress, champion, candidates, decision, strategy } = checkpoint;
+        let (signal, selection, promotion) = (StopSignal::default(), None, None);
+        Self { strategy, seed, stop, signal, progress, champion, candidates, selection, promotion, decision }
     }
 
-    /// Lets a jury choose the champion. The best of each generation becomes a finalist; at every hearing
-    /// the jury judges them and the best of that generation, and the best of them becomes champion if its fitness before
-    /// the jury is above the champion's. Hearings are used as they are; see [`Hearings::validate`].
+    /// Lets a champion selection choose the champion. The best of each generation becomes a candidate; at every re-evaluation
+    /// the champion selection judges them and the best of that generation, and the best of them becomes champion if its fitness before
+    /// the champion selection is above the champion's. Re-evaluations are used as they are; see [`ReEvaluations::validate`].
     #[must_use]
-    pub fn with_jury(self, hearings: Hearings, jury: impl Jury<S::Genome> + 'static) -> Self {
-        Self { court: Some(Court { hearings, jury: Box::new(jury) }), ..self }
+    pub fn with_champion_selection(
+        self,
+        re_evaluations: ReEvaluations,
+        champion_selection: impl ChampionSelection<S::Genome> + 'static,
+    ) -> Self {
+        Self {
+            selection: Some(ScheduledSelection { re_evaluations, champion_selection: Box::new(champion_selection) }),
+            ..self
+        }
     }
 
     /// Asks a promotion after every generation; with its decision the run ends.
@@ -209,11 +216,11 @@ impl<S: Strategy> Evolution<S> {
         self.progress.generations = generation;
         self.progress.evaluations += evaluations.len() as u64;
         self.progress.steps += evaluations.iter().map(|evaluation| evaluation.steps).sum::<u64>();
-        let (improved, hearing) = match self.court.take() {
-            None => (self.crown(best_of(&genomes, &evaluations, seed), 1), None),
-            Some(court) => {
-                let outcome = self.nominate(&court, &genomes, &evaluations);
-                self.court = Some(court);
+        let (improved, re_evaluation) = match self.selection.take() {
+            None => (self.make_champion(best_of(&genomes, &evaluations, seed), 1), None),
+            Some(selection) => {
+                let outcome = self.nominate(&selection, &genomes, &evaluations);
+                self.selection = Some(selection);
                 outcome
             }
         };
@@ -222,13 +229,13 @@ impl<S: Strategy> Evolution<S> {
             evaluations: self.progress.evaluations,
             steps: self.progress.steps,
             best_so_far: self.champion.as_ref().map(|champion| champion.fitness),
-            grade: self.champion.as_ref().map_or(0, |champion| champion.grade),
+            tier: self.champion.as_ref().map_or(0, |champion| champion.tier),
             fitness: Quantiles::of(&evaluations),
             failures: evaluations.iter().filter(|evaluation| evaluation.outcome.is_err()).count() as u64,
             population: genomes.len() as u64,
             strategy: self.strategy.statistics(),
             species: self.strategy.species(),
-            hearing,
+            re_evaluation,
         };
         if let Some(Rules(promotion)) = &self.promotion {
             let champion = self.champion.as_ref().map(Champion::standing);
@@ -242,7 +249,7 @@ impl<S: Strategy> Evolution<S> {
             evaluations: &evaluations,
             champion: self.champion.as_ref(),
             improved,
-            finalists: &self.finalists,
+            candidates: &self.candidates,
             strategy: &self.strategy,
             progress: self.progress,
             seed: self.seed,
@@ -256,7 +263,7 @@ impl<S: Strategy> Evolution<S> {
     }
 
     /// Makes the candidate champion if it beats the old one; otherwise so many more generations have passed without.
-    fn crown(&mut self, candidate: Option<Champion<S::Genome>>, generations: u64) -> bool {
+    fn make_champion(&mut self, candidate: Option<Champion<S::Genome>>, generations: u64) -> bool {
         let reigning = self.champion.as_ref().map(Champion::standing);
         let improved = candidate.as_ref().is_some_and(|candidate| Some(candidate.standing()) > reigning);
         if improved {
@@ -268,26 +275,26 @@ impl<S: Strategy> Evolution<S> {
         improved
     }
 
-    /// Makes the best of this generation a finalist; if it is time for a hearing, holds it.
+    /// Makes the best of this generation a candidate; if it is time for a re-evaluation, holds it.
     fn nominate(
         &mut self,
-        court: &Court<S::Genome>,
+        selection: &ScheduledSelection<S::Genome>,
         genomes: &[S::Genome],
         evaluations: &[Evaluation],
-    ) -> (bool, Option<HearingReport>) {
+    ) -> (bool, Option<ReEvaluationReport>) {
         let generation = self.progress.generations;
-        let span = court.hearings.span(generation);
-        let count = if span.is_some() { court.hearings.finalists.max(1) } else { 1 };
+        let span = selection.re_evaluations.span(generation);
+        let count = if span.is_some() { selection.re_evaluations.candidates.max(1) } else { 1 };
         let best = ranking(evaluations).into_iter().take(count);
-        self.finalists.extend(best.map(|(index, fitness)| Finalist {
+        self.candidates.extend(best.map(|(index, fitness)| Candidate {
             genome: genomes[index].clone(),
             fitness,
             generation,
         }));
         let Some(span) = span else { return (false, None) };
         let (report, best) =
-            court.hear(&std::mem::take(&mut self.finalists), self.champion.as_ref().map(Champion::standing));
-        (self.crown(best, span), Some(report))
+            selection.hear(&std::mem::take(&mut self.candidates), self.champion.as_ref().map(Champion::standing));
+        (self.make_champion(best, span), Some(report))
     }
 
     /// The best so far, if any evaluation succeeded.
@@ -295,19 +302,19 @@ impl<S: Strategy> Evolution<S> {
         self.champion.as_ref()
     }
 
-    /// The champion there would be if a hearing were held now: the best so far, and of those who wait for one. Changes
-    /// nothing. Without a jury, or with nobody waiting, the [champion](Self::champion).
-    pub fn champion_if_heard(&self) -> Option<Champion<S::Genome>> {
+    /// The champion there would be if a re-evaluation were held now: the best so far, and of those who wait for one. Changes
+    /// nothing. Without a champion selection, or with nobody waiting, the [champion](Self::champion).
+    pub fn champion_if_re_evaluated(&self) -> Option<Champion<S::Genome>> {
         let standing = self.champion.clone();
-        let Some(court) = self.court.as_ref().filter(|_| !self.finalists.is_empty()) else { return standing };
-        let (_, best) = court.hear(&self.finalists, self.champion.as_ref().map(Champion::standing));
+        let Some(selection) = self.selection.as_ref().filter(|_| !self.candidates.is_empty()) else { return standing };
+        let (_, best) = selection.hear(&self.candidates, self.champion.as_ref().map(Champion::standing));
         let place = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
         if place(&best) > place(&standing) { best } else { standing }
     }
 
-    /// Those who wait for the next hearing, in the order in which they were evaluated.
-    pub fn finalists(&self) -> &[Finalist<S::Genome>] {
-        &self.finalists
+    /// Those who wait for the next re-evaluation, in the order in which they were evaluated.
+    pub fn candidates(&self) -> &[Candidate<S::Genome>] {
+        &self.candidates
     }
 
     /// What the promotion said after the last generation.
@@ -336,8 +343,8 @@ impl<S: Strategy> Evolution<S> {
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
         let (seed, progress, decision, strategy) = (self.seed, self.progress, self.decision, &self.strategy);
-        let (champion, finalists) = (self.champion.as_ref(), self.finalists.as_slice());
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, finalists, decision, strategy };
+        let (champion, candidates) = (self.champion.as_ref(), self.candidates.as_slice());
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }
@@ -348,8 +355,8 @@ impl<S: Strategy> Generation<'_, S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
-        let Self { seed, progress, champion, finalists, decision, strategy, .. } = *self;
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, finalists, decision, strategy };
+        let Self { seed, progress, champion, candidates, decision, strategy, .. } = *self;
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }
@@ -364,7 +371,7 @@ fn best_of<G: Clone>(genomes: &[G], evaluations: &[Evaluation], seed: Seed) -> O
         generation: seed.generation_index(),
         seed,
         trained: None,
-        parted: false,
-        grade: 0,
+        diverged: false,
+        tier: 0,
     })
 }

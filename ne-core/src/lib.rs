@@ -11,7 +11,7 @@
 //! | [`Strategy`] | asks for evaluations of genomes, is told their results |
 //! | `Evaluator` | spreads evaluations over threads, or saves them for the promising |
 //! | `Observer` | is told of each generation |
-//! | `Jury` | judges the best of all generations in one world |
+//! | `ChampionSelection` | judges the best of all generations in one world |
 //!
 //! The one decision behind all of them: **a run is a function of its settings and one seed.** No contract hands out a
 //! shared random generator. Whoever needs chance derives a [`RandomStream`] of its own from a [`Seed`], which says where
@@ -102,6 +102,8 @@ mod threads;
 #[cfg(feature = "evolution")]
 pub mod archive;
 #[cfg(feature = "evolution")]
+mod champion_selection;
+#[cfg(feature = "evolution")]
 mod checkpoint;
 #[cfg(feature = "evolution")]
 pub mod digest;
@@ -109,8 +111,6 @@ pub mod digest;
 mod evaluator;
 #[cfg(feature = "evolution")]
 mod evolution;
-#[cfg(feature = "evolution")]
-mod jury;
 #[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
@@ -134,15 +134,15 @@ pub use task::Task;
 pub use threads::Threads;
 
 #[cfg(feature = "evolution")]
+pub use champion_selection::{Candidate, ChampionSelection, Judgement, ReEvaluationReport, ReEvaluations, Standing};
+#[cfg(feature = "evolution")]
 pub use checkpoint::{CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Checkpoint};
 #[cfg(feature = "evolution")]
-pub use evaluator::{Evaluator, Heat, Heats, Serial};
+pub use evaluator::{Evaluator, Rung, Serial, SuccessiveHalving};
 #[cfg(feature = "parallel")]
 pub use evaluator::{Parallel, ThreadsError};
 #[cfg(feature = "evolution")]
 pub use evolution::{Champion, Evolution, EvolutionError, Progress};
-#[cfg(feature = "evolution")]
-pub use jury::{Finalist, HearingReport, Hearings, Judgement, Jury, Standing};
 #[cfg(feature = "evolution")]
 pub use observer::{Generation, Observer, ObserverError};
 #[cfg(feature = "evolution")]

@@ -1,4 +1,4 @@
-use crate::{Champion, Decision, Evaluation, Finalist, GenerationReport, Progress, Seed, StopConditions, Strategy};
+use crate::{Candidate, Champion, Decision, Evaluation, GenerationReport, Progress, Seed, StopConditions, Strategy};
 
 /// What an observer reports when it cannot do its work (a disk is full): the run ends with this error, nothing lost.
 pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
@@ -26,10 +26,10 @@ pub struct Generation<'a, S: Strategy> {
     pub evaluations: &'a [Evaluation],
     /// The best of the run so far, if any evaluation succeeded.
     pub champion: Option<&'a Champion<S::Genome>>,
-    /// Whether the champion is new: of this generation or, with a jury, of this hearing.
+    /// Whether the champion is new: of this generation or, with a champion selection, of this re-evaluation.
     pub improved: bool,
-    /// Those who wait for the next hearing; none without a jury.
-    pub finalists: &'a [Finalist<S::Genome>],
+    /// Those who wait for the next re-evaluation; none without a champion selection.
+    pub candidates: &'a [Candidate<S::Genome>],
     /// The strategy after `tell`.
     pub strategy: &'a S,
     /// Budgets used.

@@ -1,4 +1,4 @@
-use crate::{Evaluation, Fitness, HearingReport, SpeciesReport, Statistic};
+use crate::{Evaluation, Fitness, ReEvaluationReport, SpeciesReport, Statistic};
 use serde::{Deserialize, Serialize};
 
 /// What happened in one generation: plain data, a line of a log.
@@ -11,11 +11,11 @@ pub struct GenerationReport {
     pub evaluations: u64,
     /// Steps of work since the run began.
     pub steps: u64,
-    /// The best fitness since the run began, with a jury the best at a hearing; `None` while there was none.
+    /// The best fitness since the run began, with a champion selection the best at a re-evaluation; `None` while there was none.
     pub best_so_far: Option<Fitness>,
-    /// The champion's [grade](crate::Judgement::grades).
+    /// The champion's [tier](crate::Judgement::tiers).
     #[serde(default, skip_serializing_if = "is_zero")]
-    pub grade: u8,
+    pub tier: u8,
     /// The fitnesses of this generation; `None` if all failed.
     pub fitness: Option<Quantiles>,
     /// How many evaluations failed.
@@ -27,9 +27,9 @@ pub struct GenerationReport {
     /// The species, if the strategy has species.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub species: Vec<SpeciesReport>,
-    /// What came of the hearing, if there is a jury and it sat after this generation.
+    /// What came of the re-evaluation, if there is a champion selection and it sat after this generation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub hearing: Option<HearingReport>,
+    pub re_evaluation: Option<ReEvaluationReport>,
 }
 
 /// The distribution of a generation's fitnesses, failures left out.
@@ -75,8 +75,8 @@ impl Quantiles {
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
-fn is_zero(grade: &u8) -> bool {
-    *grade == 0
+fn is_zero(tier: &u8) -> bool {
+    *tier == 0
 }
 
 #[cfg(test)]

@@ -27,9 +27,9 @@ pub struct StopConditions {
     pub minutes: Option<f64>,
     /// A fitness that is good enough.
     pub target: Option<f64>,
-    /// A [grade](crate::Judgement::grades) of the champion that is good enough.
+    /// A [tier](crate::Judgement::tiers) of the champion that is good enough.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub grade: Option<u8>,
+    pub tier: Option<u8>,
     /// Generations without a better champion, at least 1.
     pub stagnation: Option<u64>,
 }
@@ -48,8 +48,8 @@ pub enum StopReason {
     Minutes,
     /// The target fitness was reached.
     Target,
-    /// The champion has the grade asked for.
-    Grade,
+    /// The champion has the tier asked for.
+    Tier,
     /// No better champion for too long.
     Stagnation,
     /// Somebody asked it to stop (Ctrl-C).
@@ -68,7 +68,7 @@ impl fmt::Display for StopReason {
             Self::Steps => "the physics steps were used up",
             Self::Minutes => "the time was up",
             Self::Target => "the target fitness was reached",
-            Self::Grade => "the champion has the grade asked for",
+            Self::Tier => "the champion has the tier asked for",
             Self::Stagnation => "there was no progress any more",
             Self::Interrupted => "it was interrupted",
             Self::Promoted => "the stage was passed",
@@ -135,7 +135,7 @@ impl StopConditions {
             steps: newer.steps.or(self.steps),
             minutes: newer.minutes.or(self.minutes),
             target: newer.target.or(self.target),
-            grade: newer.grade.or(self.grade),
+            tier: newer.tier.or(self.tier),
             stagnation: newer.stagnation.or(self.stagnation),
         }
     }
@@ -145,8 +145,8 @@ impl StopConditions {
         let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);
         if self.target.zip(best).is_some_and(|(target, best)| best.fitness.get() >= target) {
             Some(StopReason::Target)
-        } else if self.grade.zip(best).is_some_and(|(grade, best)| best.grade >= grade) {
-            Some(StopReason::Grade)
+        } else if self.tier.zip(best).is_some_and(|(tier, best)| best.tier >= tier) {
+            Some(StopReason::Tier)
         } else if used_up(self.generations, progress.generations) {
             Some(StopReason::Generations)
         } else if used_up(self.evaluations, progress.evaluations) {

@@ -1,7 +1,7 @@
 use crate::gait::{JumpingRules, Rules, RunningRules, SwimmingRules};
 use crate::{
-    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Honest, Hopping,
-    Idleness, Jumping, Landing, Leap, LongJump, Movement, Objectives, Posture, Rhythm, Rollovers, Running, Slip,
+    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Hopping, Idleness,
+    Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Posture, Rhythm, Rollovers, Running, Slip,
     Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
@@ -229,7 +229,7 @@ impl Default for MovementCatalogue {
             "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",
             Headway::new,
         );
-        catalogue.add::<Honest>(None, "fails the evaluation of a body that lives on the errors of its physics");
+        catalogue.add::<NoExploits>(None, "fails the evaluation of a body that lives on the errors of its physics");
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
             .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");

@@ -2,8 +2,8 @@
 
 use std::f32::consts::TAU;
 use tasks::{
-    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Honest, Idleness, Jumping, Landing, Leap,
-    Movement, MovementCatalogue, MovementSpec, PartState, Posture, Rhythm, RhythmSettings, Running, Slip, Snapshot,
+    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Idleness, Jumping, Landing, Leap, Movement,
+    MovementCatalogue, MovementSpec, NoExploits, PartState, Posture, Rhythm, RhythmSettings, Running, Slip, Snapshot,
     Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
 };
 
@@ -147,7 +147,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
         Box::new(Vibration::default()),
         Box::new(Idleness::default()),
         Box::new(Leap::default()),
-        Box::new(Honest::default()),
+        Box::new(NoExploits::default()),
         Box::new(Posture::default()),
         Box::new(Haste::default()),
         Box::new(Slip::default()),
@@ -427,7 +427,7 @@ fn honest_fails_what_lives_on_errors_of_the_physics() {
             flaw(&mut pose, &mut flawed.parts);
             flawed
         });
-        let seen = watch(Honest::default(), &body, &snapshots.collect::<Vec<_>>());
+        let seen = watch(NoExploits::default(), &body, &snapshots.collect::<Vec<_>>());
         assert_eq!(seen.value, 0.0);
         seen.end.map(|(time, verdict)| {
             assert!((0.99..1.05).contains(&time), "{time}");
@@ -462,7 +462,7 @@ fn honest_fails_what_lives_on_errors_of_the_physics() {
     assert_eq!(honest(&sunk(0.065)), Some(Verdict::Fail("a part sinks into the ground")));
     let uneven = Body { uneven_ground: true, ..puppet() };
     let below = script(2.0, |_| Pose { rise: -0.065, ..Pose::default() });
-    assert_eq!(watch(Honest::default(), &uneven, &below).end, None, "the ground may be there");
+    assert_eq!(watch(NoExploits::default(), &uneven, &below).end, None, "the ground may be there");
 }
 
 #[test]
@@ -476,7 +476,7 @@ fn honest_fails_what_gains_energy_from_nowhere() {
             let risen = f64::from(snapshot.parts[0].y - 0.5);
             Snapshot { motor_work: share * 98.1 * risen, ..snapshot }
         });
-        watch(Honest::default(), &body, &worked.collect::<Vec<_>>()).end.map(|(_, verdict)| verdict)
+        watch(NoExploits::default(), &body, &worked.collect::<Vec<_>>()).end.map(|(_, verdict)| verdict)
     };
     let caught = Some(Verdict::Fail("it gains energy from nowhere"));
     assert_eq!((rising(1.0, 1.0), rising(0.0, 1.0)), (None, caught));
@@ -484,7 +484,7 @@ fn honest_fails_what_gains_energy_from_nowhere() {
     assert_eq!((rising(0.0, 0.25), rising(0.8, 1.0)), (None, None));
     let still = Body { gravity: 0.0, ..body.clone() };
     let floating = script(2.0, |time| Pose { rise: time, ..Pose::default() });
-    assert_eq!(watch(Honest::default(), &still, &floating).end, None, "nothing pulls it down");
+    assert_eq!(watch(NoExploits::default(), &still, &floating).end, None, "nothing pulls it down");
 }
 
 /// Says what it is told to at one step.

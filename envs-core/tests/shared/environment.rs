@@ -135,7 +135,7 @@ fn conditions_are_in_the_settings_of_their_world() {
         contact_frequency: 0.5,
         contact_damping: 0.5,
         solver_iterations: Some(7),
-        ..Conditions::nominal(environment.outputs())
+        ..Conditions::reference(environment.outputs())
     };
     let world = environment.under(&conditions, Ground::flat()).expect("settles");
     let expected = PhysicsSettings {
@@ -156,7 +156,7 @@ fn conditions_are_in_the_settings_of_their_world() {
 #[test]
 fn the_torso_spins_as_the_clock_starts() {
     let environment = varied(Variation::default());
-    let conditions = Conditions { torso_spin: -0.25, ..Conditions::nominal(environment.outputs()) };
+    let conditions = Conditions { torso_spin: -0.25, ..Conditions::reference(environment.outputs()) };
     let world = environment.under(&conditions, Ground::flat()).expect("settles");
     let spins: Vec<f32> = world.snapshot().parts.iter().map(|part| part.spin).collect();
     assert_eq!(spins[0], -0.25);
@@ -170,7 +170,7 @@ fn a_push_changes_the_torsos_velocity_before_the_first_step_that_begins_at_its_t
     let environment = varied(Variation::default());
     let push = |time, velocity| Push { time, velocity };
     let pushes = vec![push(0.05, -0.5), push(0.0, 1.0), push(0.05, 0.25), push(0.09, 2.0), push(9.0, 1.0)];
-    let conditions = Conditions { pushes, ..Conditions::nominal(environment.outputs()) };
+    let conditions = Conditions { pushes, ..Conditions::reference(environment.outputs()) };
     let mut world = environment.under(&conditions, Ground::flat()).expect("settles");
     let body = world.body().expect("a creature");
     let share = body.mass() / body.parts[0].mass;
@@ -194,55 +194,55 @@ fn a_push_changes_the_torsos_velocity_before_the_first_step_that_begins_at_its_t
 #[test]
 fn a_world_that_makes_no_sense_is_refused() {
     let environment = varied(Variation::default());
-    let nominal = Conditions::nominal(environment.outputs());
+    let reference = Conditions::reference(environment.outputs());
     let refusal = |conditions: &Conditions, ground: Ground| {
         environment.under(conditions, ground).err().expect("must be refused").to_string()
     };
     let refusals = [
-        (Conditions { mass: 0.0, ..nominal.clone() }, "conditions.mass = 0: must be finite and above 0"),
-        (Conditions { torque: f32::NAN, ..nominal.clone() }, "conditions.torque = NaN: must be finite and above 0"),
-        (Conditions { friction: -1.0, ..nominal.clone() }, "conditions.friction = -1: must be finite and at least 0"),
-        (Conditions { time_step: 4.0, ..nominal.clone() }, "physics.time_step = 0.08: must be from 0.001 to 0.05"),
-        (Conditions { gravity: -1.0, ..nominal.clone() }, "conditions.gravity = -1: must be finite and at least 0"),
-        (Conditions { motor_gain: 0.0, ..nominal.clone() }, "conditions.motor_gain = 0: must be finite and above 0"),
+        (Conditions { mass: 0.0, ..reference.clone() }, "conditions.mass = 0: must be finite and above 0"),
+        (Conditions { torque: f32::NAN, ..reference.clone() }, "conditions.torque = NaN: must be finite and above 0"),
+        (Conditions { friction: -1.0, ..reference.clone() }, "conditions.friction = -1: must be finite and at least 0"),
+        (Conditions { time_step: 4.0, ..reference.clone() }, "physics.time_step = 0.08: must be from 0.001 to 0.05"),
+        (Conditions { gravity: -1.0, ..reference.clone() }, "conditions.gravity = -1: must be finite and at least 0"),
+        (Conditions { motor_gain: 0.0, ..reference.clone() }, "conditions.motor_gain = 0: must be finite and above 0"),
         (
-            Conditions { joint_frequency: f32::INFINITY, ..nominal.clone() },
+            Conditions { joint_frequency: f32::INFINITY, ..reference.clone() },
             "conditions.joint_frequency = inf: must be finite and above 0",
         ),
         (
-            Conditions { contact_frequency: -1.0, ..nominal.clone() },
+            Conditions { contact_frequency: -1.0, ..reference.clone() },
             "conditions.contact_frequency = -1: must be finite and above 0",
         ),
         (
-            Conditions { contact_damping: 0.0, ..nominal.clone() },
+            Conditions { contact_damping: 0.0, ..reference.clone() },
             "conditions.contact_damping = 0: must be finite and above 0",
         ),
         (
-            Conditions { contact_damping: 11.0, ..nominal.clone() },
+            Conditions { contact_damping: 11.0, ..reference.clone() },
             "physics.contact_damping_ratio = 110: must be from 0.01 to 100",
         ),
         (
-            Conditions { solver_iterations: Some(33), ..nominal.clone() },
+            Conditions { solver_iterations: Some(33), ..reference.clone() },
             "physics.solver_iterations = 33: must be from 1 to 32",
         ),
-        (Conditions { torso_spin: f32::NAN, ..nominal.clone() }, "conditions.torso_spin = NaN: must be finite"),
+        (Conditions { torso_spin: f32::NAN, ..reference.clone() }, "conditions.torso_spin = NaN: must be finite"),
         (
-            Conditions { pushes: vec![Push { time: -1.0, velocity: 0.1 }], ..nominal.clone() },
+            Conditions { pushes: vec![Push { time: -1.0, velocity: 0.1 }], ..reference.clone() },
             "conditions.pushes.time = -1: must be finite and at least 0",
         ),
         (
-            Conditions { pushes: vec![Push { time: 1.0, velocity: 101.0 }], ..nominal.clone() },
+            Conditions { pushes: vec![Push { time: 1.0, velocity: 101.0 }], ..reference.clone() },
             "conditions.pushes.velocity = 101: must be from -100 to 100",
         ),
         (
-            Conditions { turns: vec![], ..nominal.clone() },
+            Conditions { turns: vec![], ..reference.clone() },
             "conditions.turns = 0 turns: must be 8, one for each actuated joint",
         ),
     ];
     for (conditions, says) in refusals {
         assert_eq!(refusal(&conditions, Ground::flat()), says);
     }
-    assert_eq!(refusal(&nominal, Ground { shapes: vec![] }), "ground.shapes = []: must be at least one shape");
+    assert_eq!(refusal(&reference, Ground { shapes: vec![] }), "ground.shapes = []: must be at least one shape");
 }
 
 #[test]

@@ -76,7 +76,7 @@ proptest! {
     #[test]
     fn no_variation_is_the_world_of_the_settings(seed: u64) {
         prop_assert!(Variation::default().is_none());
-        prop_assert_eq!(Variation::default().draw(Seed::of_run(seed), 3), Conditions::nominal(3));
+        prop_assert_eq!(Variation::default().draw(Seed::of_run(seed), 3), Conditions::reference(3));
     }
 }
 
@@ -101,7 +101,7 @@ fn friction_mass_torque_time_step_and_turns_are_drawn_in_this_order() {
         torque: 1.0 + draw(0.2),
         time_step: libm::expf(libm::logf(0.5) + (libm::logf(1.5) - libm::logf(0.5)) * 0.5 * (1.0 + draw(1.0))),
         turns: vec![draw(0.4), draw(0.4)],
-        ..Conditions::nominal(2)
+        ..Conditions::reference(2)
     };
     let variation = Variation {
         friction: 0.3,
@@ -116,7 +116,7 @@ fn friction_mass_torque_time_step_and_turns_are_drawn_in_this_order() {
     let besides = Variation { pushes: 1.0, torso_spin: 1.0, ..Variation::physics() };
     let drawn = Variation { friction: 0.3, mass: 0.1, torque: 0.2, start_pose: 0.4, time_step: [0.5, 1.5], ..besides };
     let Conditions { friction, mass, torque, time_step, turns, .. } = drawn.draw(seed, 2);
-    assert_eq!(Conditions { friction, mass, torque, time_step, turns, ..Conditions::nominal(2) }, expected);
+    assert_eq!(Conditions { friction, mass, torque, time_step, turns, ..Conditions::reference(2) }, expected);
 }
 
 #[test]
@@ -134,7 +134,7 @@ fn physics_and_pushes_are_drawn_in_this_order_from_streams_of_their_own() {
         contact_damping: between([0.5, 2.0], draw()),
         torso_spin: 0.1 * (2.0 * draw() - 1.0),
         solver_iterations: Some(1 + (8.0 * draw()) as u32),
-        ..Conditions::nominal(2)
+        ..Conditions::reference(2)
     };
     let mut stream = seed.stream(Purpose::new("trial pushes"));
     let mut draw = || stream.random::<f32>();

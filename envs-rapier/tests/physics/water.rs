@@ -34,8 +34,8 @@ fn rod(angle: f32) -> Blueprint {
 /// How fast a rod rises, or below 0 sinks, in the sixth second in water, m/s.
 fn terminal_speed(angle: f32, water: Water, time_step: f32) -> f32 {
     let settings = PhysicsSettings { time_step, ..settings(water) };
-    let (rod, nominal) = (rod(angle.to_degrees()), Conditions::nominal(1));
-    let mut world = RapierWorld::new(&rod, &settings, &Ground::none(), &nominal).expect("builds");
+    let (rod, reference) = (rod(angle.to_degrees()), Conditions::reference(1));
+    let mut world = RapierWorld::new(&rod, &settings, &Ground::none(), &reference).expect("builds");
     let mut height_after = |seconds: f32| {
         let mut parts = [PartState::default(); 2];
         for _ in 0..(seconds / time_step).round() as usize {

@@ -114,8 +114,8 @@ fn a_start_pose_that_does_not_vary_changes_no_bit() {
     let blueprint = gauge::blueprint("tetrapod-2");
     let variation = Variation { friction: 1e-12, ..Variation::default() };
     let mut drawn = varied(blueprint.clone(), PhysicsSettings::default(), variation);
-    let mut nominal = gauge::environment(blueprint, PhysicsSettings::default());
-    assert!(trial(&mut drawn, Seed::of_run(1)) == trial(&mut nominal, Seed::of_run(1)));
+    let mut reference = gauge::environment(blueprint, PhysicsSettings::default());
+    assert!(trial(&mut drawn, Seed::of_run(1)) == trial(&mut reference, Seed::of_run(1)));
 }
 
 #[test]

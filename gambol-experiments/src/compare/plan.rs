@@ -175,7 +175,7 @@ impl PlanRequest {
             set: self.set.clone(),
             engine: self.engine.clone(),
             variation: self.variation.clone(),
-            // A score at a budget must be that of the moment; a jury sits only now and then.
+            // A score at a budget must be that of the moment; a champion selection sits only now and then.
             unvaried: true,
             ..Request::default()
         };

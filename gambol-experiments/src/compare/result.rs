@@ -29,13 +29,13 @@ pub struct Point {
     pub steps: u64,
     /// Seconds of wall clock since the run began. The one number that differs between equal runs.
     pub seconds: f64,
-    /// The best fitness so far; `None` while every evaluation failed, and before the first hearing of a jury.
+    /// The best fitness so far; `None` while every evaluation failed, and before the first re-evaluation of a champion selection.
     pub best: Option<f64>,
 }
 
 impl RunResult {
     /// What the log and the timing of an ended run say. What it comes to in the end is what its champion is worth: between
-    /// two hearings of a jury the log does not know yet.
+    /// two re-evaluations of a champion selection the log does not know yet.
     pub(super) fn read(job: &Job<'_>, folder: &RunFolder) -> Result<Self, FolderError> {
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let mut seconds = 0.0;

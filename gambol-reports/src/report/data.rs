@@ -63,7 +63,7 @@ pub(super) struct Summary {
     /// The champion's fitness in training, if that is another.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) fitness_in_training: Option<f64>,
-    /// Whether a jury chose the champion, so that the best of a generation is not it.
+    /// Whether a champion selection chose the champion, so that the best of a generation is not it.
     pub(super) judged: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) warning: Option<String>,

@@ -26,7 +26,7 @@ struct BandPoint {
     q90: f64,
 }
 
-/// The rows of the chart. The last has the champion's fitness: it may have been chosen between two hearings.
+/// The rows of the chart. The last has the champion's fitness: it may have been chosen between two re-evaluations.
 pub(super) fn points(log: &[GenerationReport], champion: Option<Fitness>) -> Vec<HistoryPoint> {
     let mut points: Vec<HistoryPoint> = log.iter().map(HistoryPoint::from).collect();
     if let (Some(last), Some(fitness)) = (points.last_mut(), champion) {
@@ -133,18 +133,18 @@ mod tests {
             evaluations: 10,
             steps: 0,
             best_so_far: None,
-            grade: 0,
+            tier: 0,
             fitness: None,
             failures: 0,
             population: 10,
             strategy: statistics.iter().map(|&(name, value)| Statistic::new(name, value)).collect(),
             species: species.iter().map(report).collect(),
-            hearing: None,
+            re_evaluation: None,
         }
     }
 
     #[test]
-    fn the_last_row_knows_a_champion_chosen_between_two_hearings() {
+    fn the_last_row_knows_a_champion_chosen_between_two_re_evaluations() {
         let log = [report(&[], &[]), report(&[], &[])];
         let champions = |champion: Option<Fitness>| points(&log, champion).iter().map(|row| row.best_so_far).collect();
         let found: Vec<Option<f64>> = champions(Fitness::new(3.5).ok());

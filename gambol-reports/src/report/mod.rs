@@ -2,13 +2,13 @@
 //! judged, the fitness curves, the front of compromises, the species, the gait as it emerged and the net at work.
 
 mod data;
+mod divergence;
 mod front;
 mod gait;
 pub(crate) mod ground;
 mod history;
 mod network;
 mod page;
-mod parting;
 mod replays;
 mod stages;
 
@@ -84,18 +84,18 @@ fn compose(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -
     };
     let setup = gambol_runs::setup::Setup::new(&config, registry)?;
     let stills = Stills::new(&setup, config.seed);
-    let newest = champion.as_ref().filter(|_| setup.nominal.is_some()).map(gallery_entry);
+    let newest = champion.as_ref().filter(|_| setup.reference.is_some()).map(gallery_entry);
     let mut champions: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Champion).collect();
     let is_new = |entry: &&GalleryEntry| champions.last().is_none_or(|last| last.members != entry.members);
-    // One that was chosen at the end of the run, between two hearings, is in no gallery.
+    // One that was chosen at the end of the run, between two re-evaluations, is in no gallery.
     champions.extend(newest.as_ref().filter(is_new));
     let populations: Vec<_> = gallery.iter().filter(|entry| entry.kind == GalleryKind::Population).collect();
     let movement = movement_data(registry, &config.movement.name, &setup.unit);
     let last = log.last();
-    let parted = champion.as_ref().is_some_and(Champion::parted);
+    let diverged = champion.as_ref().is_some_and(Champion::diverged);
     let fitness = match &champion {
         // The log knows the newest champion, but only as training knew it.
-        Some(champion) if parted || setup.nominal.is_some() => Some(champion.fitness),
+        Some(champion) if diverged || setup.reference.is_some() => Some(champion.fitness),
         _ => last.and_then(|last| last.best_so_far),
     };
     let champion_data = champion.as_ref().map(|champion| champion_data(champion, registry)).transpose()?;
@@ -106,8 +106,8 @@ fn compose(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -
         summary: last.map(|last| Summary {
             fitness: fitness.map(f64::from),
             fitness_in_training: champion.as_ref().and_then(Champion::fitness_in_training).map(f64::from),
-            judged: config.has_jury(),
-            warning: parting::warning(&log, parted),
+            judged: config.has_champion_selection(),
+            warning: divergence::warning(&log, diverged),
             generations: last.generation,
             evaluations: last.evaluations,
             physics_steps: last.steps,

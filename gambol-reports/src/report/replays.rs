@@ -69,18 +69,18 @@ impl<'a> Stills<'a> {
         entries.par_iter().filter_map(still).collect()
     }
 
-    /// One that was found in this generation; where there is a jury, in the jury's world.
+    /// One that was found in this generation; where there is a champion selection, in the champion selection's world.
     pub(super) fn found(&self, network: &Network, generation: u64) -> Replay {
-        match &self.setup.nominal {
-            Some(nominal) => self.replay(&nominal.episode, nominal.seed, network),
+        match &self.setup.reference {
+            Some(reference) => self.replay(&reference.episode, reference.seed, network),
             None => self.replay(&self.setup.episode, self.seed.generation(generation), network),
         }
     }
 
     /// What a controller comes to where champions are judged, if training is elsewhere.
     pub(super) fn judged(&self, network: &Network) -> Option<Evaluation> {
-        let nominal = self.setup.nominal.as_ref()?;
-        Some(nominal.task.evaluate(&mut network.clone(), nominal.seed))
+        let reference = self.setup.reference.as_ref()?;
+        Some(reference.task.evaluate(&mut network.clone(), reference.seed))
     }
 
     pub(super) fn populations(&self, entries: &[&GalleryEntry]) -> Vec<PopulationEntry> {

@@ -1,22 +1,22 @@
 //! The configuration of a run: everything needed to repeat it.
 
 mod engine;
-mod heats;
 mod origin;
+mod rungs;
 mod stage;
 mod strategy;
 mod variations;
 
 pub use engine::EngineChoice;
-pub use heats::HeatSettings;
 pub use origin::{Carried, Origin};
+pub use rungs::RungSettings;
 pub use stage::StageSettings;
 pub use strategy::StrategySettings;
 pub use variations::{VARIATIONS, variation};
 
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
-use ne_core::{Hearings, SettingError, StopConditions};
+use ne_core::{ReEvaluations, SettingError, StopConditions};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{MovementSpec, Trials};
@@ -39,16 +39,16 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ. With any, with a rehearsal or companions, the champion is chosen without variation, in one trial.
+    /// How trials differ. With any, with shortened training episodes or companions, the champion is chosen without variation, in one trial.
     pub variation: Variation,
     /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
     #[serde(default)]
-    pub rehearsal: Option<u32>,
+    pub training_steps: Option<u32>,
     /// Cheaper evaluations before that of training, the first one first: after each only the best share goes on. At most
     /// 8; none, the default: everybody has the evaluation of training.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub heats: Vec<HeatSettings>,
+    pub rungs: Vec<RungSettings>,
     /// What steps the creatures in training.
     #[serde(default = "EngineChoice::of_old")]
     pub engine: EngineChoice,
@@ -91,10 +91,10 @@ impl RunConfig {
         1 + self.companions.len()
     }
 
-    /// Whether a jury chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
+    /// Whether a champion selection chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
     /// that the best of a generation need not be the best in one whole episode of `creature`.
-    pub fn has_jury(&self) -> bool {
-        !self.variation.is_none() || self.rehearsal.is_some() || !self.companions.is_empty()
+    pub fn has_champion_selection(&self) -> bool {
+        !self.variation.is_none() || self.training_steps.is_some() || !self.companions.is_empty()
     }
 }
 
@@ -152,15 +152,15 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
-    /// With variation, a rehearsal or companions: with each checkpoint so many of the best of the generation, and the best of
+    /// With variation, shortened training episodes or companions: with each checkpoint so many of the best of the generation, and the best of
     /// each generation since the last, are evaluated in one whole episode of the creature without variation, and the best of
     /// them may become champion; from 1 to 1000, default 23.
-    #[serde(default = "default_finalists")]
-    pub finalists: usize,
+    #[serde(default = "default_candidates")]
+    pub candidates: usize,
 }
 
 /// With the nine generations between checkpoints they are 32: two batches of 16 lanes.
-pub(crate) fn default_finalists() -> usize {
+pub(crate) fn default_candidates() -> usize {
     23
 }
 
@@ -169,11 +169,11 @@ impl RecordSettings {
         if self.checkpoint_every == 0 {
             return Err(SettingError::new("checkpoint_every", 0, "at least 1"));
         }
-        SettingError::check_range("finalists", self.finalists as f64, 1.0, 1000.0)
+        SettingError::check_range("candidates", self.candidates as f64, 1.0, 1000.0)
     }
 
-    /// When a jury sits, where there is one.
-    pub(crate) fn hearings(&self) -> Hearings {
-        Hearings { every: self.checkpoint_every, finalists: self.finalists }
+    /// When a champion selection sits, where there is one.
+    pub(crate) fn re_evaluations(&self) -> ReEvaluations {
+        ReEvaluations { every: self.checkpoint_every, candidates: self.candidates }
     }
 }

@@ -11,7 +11,7 @@ pub struct StageSettings {
     /// Its name: lower-case letters, digits and hyphens; no two stages have the same.
     pub name: String,
     /// Fields of the configuration that are other than in the stage before; objects are merged, lists take the place of
-    /// lists. Whatever is not mentioned stays. With another `movement.name` come the terms, steps and rehearsal that the preset
+    /// lists. Whatever is not mentioned stays. With another `movement.name` come the terms, steps and shortened training episodes that the preset
     /// has for it and the body, with swimming the water and its engine, which go again with it. A `creature` and a `terrain`
     /// are changed as a whole. The first stage changes the configuration itself.
     #[serde(default, skip_serializing_if = "Map::is_empty")]

@@ -25,7 +25,7 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     config.sensors = Some(sensors(&config.creature.sensors, &defaults));
     config.movement.terms = defaults.terms;
     config.movement.steps = defaults.steps;
-    config.rehearsal = defaults.rehearsal;
+    config.training_steps = defaults.training_steps;
     config.trials.count = TRIALS;
     if let Some(variation) = defaults.variation {
         config.variation = variation;

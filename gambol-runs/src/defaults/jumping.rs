@@ -5,7 +5,8 @@ use crate::config::LimbPhases;
 
 /// 5 s: a jump and its landing.
 pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
-    let mut terms = terms(&[("honest", 0.0), ("posture", 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)]);
+    let mut terms =
+        terms(&[("no-exploits", 0.0), ("posture", 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)]);
     for posture in terms.iter_mut().filter(|term| term.term == "posture") {
         // A jump crouches, and nothing but feet may touch the ground, however shortly.
         *posture = with(posture.clone(), "tilt", 35);
@@ -15,14 +16,15 @@ pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
     }
     MovementDefaults {
         steps: Some(250),
-        rehearsal: Some(250),
+        training_steps: Some(250),
         terms,
         // Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves
         // the ground and lands.
         step_size: Some(0.2),
-        // One jump of two legs is longer than the other: the next begins when they have landed, and not by the clock. More
-        // legs, whose clocks run ahead of each other by genes, get worse by it.
-        from_landing: (1..=2).contains(&body.legs),
+        // Two legs without knees take off as they have landed, and no two of their jumps last equally long: the next begins
+        // when they have landed, and not by the clock. Knees make up for it by themselves, and more legs, whose clocks run
+        // ahead of each other by genes, get worse by it.
+        from_landing: (1..=2).contains(&body.legs) && body.joints == 1,
         ..leap(body)
     }
 }
@@ -30,15 +32,15 @@ pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
 /// 5 s, of which training has 2.
 pub(super) fn long_jump(body: &BodyFacts) -> MovementDefaults {
     // A somersault also gets far.
-    let terms = terms(&[("honest", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)]);
-    MovementDefaults { steps: Some(250), rehearsal: Some(100), terms, ..leap(body) }
+    let terms = terms(&[("no-exploits", 0.0), ("upright", 0.0), ("leap", 1.0), ("vibration", -0.02)]);
+    MovementDefaults { steps: Some(250), training_steps: Some(100), terms, ..leap(body) }
 }
 
 /// 10 s, of which training has 4.
 pub(super) fn hopping(body: &BodyFacts) -> MovementDefaults {
-    let terms = terms(&[("honest", 0.0), ("upright", 0.0), ("vibration", -0.02)]);
+    let terms = terms(&[("no-exploits", 0.0), ("upright", 0.0), ("vibration", -0.02)]);
     let period = MovementDefaults::unknown(body).period;
-    MovementDefaults { steps: Some(500), rehearsal: Some(200), terms, period, ..leap(body) }
+    MovementDefaults { steps: Some(500), training_steps: Some(200), terms, period, ..leap(body) }
 }
 
 /// A leap with its run-up. Many legs leap together; two leap best if one net moves them both. The leap of a biped must follow

@@ -50,7 +50,7 @@ pub struct MovementDefaults {
     /// Steps of the champion's episode; `None`: the movement's own number.
     pub steps: Option<u32>,
     /// Steps of an episode of training; `None`: as many.
-    pub rehearsal: Option<u32>,
+    pub training_steps: Option<u32>,
     /// Terms added to the fitness.
     pub terms: Vec<TermSpec>,
     /// How limbs share a net; `None`: one net moves all joints.
@@ -75,7 +75,7 @@ impl MovementDefaults {
         let walks = body.legs > 0;
         Self {
             steps: None,
-            rehearsal: None,
+            training_steps: None,
             terms: Vec::new(),
             limbs: Some(LimbPhases::Alternating),
             gain: if walks { 10.0 } else { 20.0 },

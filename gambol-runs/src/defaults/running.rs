@@ -10,10 +10,10 @@ const STEPS: (Option<u32>, Option<u32>) = (Some(1000), Some(500));
 
 /// What ends an episode is charged for by the distance it then cannot cover.
 const CRAWLING: [(&str, f64); 5] =
-    [("honest", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)];
+    [("no-exploits", 0.0), ("upright", 0.0), ("headway", 0.0), ("vibration", -0.2), ("idleness", -5.0)];
 
 const ON_LEGS: [(&str, f64); 7] = [
-    ("honest", 0.0),
+    ("no-exploits", 0.0),
     ("posture", -1.0),
     ("headway", 0.0),
     ("footfalls", -1.0),
@@ -44,7 +44,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
     }
     MovementDefaults {
         steps: STEPS.0,
-        rehearsal: STEPS.1,
+        training_steps: STEPS.1,
         terms: if legs == 0 { terms(&CRAWLING) } else { on_legs },
         // Two legs run best if one net moves them both: they skip, the same leg always first, and a skip bears a stumble that
         // an even stride does not.

@@ -6,8 +6,8 @@ use super::{BodyFacts, MovementDefaults, terms};
 pub(super) fn swimming(body: &BodyFacts) -> MovementDefaults {
     MovementDefaults {
         steps: Some(1000),
-        rehearsal: Some(250),
-        terms: terms(&[("honest", 0.0), ("vibration", -0.2)]),
+        training_steps: Some(250),
+        terms: terms(&[("no-exploits", 0.0), ("vibration", -0.2)]),
         // A stroke.
         period: 0.35,
         stands: false,

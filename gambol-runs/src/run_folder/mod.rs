@@ -115,9 +115,9 @@ pub struct RunStanding {
 pub struct ChampionStanding {
     /// Its fitness.
     pub fitness: Fitness,
-    /// Its [grade](ne_core::Judgement::grades).
+    /// Its [tier](ne_core::Judgement::tiers).
     #[serde(default)]
-    pub grade: u8,
+    pub tier: u8,
     /// The generation it was found in.
     pub generation: u64,
 }

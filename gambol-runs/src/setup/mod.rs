@@ -4,9 +4,9 @@ mod companions;
 
 use crate::{
     Registry,
-    config::{ControllerSettings, HeatSettings, RunConfig, StrategySettings},
+    config::{ControllerSettings, RunConfig, RungSettings, StrategySettings},
     episode_parts::SetupError,
-    nominal::Nominal,
+    reference::ReferenceEpisode,
     stage::Stage,
     topology::{
         self,
@@ -16,7 +16,7 @@ use crate::{
 };
 use creatures::{Actuation, Channel};
 use envs_rapier::RapierEnvironment;
-use ne_core::{Heat, Seed, SettingError};
+use ne_core::{Rung, Seed, SettingError};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{Episode, Medium, MovementSpec, TermSpec};
@@ -27,11 +27,11 @@ pub struct Setup {
     /// The task of training.
     pub task: TrainingTask,
     /// What comes before it.
-    heats: Vec<HeatSettings>,
+    rungs: Vec<RungSettings>,
     /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
-    /// Where the champion is chosen, if a [jury](RunConfig::has_jury) does that.
-    pub nominal: Option<Nominal>,
+    /// Where the champion is chosen, if a [champion selection](RunConfig::has_jury) does that.
+    pub reference: Option<ReferenceEpisode>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,
     /// What each weight of the topology is for; equal names in two topologies mean the same.
@@ -108,46 +108,46 @@ impl Setup {
         check_size(&config.strategy, &topology)?;
         let unit = registry.movements.build(&config.movement)?.unit().to_owned();
         let objectives = objectives(&config.movement, registry, &unit);
-        if let Some(steps) = config.rehearsal {
-            SettingError::check_range("rehearsal", steps.into(), 1.0, 1e6)?;
+        if let Some(steps) = config.training_steps {
+            SettingError::check_range("training_steps", steps.into(), 1.0, 1e6)?;
         }
-        let nominal = match config.has_jury() {
+        let reference = match config.has_champion_selection() {
             false => None,
             true => {
-                let (episode, task) = parts.nominal().build_both(config.engine, registry)?;
+                let (episode, task) = parts.reference().build_both(config.engine, registry)?;
                 let stage = Stage::new(parts, registry)?;
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),
                 };
-                Some(Nominal::new(task, episode, proof, stage, Seed::of_run(config.seed)))
+                Some(ReferenceEpisode::new(task, episode, proof, stage, Seed::of_run(config.seed)))
             }
         };
-        if config.stop.grade.is_some() && nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+        if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.stage.is_none()) {
             let judged: Vec<&str> = registry.movements.judged().collect();
             let allowed = format!(
                 "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
-                 rehearsal or companions",
+                 shortened training episodes or companions",
                 judged.join(", ")
             );
-            return Err(SettingError::new("stop.grade", "a grade (--until usable)", allowed).into());
+            return Err(SettingError::new("stop.tier", "a tier (--until usable)", allowed).into());
         }
         let task = companions::with_companions(config, task, [senses, motors], registry)?;
-        let task = match config.rehearsal {
+        let task = match config.training_steps {
             Some(steps) => task.shortened(steps),
             None => task,
         };
-        HeatSettings::validate(&config.heats, task.steps(), config.trials.count)?;
-        Ok(Self { task, heats: config.heats.clone(), episode, nominal, topology, weight_names, unit, objectives })
+        RungSettings::validate(&config.rungs, task.steps(), config.trials.count)?;
+        Ok(Self { task, rungs: config.rungs.clone(), episode, reference, topology, weight_names, unit, objectives })
     }
 
-    /// The heats that come before the task of training, the first one first.
-    pub fn heats(&self) -> Vec<Heat> {
-        let heat = |&HeatSettings { steps, trials, share }: &HeatSettings| {
+    /// The rungs that come before the task of training, the first one first.
+    pub fn rungs(&self) -> Vec<Rung> {
+        let rung = |&RungSettings { steps, trials, share }: &RungSettings| {
             let task = self.task.shortened(steps.unwrap_or(u32::MAX));
-            Heat { task: Box::new(task.with_fewer_trials(trials.unwrap_or(u32::MAX))), share }
+            Rung { task: Box::new(task.with_fewer_trials(trials.unwrap_or(u32::MAX))), share }
         };
-        self.heats.iter().map(heat).collect()
+        self.rungs.iter().map(rung).collect()
     }
 
     /// What each input of the controller is.

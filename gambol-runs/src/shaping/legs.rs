@@ -62,7 +62,7 @@ pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
 
 pub(super) fn leg(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<Leg, FolderError> {
     let standing = folder.read_standing()?;
-    let champion = standing.champion.map(|champion| Standing { grade: champion.grade, fitness: champion.fitness });
+    let champion = standing.champion.map(|champion| Standing { tier: champion.tier, fitness: champion.fitness });
     let (decision, progress) = (standing.decision, standing.progress);
     Ok(Leg { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
 }

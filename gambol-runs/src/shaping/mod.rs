@@ -15,17 +15,17 @@
 
 mod carry;
 mod curriculum;
-mod journey;
 mod legs;
 mod source;
+mod stage_progress;
 mod stages;
 
 pub use carry::CarryError;
 pub use curriculum::{Curriculum, PlannedStage};
-pub use journey::{
-    Journey, ShapingError, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
-};
 pub use legs::{Leg, legs, run_of_stage};
+pub use stage_progress::{
+    ShapingError, StageProgress, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
+};
 pub use stages::{StageError, StageProblem, Stages};
 
 #[cfg(test)]

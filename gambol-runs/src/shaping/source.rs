@@ -77,7 +77,7 @@ impl Source {
     pub(super) fn has_begun_anew(&self) -> Result<bool, CarryError> {
         let Kind::Run { folder, strategy, .. } = &self.kind else { return Ok(false) };
         let checkpoint = read_checkpoint(strategy, folder)?;
-        let someone = checkpoint.champion.is_some() || !checkpoint.finalists.is_empty();
+        let someone = checkpoint.champion.is_some() || !checkpoint.candidates.is_empty();
         Ok(checkpoint.strategy.has_begun_anew() && someone)
     }
 
@@ -147,26 +147,26 @@ pub(super) fn read_checkpoint(
 
 /// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
 ///
-/// It is the one in the champion file, which may still wait there for a hearing. If a kill has parted the two files, it is the
-/// champion of the checkpoint, or the best that waits for the first hearing.
+/// It is the one in the champion file, which may still wait there for a re-evaluation. If a kill has diverged the two files, it is the
+/// champion of the checkpoint, or the best that waits for the first re-evaluation.
 fn read_champion(
     strategy: &StrategyEntry,
     folder: &RunFolder,
     expressed: bool,
 ) -> Result<Option<(Topology, Vec<f32>, u64)>, CarryError> {
-    let Checkpoint { champion, finalists, .. } = read_checkpoint(strategy, folder)?;
+    let Checkpoint { champion, candidates, .. } = read_checkpoint(strategy, folder)?;
     let file = folder.champion();
     let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;
     let is_written = |genome: &AnyGenome, generation: u64| {
         let is_it = |written: &Champion| written.generation == generation && written.network == genome.express();
         written.as_ref().is_some_and(is_it)
     };
-    let kept = finalists.iter().find(|finalist| is_written(&finalist.genome, finalist.generation));
-    let kept = kept.map(|finalist| (finalist.genome.clone(), finalist.generation));
+    let kept = candidates.iter().find(|candidate| is_written(&candidate.genome, candidate.generation));
+    let kept = kept.map(|candidate| (candidate.genome.clone(), candidate.generation));
     let heard = champion.map(|champion| (champion.genome, champion.generation));
     // Of equals the first.
-    let waiting = finalists.into_iter().rev().max_by_key(|finalist| finalist.fitness);
-    let best = kept.or(heard).or_else(|| waiting.map(|finalist| (finalist.genome, finalist.generation)));
+    let waiting = candidates.into_iter().rev().max_by_key(|candidate| candidate.fitness);
+    let best = kept.or(heard).or_else(|| waiting.map(|candidate| (candidate.genome, candidate.generation)));
     Ok(best.map(|(genome, generation)| {
         let (topology, weights) = genome.net(expressed);
         (topology, weights, generation)

@@ -166,7 +166,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
             assembly.lay_over(json!({ "physics": { "water": fresh.physics.water }, "engine": fresh.engine }));
         }
         // Null first: a movement is merged, and terms of the old one must not stay.
-        assembly.lay_over(json!({ "movement": null, "rehearsal": fresh.rehearsal }));
+        assembly.lay_over(json!({ "movement": null, "training_steps": fresh.training_steps }));
         assembly.lay_over(json!({ "movement": fresh.movement }));
     }
     let chosen = settings.changes.get("strategy").and_then(Value::as_object).and_then(|choice| choice.keys().next());
@@ -218,9 +218,9 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     for (field, rule) in [("promotion", &settings.promotion), ("demotion", &settings.demotion)] {
         let Some(rule) = rule else { continue };
         rule.validate().map_err(|error| error.within(field))?;
-        if rule.asks_for_usable() && setup.nominal.as_ref().is_none_or(|nominal| nominal.stage.is_none()) {
+        if rule.asks_for_usable() && setup.reference.as_ref().is_none_or(|reference| reference.stage.is_none()) {
             let allowed = "asked for only where gaits are judged during training: of movements that are judged, in runs \
-                           with a variation, a rehearsal or companions";
+                           with a variation, shortened training episodes or companions";
             return Err(SettingError::new(format!("{field}.usable"), "usable", allowed));
         }
         let known = measurements(setup);

@@ -116,10 +116,10 @@ fn a_stage_changes_what_it_names_and_keeps_the_rest() {
     let mut more = plain.sensors.clone().expect("named");
     more.push(Sensor::JointSpeeds);
     assert_eq!((&configs[1].sensors, &configs[2].sensors), (&Some(more.clone()), &Some(more)));
-    assert_eq!((&configs[1].movement, configs[1].rehearsal), (&plain.movement, plain.rehearsal));
+    assert_eq!((&configs[1].movement, configs[1].training_steps), (&plain.movement, plain.training_steps));
     // What the preset knows of another movement comes with its name.
     let jumping = Registry::default().config("default", plain.creature.clone(), "jumping").expect("a preset");
-    assert_eq!((&configs[2].movement, configs[2].rehearsal), (&jumping.movement, jumping.rehearsal));
+    assert_eq!((&configs[2].movement, configs[2].training_steps), (&jumping.movement, jumping.training_steps));
 }
 
 #[test]
@@ -187,7 +187,7 @@ fn errors_of_a_leg_are_told_of_the_run() {
     let run = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all"));
     let leg = crate::run_folder::RunFolder::at(std::path::Path::new("runs/all/stages/02-feel"));
     let used = Progress { generations: 14, ..Progress::default() };
-    let told = |error: TrainError| super::journey::of_the_run(error.into(), &run, used).to_string();
+    let told = |error: TrainError| super::stage_progress::of_the_run(error.into(), &run, used).to_string();
     let over = TrainError::Over { folder: leg.clone(), reason: StopReason::Generations, generations: 6 };
     let message = told(over);
     assert!(message.starts_with("the run in runs/all has ended: "), "{message}");
@@ -333,7 +333,7 @@ fn errors_name_stage_and_field() {
     }
     let misspelled =
         stages(two(json!({ "name": "b", "changes": { "rehersal": 5 } }))).expect_err("there is no such field");
-    assert!(misspelled.ends_with("; did you mean `rehearsal`?"), "{misspelled}");
+    assert!(misspelled.ends_with("; did you mean `training_steps`?"), "{misspelled}");
     // A variation and a terrain can be named.
     let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));
     let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));

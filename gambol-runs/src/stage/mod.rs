@@ -37,7 +37,7 @@ pub struct Stage {
     near: Arc<OnceLock<Worlds>>,
 }
 
-/// The least [grade](ne_core::Judgement::grades) of a champion whose gait is usable. Those whose gait is usable in perturbed
+/// The least [tier](ne_core::Judgement::tiers) of a champion whose gait is usable. Those whose gait is usable in perturbed
 /// worlds too have up to 4 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
@@ -133,13 +133,13 @@ impl Stage {
     }
 
     /// The first of these controllers whose gait is usable, on the threads of the current pool. All are played at once, in
-    /// lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the jury to ask: it
+    /// lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the champion selection to ask: it
     /// has a champion's episode played again by rapier.
     pub fn first_usable(&self, networks: &[Network]) -> Option<usize> {
-        let Some(nominal) = Worlds::nominal(self) else {
+        let Some(reference) = Worlds::reference(self) else {
             return networks.iter().position(|network| self.is_usable(network));
         };
-        let verdicts = nominal.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
+        let verdicts = reference.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
         networks.iter().zip(verdicts).position(|(network, verdict)| {
             let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
             with_near_worlds(verdict, Some(self.try_near_worlds(network))).usable

@@ -52,7 +52,7 @@ impl Worlds {
     }
 
     /// The stage's own world alone, in lanes; `None` if they cannot simulate it.
-    pub(crate) fn nominal(stage: &Stage) -> Option<Self> {
+    pub(crate) fn reference(stage: &Stage) -> Option<Self> {
         let world = World::InLanes(Box::new(stage.lanes()?.clone()));
         Some(Self { rules: stage.rules().cloned(), seconds: stage.seconds(), worlds: vec![Some(world)] })
     }
@@ -194,8 +194,8 @@ mod tests {
     fn lanes_measure_what_rapier_measures() {
         for (creature, movement) in [("tetrapod-1", "jumping"), ("biped-1", "running")] {
             let stage = stage(creature, movement);
-            let nominal = (Conditions::nominal(stage.environment().outputs()), Ground::flat().into());
-            let conditions: Vec<_> = perturbed(&stage).into_iter().chain([nominal]).collect();
+            let reference = (Conditions::reference(stage.environment().outputs()), Ground::flat().into());
+            let conditions: Vec<_> = perturbed(&stage).into_iter().chain([reference]).collect();
             let networks = [network(&stage, 3), network(&stage, 5)];
             let reports = Worlds::new(&stage, &conditions).judge_all(&networks);
             assert_eq!(reports, Worlds::new(&stage.clone().in_rapier(), &conditions).judge_all(&networks));
@@ -211,9 +211,9 @@ mod tests {
     #[test]
     fn a_world_that_makes_no_sense_has_nothing_to_measure() {
         let stage = stage("biped-1", "jumping");
-        let nominal = Conditions::nominal(stage.environment().outputs());
-        let heavy = Conditions { mass: f32::NAN, ..nominal.clone() };
-        let worlds = [nominal, heavy].map(|conditions| (conditions, Ground::flat().into()));
+        let reference = Conditions::reference(stage.environment().outputs());
+        let heavy = Conditions { mass: f32::NAN, ..reference.clone() };
+        let worlds = [reference, heavy].map(|conditions| (conditions, Ground::flat().into()));
         let reports = Worlds::new(&stage, &worlds).judge(&network(&stage, 3));
         assert_eq!(reports.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false]);
         assert!(Worlds::new(&stage, &[]).judge(&network(&stage, 3)).is_empty());

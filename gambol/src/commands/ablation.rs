@@ -1,7 +1,7 @@
 //! The pieces of the default preset, left out one by one or replaced.
 
 use crate::{
-    config::{HeatSettings, LimbPhases, RunConfig},
+    config::{LimbPhases, RunConfig, RungSettings},
     strategies::StrategyCatalogue,
 };
 use creatures::{Actuation, Sensor};
@@ -69,14 +69,14 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "without the term haste", change: |config| drop_term(config, "haste") },
     Variant { name: "without the term rhythm", change: |config| drop_term(config, "rhythm") },
     Variant { name: "without the term vibration", change: |config| drop_term(config, "vibration") },
-    Variant { name: "without the term honest", change: |config| drop_term(config, "honest") },
+    Variant { name: "without the term honest", change: |config| drop_term(config, "no-exploits") },
     Variant { name: "without the term idleness", change: |config| drop_term(config, "idleness") },
     Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
     Variant { name: "without the term landing", change: |config| drop_term(config, "landing") },
     Variant { name: "no terms at all", change: |config| config.movement.terms.clear() },
-    Variant { name: "whole episodes in training", change: |config| config.rehearsal = config.movement.steps },
-    Variant { name: "a heat of half the steps", change: |config| run_heats(config, &[2]) },
-    Variant { name: "heats of a quarter and half the steps", change: |config| run_heats(config, &[4, 2]) },
+    Variant { name: "whole episodes in training", change: |config| config.training_steps = config.movement.steps },
+    Variant { name: "a rung of half the steps", change: |config| run_rungs(config, &[2]) },
+    Variant { name: "rungs of a quarter and half the steps", change: |config| run_rungs(config, &[4, 2]) },
     Variant { name: "no variation", change: |config| config.variation = Variation::default() },
     Variant { name: "light variation", change: |config| config.variation = Variation::light() },
     Variant { name: "bumpy variation", change: |config| config.variation = Variation::bumpy() },
@@ -130,11 +130,11 @@ fn drop_term(config: &mut RunConfig, name: &str) {
     config.movement.terms.retain(|term| term.term != name);
 }
 
-/// Heats that are so many times shorter than training; half of those who ran one go on.
-fn run_heats(config: &mut RunConfig, shorter: &[u32]) {
-    let Some(steps) = config.rehearsal.or(config.movement.steps) else { return };
-    let heat = |times: &u32| HeatSettings { steps: Some((steps / times).max(1)), trials: None, share: 0.5 };
-    config.heats = shorter.iter().map(heat).collect();
+/// Rungs that are so many times shorter than training; half of those who ran one go on.
+fn run_rungs(config: &mut RunConfig, shorter: &[u32]) {
+    let Some(steps) = config.training_steps.or(config.movement.steps) else { return };
+    let rung = |times: &u32| RungSettings { steps: Some((steps / times).max(1)), trials: None, share: 0.5 };
+    config.rungs = shorter.iter().map(rung).collect();
 }
 
 fn search_with(config: &mut RunConfig, name: &str) {

@@ -31,7 +31,7 @@ Examples:
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height.
 A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier, or when the time is up; with
---whole when the time is up. Seconds count from the start of the run, building the creature and the jury included.")]
+--whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included.")]
 pub(super) struct Gaits {
     /// Shipped creatures' names or creature files [default: all seven]
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
@@ -205,8 +205,8 @@ impl Gaits {
         let mut config = request.resolve(registry)?;
         config.seed = seed;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
-        let grade = (!self.whole).then_some(USABLE);
-        config.stop = StopConditions { minutes, steps: self.steps, grade, ..StopConditions::default() };
+        let tier = (!self.whole).then_some(USABLE);
+        config.stop = StopConditions { minutes, steps: self.steps, tier, ..StopConditions::default() };
         Ok(config)
     }
 
@@ -220,7 +220,7 @@ impl Gaits {
             registry: registry.clone(),
             signal: Default::default(),
             on_generation: &mut |generation| {
-                if first.is_none() && generation.grade >= USABLE {
+                if first.is_none() && generation.tier >= USABLE {
                     first = Some((began.elapsed().as_secs_f64(), generation.steps));
                 }
             },
@@ -258,7 +258,7 @@ impl Gaits {
             Goal::Distance => report.travel.second_half_relative_speed,
             Goal::Height => report.best_flight().map_or(0.0, |flight| flight.rise / start_height),
         });
-        // A run whose champion is usable at the last hearing only, after the last generation.
+        // A run whose champion is usable at the last re-evaluation only, after the last generation.
         if run.usable && run.seconds_to_usable.is_none() {
             (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
         }

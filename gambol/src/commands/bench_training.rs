@@ -17,7 +17,7 @@ Examples:
   gambol bench training --creature biped-1 --generations 50 --engine rapier
 
 Each creature learns to run with the default preset, from the start to the saved champion, in a temporary folder. Steps
-of the jury, which chooses the champion, are in the seconds and not in the steps.")]
+of the champion selection, which chooses the champion, are in the seconds and not in the steps.")]
 pub(super) struct Training {
     /// A shipped creature's name or a creature file; can be given several times [default: biped-1, apod, tetrapod-2,
     /// decapod-2]
@@ -107,7 +107,7 @@ impl Training {
         let mut config = request.resolve(&registry)?;
         config.stop.generations = Some(self.generations);
         config.movement.steps = Some(self.steps);
-        config.rehearsal = None;
+        config.training_steps = None;
         let folder = tempfile::tempdir()?;
         let options =
             TrainOptions { threads: self.threads, registry, signal: Default::default(), on_generation: &mut |_| {} };

@@ -78,7 +78,7 @@ fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>>
         let place = if lowest > 0.0 { "above" } else { "below" };
         say!("  note: in the start pose its lowest point is {:.2} m {place} the ground (y = 0)", lowest.abs())?;
     }
-    let world = (PhysicsSettings::default(), Ground::flat(), Conditions::nominal(motors.len()));
+    let world = (PhysicsSettings::default(), Ground::flat(), Conditions::reference(motors.len()));
     if let Err(refusal) = LaneEngine::new(&blueprint, &world.0, &world.1, &world.2) {
         say!("  note: {refusal}; train it with --engine rapier")?;
     }

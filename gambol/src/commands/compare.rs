@@ -45,7 +45,7 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// How the worlds of all runs vary in training: none, near, pushed, light, bumpy, strong, physics [default: what
-    /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last hearing, up to 10
+    /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last re-evaluation, up to 10
     /// generations old
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,

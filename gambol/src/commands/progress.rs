@@ -31,7 +31,7 @@ pub(super) struct Show {
     first: Option<u64>,
     last_line: Option<Instant>,
     limit: Option<u64>,
-    /// Whether a jury chooses the champion, so that the best of a generation is not yet it.
+    /// Whether a champion selection chooses the champion, so that the best of a generation is not yet it.
     judged: bool,
 }
 
@@ -73,7 +73,7 @@ impl Show {
             first: None,
             last_line: None,
             limit,
-            judged: config.has_jury(),
+            judged: config.has_champion_selection(),
         }
     }
 
@@ -81,7 +81,7 @@ impl Show {
     pub(super) fn leg(&mut self, planned: &PlannedStage, stages: usize, origin: Option<&Origin>) {
         (self.start, self.first, self.last_line) = (Instant::now(), None, None);
         self.unit = unit_of(&self.registry, &planned.config.movement.name);
-        self.judged = planned.config.has_jury();
+        self.judged = planned.config.has_champion_selection();
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
         match &self.manner {
@@ -158,8 +158,8 @@ impl Show {
                 let of = if self.staged { "its stage".into() } else { generations.to_string() };
                 let found = champion.generation;
                 say!("best {best}, found in generation {found} of {of}; {reason} after {seconds:.1} s")?;
-                if champion.parted() {
-                    say!("warning   {PARTED}")?;
+                if champion.diverged() {
+                    say!("warning   {DIVERGED_NOTE}")?;
                 }
             }
             None if generations == 0 => say!("no generation was done: {reason}")?,
@@ -197,7 +197,7 @@ fn unit_of(registry: &Registry, movement: &str) -> String {
 }
 
 /// What is said where lanes and rapier should agree and do not.
-const PARTED: &str = "lanes and rapier part: they give this champion another fitness; rapier's counts";
+const DIVERGED_NOTE: &str = "lanes and rapier part: they give this champion another fitness; rapier's counts";
 
 /// `12.300 m in rapier (14.000 m in training)`, or only the fitness if it was the same in training.
 fn worth(champion: &Champion, unit: &str) -> String {

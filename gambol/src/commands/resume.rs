@@ -35,9 +35,9 @@ impl Resume {
         }
         config.stop = self.limits.beyond(config.stop);
         let stop = Some(config.stop);
-        carry_out(&self.manner, &config, registry.clone(), |options, journey| match config.stages.is_empty() {
+        carry_out(&self.manner, &config, registry.clone(), |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::resume(&self.folder, stop, options)?),
-            false => Ok(shaping::resume_stages(&self.folder, stop, journey, options)?),
+            false => Ok(shaping::resume_stages(&self.folder, stop, stage_progress, options)?),
         })
     }
 }

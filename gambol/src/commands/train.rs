@@ -5,7 +5,7 @@ use crate::{
     config::{Carried, RunConfig},
     gait, report,
     request::Request,
-    shaping::{self, Journey},
+    shaping::{self, StageProgress},
     suggest,
     training::{self, TrainOptions},
 };
@@ -165,14 +165,14 @@ impl Limits {
     /// of anything.
     pub(super) fn beyond(self, planned: StopConditions) -> StopConditions {
         let more = self.conditions() != StopConditions::default();
-        self.over(StopConditions { grade: planned.grade.filter(|_| !more), ..planned })
+        self.over(StopConditions { tier: planned.tier.filter(|_| !more), ..planned })
     }
 
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);
-        let grade = self.until.map(|Until::Usable| crate::stage::USABLE);
-        StopConditions { generations, evaluations, steps, minutes, target, grade, stagnation }
+        let tier = self.until.map(|Until::Usable| crate::stage::USABLE);
+        StopConditions { generations, evaluations, steps, minutes, target, tier, stagnation }
     }
 }
 
@@ -238,9 +238,9 @@ impl Train {
         if let Err(error) = Setup::new(&config, &registry) {
             return Err(located(&error.to_string(), request, &registry).into());
         }
-        carry_out(&self.manner, &config, registry, |options, journey| match config.stages.is_empty() {
+        carry_out(&self.manner, &config, registry, |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::train(&config, &folder, options)?),
-            false => Ok(shaping::train_stages(&config, &folder, journey, options)?),
+            false => Ok(shaping::train_stages(&config, &folder, stage_progress, options)?),
         })
     }
 
@@ -280,7 +280,7 @@ pub(super) fn carry_out(
     manner: &Manner,
     config: &RunConfig,
     registry: Registry,
-    start: impl FnOnce(TrainOptions<'_>, Journey<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
+    start: impl FnOnce(TrainOptions<'_>, StageProgress<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
 ) -> Outcome {
     let signal = StopSignal::default();
     super::stop_on_interrupt(&signal)?;
@@ -293,7 +293,8 @@ pub(super) fn carry_out(
         on_generation: &mut |generation| show.borrow_mut().generation(generation),
     };
     let stages = config.stages.len();
-    let ended = start(options, Journey { on_leg: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) });
+    let ended =
+        start(options, StageProgress { on_leg: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) });
     let show = show.into_inner();
     show.end();
     let outcome = ended?;
@@ -301,7 +302,7 @@ pub(super) fn carry_out(
     if !manner.no_report {
         report::write_report(&outcome.folder, &registry, Some(outcome.reason))?;
     }
-    let until_usable = config.stop.grade.is_some();
+    let until_usable = config.stop.tier.is_some();
     // Judging takes a whole episode, which quiet runs save.
     let judged = outcome.champion.as_ref().filter(|_| !manner.quiet || until_usable);
     let verdict = judged.and_then(|champion| verdict(champion, &registry));

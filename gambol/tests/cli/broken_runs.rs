@@ -3,7 +3,7 @@
 use crate::{
     damage::{edit, flip, json, places, raise_version, truncate, write},
     folder::{assert_same_run, assert_untouched, contents, read},
-    program::{WITHOUT_JURY, assert_says, fail, gambol, small_run, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run, succeed, text},
 };
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
@@ -75,8 +75,8 @@ fn same_value(one: &[u8], other: &[u8]) -> bool {
 fn a_lost_line_is_named() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
-    // Without a jury each new best has a line in the gallery at once.
-    succeed(small_run(&run, 4).args(WITHOUT_JURY));
+    // Without a champion selection each new best has a line in the gallery at once.
+    succeed(small_run(&run, 4).args(WITHOUT_SELECTION));
     for name in ["log.jsonl", "gallery.jsonl", "timing.jsonl"] {
         let file = run.join(name);
         let whole = fs::read_to_string(&file)?;

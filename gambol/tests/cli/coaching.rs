@@ -12,7 +12,7 @@ use std::{path::Path, process::Command, time::Instant};
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// The caterpillar learns to jump within a few generations. Nothing of the default preset is changed but the population,
-/// which would take a test too long, and how often the jury sits.
+/// which would take a test too long, and how often the champion selection sits.
 fn easy(folder: &Path) -> Command {
     let mut train = gambol("train");
     train.args(["apod", "jumping", "--population", "24", "--set", "record.checkpoint_every=4", "--no-report"]);
@@ -26,8 +26,8 @@ fn result(stdout: &str) -> Value {
     serde_json::from_str::<Value>(line).expect("JSON")["result"].take()
 }
 
-fn grade(folder: &Path) -> Option<u64> {
-    json(&folder.join("checkpoint"))["content"]["champion"]["grade"].as_u64()
+fn tier(folder: &Path) -> Option<u64> {
+    json(&folder.join("checkpoint"))["content"]["champion"]["tier"].as_u64()
 }
 
 #[test]
@@ -35,20 +35,20 @@ fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     let told = succeed(easy(&path).args(["--until", "usable", "--generations", "400", "--json"]));
-    assert_eq!(result(&told)["reason"], "grade", "the champion is usable before 400 generations are done");
-    assert!(grade(&path) >= Some(1));
+    assert_eq!(result(&told)["reason"], "tier", "the champion is usable before 400 generations are done");
+    assert!(tier(&path) >= Some(1));
     assert_says(&succeed(gambol("gait").arg(&path)), &["apod jumping: usable"]);
     assert_says(&succeed(gambol("verify").arg(path.join("champion.json"))), &["identical: "]);
     // It has ended; with more generations it goes on, and its champion stays usable.
-    let before = grade(&path);
+    let before = tier(&path);
     let over = fail(gambol("resume").arg(&path));
-    assert_says(&over, &["has ended: the champion has the grade asked for", "such as --generations"]);
+    assert_says(&over, &["has ended: the champion has the tier asked for", "such as --generations"]);
     let generations = result(&told)["progress"]["generations"].as_u64().ok_or("a number")? + 2;
     let mut resume = gambol("resume");
     resume.arg(&path).args(["--json", "--no-report", "--generations"]).arg(generations.to_string());
     let further = result(&succeed(&mut resume));
     assert_eq!((&further["reason"], &further["progress"]["generations"]), (&"generations".into(), &generations.into()));
-    assert!(grade(&path) >= before);
+    assert!(tier(&path) >= before);
     Ok(())
 }
 
@@ -58,7 +58,7 @@ fn a_run_with_a_budget_of_time_ends_in_time_with_a_champion() -> Outcome {
     let path = folder.path().join("run");
     let began = Instant::now();
     let told = succeed(easy(&path).args(["--budget", "300ms", "--json"]));
-    // A generation and a hearing are finished, on a machine that may be busy; 300 generations would take far longer.
+    // A generation and a re-evaluation are finished, on a machine that may be busy; 300 generations would take far longer.
     assert!(began.elapsed().as_secs() < 60);
     let result = result(&told);
     assert_eq!(result["reason"], "minutes");
@@ -81,7 +81,10 @@ fn the_default_preset_gives_the_same_bytes_on_any_number_of_threads_and_after_be
     succeed(train("one", "1").arg("--quiet"));
     succeed(train("two", "2").arg("--quiet"));
     assert_same_run(&path("one"), &path("two"));
-    assert!(grade(&path("one")) >= Some(1), "the jury has found a usable one, so its grades are compared too");
+    assert!(
+        tier(&path("one")) >= Some(1),
+        "the champion selection has found a usable one, so its tiers are compared too"
+    );
     kill_after(&mut train("killed", "1"), &path("killed"), 9);
     succeed(gambol("resume").arg(path("killed")).args(["--threads", "2", "--no-report"]));
     assert_same_run(&path("one"), &path("killed"));
@@ -118,7 +121,7 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&["--creatures", "bipde-1"][..], "did you mean `biped-1`?"),
         (&["--movements", "runing"], "did you mean \"running\"?"),
         (&["--preset", "defualt"], "did you mean \"default\"?"),
-        (&["--set", "rehearsal=0"], "rehearsal = 0: must be from 1 to 1000000"),
+        (&["--set", "training_steps=0"], "training_steps = 0: must be from 1 to 1000000"),
         (&["--steps", "0"], "stop.steps = 0: must be at least 1"),
         (&["--ablate", "the tern"], "no variant has \"the tern\" in its name"),
     ] {
@@ -128,13 +131,13 @@ fn wrong_times_and_ends_are_named() -> Outcome {
     }
     // Where no gaits are judged nobody ever gets to be usable.
     for flags in
-        [&["running", "--set", "rehearsal=null", "--variation", "none"][..], &["running", "--preset", "thesis"]]
+        [&["running", "--set", "training_steps=null", "--variation", "none"][..], &["running", "--preset", "thesis"]]
     {
         let mut train = gambol("train");
         train.args(["biped-1", "--until", "usable"]).args(flags).current_dir(folder.path());
         assert_says(
             &fail(&mut train),
-            &["stop.grade = a grade (--until usable): must be null where no gaits are judged"],
+            &["stop.tier = a tier (--until usable): must be null where no gaits are judged"],
         );
     }
     assert_eq!(std::fs::read_dir(folder.path())?.count(), 0, "nothing was begun");

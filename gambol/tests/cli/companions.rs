@@ -4,7 +4,7 @@ use crate::{
     damage::json,
     folder::{assert_same_run, read},
     killed::kill_after,
-    program::{WITHOUT_JURY, assert_says, fail, gambol, long_run, run, small_run, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, fail, gambol, long_run, run, small_run, succeed, text},
 };
 use serde_json::{Value, json};
 use std::{
@@ -39,8 +39,8 @@ fn log(run: &Path) -> Vec<Value> {
 fn threads_and_engines_give_the_same_bytes() -> Outcome {
     let folder = tempfile::tempdir()?;
     let companions = companions(folder.path());
-    let heats = ["--set", "trials.count=2", "--set", r#"heats=[{"steps":20,"trials":1,"share":0.5}]"#];
-    for (name, flags) in [("plain", &WITHOUT_JURY[..]), ("varied", &[]), ("in-heats", &heats)] {
+    let rungs = ["--set", "trials.count=2", "--set", r#"rungs=[{"steps":20,"trials":1,"share":0.5}]"#];
+    for (name, flags) in [("plain", &WITHOUT_SELECTION[..]), ("varied", &[]), ("in-rungs", &rungs)] {
         let train = |run: &str, more: &[&str]| {
             let path = folder.path().join(name).join(run);
             succeed(small_run(&path, 12).args(flags).args(&companions).args(more));
@@ -70,7 +70,7 @@ fn a_run_is_trained_in_all_bodies_and_its_champion_judged_in_the_creature() -> O
     let [with, without] = ["with", "without"].map(|name| folder.path().join(name));
     let companions = companions(folder.path());
     // Nothing ends an episode early, so that steps can be told beforehand.
-    let plain = [&WITHOUT_JURY[..], &["--set", "movement.terms=[]", "--set", "trials.count=1"]].concat();
+    let plain = [&WITHOUT_SELECTION[..], &["--set", "movement.terms=[]", "--set", "trials.count=1"]].concat();
     let ended = run(small_run(&with, 10).args(&plain).args(&companions));
     assert_says(&ended.stderr, &["biped-1 learns running in 3 bodies: population 8", " m in rapier, "]);
     succeed(small_run(&without, 10).args(&plain));
@@ -78,7 +78,7 @@ fn a_run_is_trained_in_all_bodies_and_its_champion_judged_in_the_creature() -> O
     assert_eq!((&three[9]["steps"], &one[9]["steps"]), (&(10 * 8 * 60 * 3).into(), &(10 * 8 * 60).into()));
     assert_eq!(three[9]["evaluations"], one[9]["evaluations"]);
     assert_ne!(three[0]["fitness"], one[0]["fitness"]);
-    assert!(three[9]["hearing"].is_object() && one[9]["hearing"].is_null());
+    assert!(three[9]["re_evaluation"].is_object() && one[9]["re_evaluation"].is_null());
     let champion = &json(&with.join("champion.json"))["content"];
     assert_eq!((&champion["creature"]["name"], &champion["fitness"]), (&"biped-1".into(), &three[9]["best_so_far"]));
     assert_eq!(champion["trained"]["bodies"], 3);
@@ -100,7 +100,7 @@ fn a_run_that_is_killed_and_resumed_gives_the_same_bytes() -> Outcome {
     let [whole, killed] = ["whole", "killed"].map(|run| folder.path().join(run));
     let train = |path: &Path| {
         let mut train = long_run(path);
-        train.args(["--threads", "1", "--set", "record.checkpoint_every=7"]).args(WITHOUT_JURY).args(&companions);
+        train.args(["--threads", "1", "--set", "record.checkpoint_every=7"]).args(WITHOUT_SELECTION).args(&companions);
         train
     };
     succeed(train(&whole).arg("--quiet"));

@@ -3,7 +3,7 @@
 use crate::{
     damage::{edit_and_seal, json},
     folder::{assert_same_run, read},
-    program::{WITHOUT_JURY, assert_says, fail, gambol, small_run, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run, succeed, text},
 };
 use serde_json::Value;
 use std::fs;
@@ -15,7 +15,7 @@ fn lanes_are_the_default_and_rapier_finds_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     for variation in ["none", "light"] {
         let [plain, lanes, rapier] = ["plain", "lanes", "rapier"].map(|it| folder.path().join(variation).join(it));
-        let varies: &[&str] = if variation == "none" { &WITHOUT_JURY } else { &["--variation", variation] };
+        let varies: &[&str] = if variation == "none" { &WITHOUT_SELECTION } else { &["--variation", variation] };
         let run = |path, flags: &[&str]| succeed(small_run(path, 12).args(varies).args(flags));
         run(&plain, &[]);
         run(&lanes, &["--engine", "lanes", "--threads", "1"]);
@@ -95,7 +95,7 @@ fn an_old_run_goes_on_in_rapier() -> Outcome {
     edit_and_seal(&old.join("config.json"), |content| {
         let content = content.as_object_mut().expect("an object");
         content.remove("engine");
-        content["record"].as_object_mut().expect("an object").remove("finalists");
+        content["record"].as_object_mut().expect("an object").remove("candidates");
     });
     succeed(gambol("resume").arg(&old).args(["--generations", "6", "--no-report"]));
     assert_same_run(&whole, &old);

@@ -128,7 +128,7 @@ fn measured(setup: &Setup, point: &gambol::front::SavedPoint, seed: Seed) -> f64
 #[test]
 fn each_point_can_be_replayed_saved_and_verified() -> Outcome {
     let folder = tempfile::tempdir()?;
-    // With and without a jury's world of its own.
+    // With and without a champion selection's world of its own.
     for (name, more) in [("varied", &[][..]), ("plain", &["--preset", "thesis"])] {
         let path = folder.path().join(name);
         succeed(train_many(&path, 4, 16).args(more));

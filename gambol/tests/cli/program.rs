@@ -27,8 +27,8 @@ pub(crate) fn small_run_of(creature: &str, movement: &str, folder: &Path, genera
     train
 }
 
-/// Flags of a run without a jury: what is found in training is what is found.
-pub(crate) const WITHOUT_JURY: [&str; 4] = ["--variation", "none", "--set", "rehearsal=null"];
+/// Flags of a run without a champion selection: what is found in training is what is found.
+pub(crate) const WITHOUT_SELECTION: [&str; 4] = ["--variation", "none", "--set", "training_steps=null"];
 
 /// The generations of a [`long_run`].
 pub(crate) const LONG: usize = 200;

@@ -388,7 +388,7 @@ fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
     succeed(small_run(&path("first"), 22).args(["--seed", "28", "--quiet"]));
-    // It was found since the last hearing, so that the checkpoint has it among those who wait for the next.
+    // It was found since the last re-evaluation, so that the checkpoint has it among those who wait for the next.
     let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
     let generation = file["content"]["generation"].clone();
     assert!(generation.as_u64() > heard["content"]["champion"]["generation"].as_u64());

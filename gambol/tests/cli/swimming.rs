@@ -20,7 +20,7 @@ fn swim(creature: &str, folder: &Path, flags: &[&str]) -> Command {
 fn a_swimmer_is_trained_in_water_and_in_rapier_and_its_champion_verified() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (name, creature, flags) in
-        [("apod", "apod", &["--set", "rehearsal=20"][..]), ("plain", "biped-1", &["--preset", "thesis"])]
+        [("apod", "apod", &["--set", "training_steps=20"][..]), ("plain", "biped-1", &["--preset", "thesis"])]
     {
         let run = folder.path().join(name);
         succeed(&mut swim(creature, &run, flags));

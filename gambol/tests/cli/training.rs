@@ -1,6 +1,6 @@
 use crate::{
     folder::LASTING,
-    program::{WITHOUT_JURY, assert_says, gambol, run, small_run, small_run_of, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, gambol, run, small_run, small_run_of, succeed, text},
 };
 use serde_json::Value;
 use std::{collections::BTreeSet, fs};
@@ -45,7 +45,7 @@ fn quiet_prints_nothing() -> Outcome {
 fn json_is_a_line_for_each_generation_and_one_for_the_result() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    let ended = run(small_run(&path, 5).args(["--json", "--engine", "rapier"]).args(WITHOUT_JURY));
+    let ended = run(small_run(&path, 5).args(["--json", "--engine", "rapier"]).args(WITHOUT_SELECTION));
     assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), ""));
     let lines = ended.stdout.lines().map(serde_json::from_str).collect::<Result<Vec<Value>, _>>()?;
     let (result, generations) = lines.split_last().expect("six lines");

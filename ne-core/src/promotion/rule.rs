@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub enum Rule {
     /// The champion's fitness is at least this.
     Fitness(f64),
-    /// The jury gives the champion a [grade](crate::Judgement::grades) of at least 1: of creatures, its gait is usable.
+    /// The champion selection gives the champion a [tier](crate::Judgement::tiers) of at least 1: of creatures, its gait is usable.
     Usable,
     /// So large a share of the generation has at least this fitness.
     Share(PopulationShare),
@@ -103,7 +103,7 @@ impl Rule {
         let Moment { evaluations, champion, progress, .. } = *moment;
         match self {
             Self::Fitness(fitness) => champion.is_some_and(|champion| champion.fitness.get() >= *fitness),
-            Self::Usable => champion.is_some_and(|champion| champion.grade >= 1),
+            Self::Usable => champion.is_some_and(|champion| champion.tier >= 1),
             Self::Share(PopulationShare { fitness, of }) => {
                 let good = evaluations
                     .iter()
@@ -129,7 +129,7 @@ impl Rule {
         }
     }
 
-    /// Whether it asks for a grade from the jury.
+    /// Whether it asks for a tier from the champion selection.
     pub fn asks_for_usable(&self) -> bool {
         match self {
             Self::Usable => true,

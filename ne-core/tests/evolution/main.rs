@@ -2,15 +2,15 @@
 #![cfg(feature = "parallel")]
 
 mod champion;
+mod champion_selection;
 #[path = "../common/mod.rs"]
 mod common;
-mod heats;
-mod jury;
 mod observers;
 mod promotion;
 mod resuming;
 mod scripted;
 mod stopping;
+mod successive_halving;
 mod threads;
 
 use common::{Climber, Imitate};

@@ -25,7 +25,7 @@ fn is_met(rule: &Rule) -> bool {
     .expect("a report");
     let fitness = Evaluation::new(3.5).fitness().expect("a fitness");
     let progress = Progress { generations: 7, evaluations: 28, steps: 280, stagnation: 3 };
-    let champion = Some(Standing { grade: 1, fitness });
+    let champion = Some(Standing { tier: 1, fitness });
     let moment = Moment { report: &report, evaluations: &evaluations, champion, progress };
     let nobody = Moment { champion: None, evaluations: &[], ..moment };
     let needs_somebody = matches!(rule, Rule::Fitness(_) | Rule::Usable | Rule::Measurement(_));

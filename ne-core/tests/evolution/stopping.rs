@@ -15,7 +15,7 @@ const NONE: StopConditions = StopConditions {
     steps: None,
     minutes: None,
     target: None,
-    grade: None,
+    tier: None,
     stagnation: None,
 };
 

@@ -11,13 +11,13 @@ mod footfalls;
 mod getting_up;
 mod haste;
 mod headway;
-mod honest;
 mod hopping;
 mod idleness;
 mod jumping;
 mod landing;
 mod leap;
 mod long_jump;
+mod no_exploits;
 mod objectives;
 mod posture;
 mod rhythm;
@@ -43,13 +43,13 @@ pub use {
     getting_up::{GettingUp, GettingUpSettings},
     haste::{Haste, HasteSettings},
     headway::{Headway, HeadwaySettings},
-    honest::Honest,
     hopping::Hopping,
     idleness::Idleness,
     jumping::Jumping,
     landing::Landing,
     leap::Leap,
     long_jump::LongJump,
+    no_exploits::NoExploits,
     objectives::Objectives,
     posture::{Posture, PostureSettings},
     rhythm::{Rhythm, RhythmSettings},

@@ -92,7 +92,7 @@ function buildFitness(run) {
   document.getElementById("fitness").hidden = false;
   const rows = run.history;
   const sizes = rows.map(row => row.evaluations || 0);
-  // With a jury there is no champion before its first hearing.
+  // With a champion selection there is no champion before its first re-evaluation.
   const bests = rows.map(row => row.best_so_far).filter(best => best !== null && best !== undefined);
   const generations = count(rows.length, "generation", "generations");
   const text = rows.length === 1 ? ["One generation"] : !bests.length ? [generations[0].toUpperCase() + generations.slice(1)]
@@ -101,7 +101,7 @@ function buildFitness(run) {
   const size = sizes.every(size => size === sizes[0]) ? `${count(sizes[0], "evaluation", "evaluations")} each`
     : `${fixed(Math.min(...sizes), 0)} to ${fixed(Math.max(...sizes), 0)} evaluations`;
   if (sizes[0]) text.push(` of ${size}`);
-  const judged = run.summary?.judged ? " The champion is chosen by a jury: in a whole episode without variation, in rapier." : "";
+  const judged = run.summary?.judged ? " The champion is chosen by a champion_selection: in a whole episode without variation, in rapier." : "";
   document.getElementById("fitness-intro").textContent = text.join("") + "." + judged;
   new FitnessChart(run);
 }

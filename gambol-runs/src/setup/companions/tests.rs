@@ -17,7 +17,7 @@ fn config(engine: EngineChoice, combine: Combine) -> RunConfig {
     let creature = creatures::find("biped-2").expect("shipped");
     let mut config = Registry::default().config("default", creature.clone(), "running").expect("a preset");
     config.movement.steps = Some(60);
-    config.rehearsal = Some(50);
+    config.training_steps = Some(50);
     config.trials = Trials { count: 2, combine };
     config.companions = [0.7, 1.6].map(|times| heavier(&creature, times)).into();
     RunConfig { engine, ..config }
@@ -151,16 +151,16 @@ fn who_fails_in_one_body_fails_and_is_not_tried_in_the_next() {
 #[test]
 fn the_champion_is_judged_in_the_creature_alone() {
     let mut config = config(EngineChoice::Lanes, Combine::Mean);
-    (config.variation, config.rehearsal) = (Default::default(), None);
+    (config.variation, config.training_steps) = (Default::default(), None);
     let several = setup(&config);
-    let nominal = several.nominal.as_ref().expect("a jury");
-    assert!(nominal.stage.is_some() && nominal.proof.is_none());
+    let reference = several.reference.as_ref().expect("a champion selection");
+    assert!(reference.stage.is_some() && reference.proof.is_none());
     let net = network(&several, 3);
-    let own = alone(&config)[0].evaluate(&mut net.clone(), nominal.seed);
-    let judged = nominal.task.evaluate(&mut net.clone(), nominal.seed);
+    let own = alone(&config)[0].evaluate(&mut net.clone(), reference.seed);
+    let judged = reference.task.evaluate(&mut net.clone(), reference.seed);
     assert_eq!(judged.outcome, own.outcome);
     config.companions.clear();
-    assert!(setup(&config).nominal.is_none());
+    assert!(setup(&config).reference.is_none());
 }
 
 #[test]

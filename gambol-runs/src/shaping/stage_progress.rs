@@ -17,7 +17,7 @@ use ne_core::{Decision, Progress, StopConditions, StopReason};
 use std::{fs, path::Path, time::Instant};
 
 /// How a run with stages is watched.
-pub struct Journey<'a> {
+pub struct StageProgress<'a> {
     /// Called when a leg begins, or is taken up again: its folder is there, and its stage is about to be trained.
     pub on_leg: &'a mut dyn FnMut(&PlannedStage, Option<&Origin>),
 }
@@ -98,11 +98,11 @@ pub fn adopt(config: &RunConfig, source: &Path) -> Result<RunConfig, ShapingErro
 pub fn train_stages(
     config: &RunConfig,
     folder: &Path,
-    journey: Journey<'_>,
+    stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let stages = listed(config, &options)?;
-    train_curriculum(&stages, config, folder, journey, options)
+    train_curriculum(&stages, config, folder, stage_progress, options)
 }
 
 /// Goes on with a run with stages from where it stopped. Other stop conditions, if given, take the place of the planned
@@ -113,12 +113,12 @@ pub fn train_stages(
 pub fn resume_stages(
     folder: &Path,
     stop: Option<StopConditions>,
-    journey: Journey<'_>,
+    stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let folder = RunFolder::open(folder)?;
     let stages = listed(&folder.read_config()?, &options)?;
-    resume_curriculum(&stages, &folder, stop, journey, options)
+    resume_curriculum(&stages, &folder, stop, stage_progress, options)
 }
 
 /// As [`train_stages`], with a curriculum of your own: the configuration has the seed, the limits and what is recorded of the
@@ -130,11 +130,11 @@ pub fn train_curriculum(
     curriculum: &dyn Curriculum,
     config: &RunConfig,
     folder: &Path,
-    journey: Journey<'_>,
+    stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let (folder, lock) = RunFolder::create(folder, config)?;
-    travel(curriculum, config, &folder, lock, journey, options)
+    travel(curriculum, config, &folder, lock, stage_progress, options)
 }
 
 /// As [`resume_stages`], with the curriculum of [`train_curriculum`].
@@ -145,7 +145,7 @@ pub fn resume_curriculum(
     curriculum: &dyn Curriculum,
     folder: &RunFolder,
     stop: Option<StopConditions>,
-    journey: Journey<'_>,
+    stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let mut config = folder.read_config()?;
@@ -154,7 +154,7 @@ pub fn resume_curriculum(
         config.stop = stop;
         folder.write_config(&config)?;
     }
-    travel(curriculum, &config, folder, lock, journey, options)
+    travel(curriculum, &config, folder, lock, stage_progress, options)
 }
 
 fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
@@ -170,7 +170,7 @@ fn travel(
     config: &RunConfig,
     folder: &RunFolder,
     _lock: FolderLock,
-    journey: Journey<'_>,
+    stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let began = Instant::now();
@@ -211,10 +211,10 @@ fn travel(
             on_generation: &mut *options.on_generation,
         };
         let outcome = if is_begun {
-            (journey.on_leg)(&planned, leg_folder.read_config()?.origin.as_ref());
+            (stage_progress.on_leg)(&planned, leg_folder.read_config()?.origin.as_ref());
             training::resume_leg(&path, stop, now, planned.promotion.clone(), options).map_err(ShapingError::from)
         } else {
-            begin(&planned, leg_config, &path, legs.last(), now, &mut *journey.on_leg, options)
+            begin(&planned, leg_config, &path, legs.last(), now, &mut *stage_progress.on_leg, options)
         };
         let outcome = outcome.map_err(|error| of_the_run(error, folder, used))?;
         keep_champion(folder, &legs, Some(&leg_folder))?;
@@ -276,7 +276,7 @@ fn begin(
     Ok(training::train_leg(strategy, &config, &departure.setup, path, now, promotion, options)?)
 }
 
-/// The limits of a leg: what is left of the budgets. A fitness, a grade or stagnation ends the run only in a stage without
+/// The limits of a leg: what is left of the budgets. A fitness, a tier or stagnation ends the run only in a stage without
 /// a rule of its own.
 fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopConditions {
     let left = |limit: Option<u64>, used: u64| limit.map(|limit| limit.saturating_sub(used));
@@ -286,7 +286,7 @@ fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopCondition
         steps: left(stop.steps, used.steps),
         minutes: stop.minutes,
         target: stop.target.filter(|_| !has_rule),
-        grade: stop.grade.filter(|_| !has_rule),
+        tier: stop.tier.filter(|_| !has_rule),
         stagnation: stop.stagnation.filter(|_| !has_rule),
     }
 }

@@ -1,7 +1,7 @@
-//! The world of the jury.
+//! The world of the champion selection.
 
 use crate::{
-    proving::ProvingGround,
+    robustness_check::RobustnessCheck,
     stage::Stage,
     training_task::TrainingTask,
     trajectory::{TrajectoryDigest, replay},
@@ -15,7 +15,7 @@ use tasks::{Episode, Trials};
 /// One trial of the creature, whole and in the world as the configuration has it, where training varies the world, shortens
 /// the episode or has further bodies.
 #[derive(Clone)]
-pub struct Nominal {
+pub struct ReferenceEpisode {
     /// In the engine of training.
     pub task: TrainingTask,
     /// In rapier.
@@ -27,9 +27,9 @@ pub struct Nominal {
     pub proof: Option<TrainingTask>,
     /// Where gaits are judged, if those of this movement are.
     pub stage: Option<Stage>,
-    /// Where finalists are tried in perturbed worlds, if training varies the world and gaits are judged.
-    pub proving: Option<ProvingGround>,
-    /// What was replayed last: the jury has a champion played in rapier just before its file is written.
+    /// Where candidates are tried in perturbed worlds, if training varies the world and gaits are judged.
+    pub robustness_check: Option<RobustnessCheck>,
+    /// What was replayed last: the champion selection has a champion played in rapier just before its file is written.
     last: Arc<Mutex<Option<Replay>>>,
 }
 
@@ -40,7 +40,7 @@ struct Replay {
     result: (TrajectoryDigest, Evaluation),
 }
 
-impl Nominal {
+impl ReferenceEpisode {
     pub(crate) fn new(
         task: TrainingTask,
         episode: Episode<RapierEnvironment>,
@@ -50,8 +50,8 @@ impl Nominal {
     ) -> Self {
         let stage = Some(stage).filter(|stage| stage.rules().is_some());
         let tried = stage.clone().filter(|_| proof.is_some());
-        let proving = tried.map(|stage| ProvingGround::new(stage, seed));
-        Self { task, episode, seed, proof, stage, proving, last: Arc::default() }
+        let robustness_check = tried.map(|stage| RobustnessCheck::new(stage, seed));
+        Self { task, episode, seed, proof, stage, robustness_check, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.

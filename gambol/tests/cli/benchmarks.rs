@@ -1,4 +1,4 @@
-//! The yardsticks: every strategy is measured on classic tasks, the same each time.
+//! The benchmarks: every strategy is measured on classic tasks, the same each time.
 
 use crate::program::{assert_says, gambol, run, succeed};
 use serde_json::Value;
@@ -7,7 +7,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn bench(arguments: &[&str]) -> std::process::Command {
     let mut bench = gambol("bench");
-    bench.arg("yardsticks").args(arguments);
+    bench.arg("benchmarks").args(arguments);
     bench
 }
 

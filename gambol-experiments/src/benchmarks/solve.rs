@@ -1,4 +1,4 @@
-use super::{Contestant, Yardstick};
+use super::{BenchmarkTask, Entrant};
 use gambol_runs::strategies::{AnyStrategy, StrategyCatalogue, StrategyError};
 use ne_core::{Evaluation, Genome, Seed, Strategy, Task};
 use ne_net::Network;
@@ -27,30 +27,30 @@ pub struct Attempt {
     pub generalization: Option<u32>,
 }
 
-/// The runs of a contestant on a task.
+/// The runs of a entrant on a task.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Measured {
     /// The strategy's name.
     pub strategy: String,
     /// The task.
-    pub task: Yardstick,
+    pub task: BenchmarkTask,
     /// Settings and net, in words.
     pub description: String,
     /// One for each seed.
     pub attempts: Vec<Attempt>,
 }
 
-/// Lets a contestant try a task with the seeds from 1 to `seeds`, spread over all cores. The result is the same on any
+/// Lets a entrant try a task with the seeds from 1 to `seeds`, spread over all cores. The result is the same on any
 /// number of cores.
 ///
 /// # Errors
-/// If a setting of the contestant is out of range.
-pub fn measure(contestant: &Contestant, seeds: u64) -> Result<Measured, StrategyError> {
+/// If a setting of the entrant is out of range.
+pub fn measure(entrant: &Entrant, seeds: u64) -> Result<Measured, StrategyError> {
     let strategies = StrategyCatalogue::default();
-    let attempts = (1..=seeds).into_par_iter().map(|seed| attempt(contestant, &strategies, seed));
+    let attempts = (1..=seeds).into_par_iter().map(|seed| attempt(entrant, &strategies, seed));
     let attempts = attempts.collect::<Result<_, _>>()?;
-    let (strategy, description) = (contestant.settings.name().to_owned(), contestant.description.to_owned());
-    Ok(Measured { strategy, task: contestant.task, description, attempts })
+    let (strategy, description) = (entrant.settings.name().to_owned(), entrant.description.to_owned());
+    Ok(Measured { strategy, task: entrant.task, description, attempts })
 }
 
 impl Measured {
@@ -68,20 +68,20 @@ impl Measured {
 }
 
 /// Tries a task with one seed.
-fn attempt(contestant: &Contestant, strategies: &StrategyCatalogue, seed: u64) -> Result<Attempt, StrategyError> {
-    let &Contestant { task, ref settings, ref topology, output_range, bias_input, .. } = contestant;
+fn attempt(entrant: &Entrant, strategies: &StrategyCatalogue, seed: u64) -> Result<Attempt, StrategyError> {
+    let &Entrant { task, ref settings, ref topology, output_range, bias_input, .. } = entrant;
     let benchmark = task.task(output_range, bias_input)?;
     let poles = task.poles(output_range, bias_input)?;
     let strategy = strategies.build(settings, topology)?;
     let began = Instant::now();
     let (evaluations, solution) = match task {
-        Yardstick::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
+        BenchmarkTask::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
         _ => solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit()),
     };
     let seconds = began.elapsed().as_secs_f64();
     let (hidden, connections) = solution.as_ref().map(size).unzip();
     let solved = solution.is_some();
-    let has_starts = matches!(task, Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles);
+    let has_starts = matches!(task, BenchmarkTask::TwoPolesWithoutVelocities | BenchmarkTask::GeneralTwoPoles);
     let generalization = solution
         .filter(|_| has_starts)
         .and_then(|mut solution| poles.generalization(&mut solution).ok())
@@ -153,19 +153,19 @@ fn size(network: &Network) -> (usize, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::contestants, *};
+    use super::{super::entrants, *};
 
     /// The genetic algorithm with its population of 50, and its task.
-    fn genetic_algorithm(task: Yardstick) -> (AnyStrategy, Contestant) {
-        let is_it = |one: &Contestant| one.task == task && one.settings.name() == "conventional";
-        let contestant = contestants().into_iter().find(is_it).expect("it takes part in every task");
-        let built = StrategyCatalogue::default().build(&contestant.settings, &contestant.topology);
-        (built.expect("valid settings"), contestant)
+    fn genetic_algorithm(task: BenchmarkTask) -> (AnyStrategy, Entrant) {
+        let is_it = |one: &Entrant| one.task == task && one.settings.name() == "conventional";
+        let entrant = entrants().into_iter().find(is_it).expect("it takes part in every task");
+        let built = StrategyCatalogue::default().build(&entrant.settings, &entrant.topology);
+        (built.expect("valid settings"), entrant)
     }
 
     #[test]
     fn an_attempt_without_a_solution_ends_at_its_limit() {
-        let (strategy, Contestant { task, output_range, bias_input, .. }) = genetic_algorithm(Yardstick::TwoPoles);
+        let (strategy, Entrant { task, output_range, bias_input, .. }) = genetic_algorithm(BenchmarkTask::TwoPoles);
         let task = task.task(output_range, bias_input).expect("valid settings");
         let (used, solution) = solve(strategy, task.as_ref(), Seed::of_run(1), 120);
         assert_eq!((used, solution), (120, None), "in the middle of the third generation");
@@ -173,8 +173,8 @@ mod tests {
 
     #[test]
     fn general_solutions_are_looked_for_generation_by_generation() {
-        let (strategy, Contestant { task, output_range, bias_input, .. }) =
-            genetic_algorithm(Yardstick::GeneralTwoPoles);
+        let (strategy, Entrant { task, output_range, bias_input, .. }) =
+            genetic_algorithm(BenchmarkTask::GeneralTwoPoles);
         let poles = task.poles(output_range, bias_input).expect("valid settings");
         let (used, solution) = solve_generally(strategy, &poles, Seed::of_run(1), 120);
         assert_eq!((used, solution), (150, None), "the third generation is finished");
@@ -182,9 +182,9 @@ mod tests {
 
     #[test]
     fn evaluations_are_counted_up_to_the_first_solver() {
-        let is_it = |one: &&Contestant| one.task == Yardstick::OnePole && one.settings.name() == "conventional";
-        let contestants = contestants();
-        let measured = measure(contestants.iter().find(is_it).expect("it takes part"), 4).expect("valid settings");
+        let is_it = |one: &&Entrant| one.task == BenchmarkTask::OnePole && one.settings.name() == "conventional";
+        let entrants = entrants();
+        let measured = measure(entrants.iter().find(is_it).expect("it takes part"), 4).expect("valid settings");
         assert_eq!(measured.solved(), 4);
         assert!(measured.evaluations().iter().any(|evaluations| evaluations % 50 > 0), "{:?}", measured.evaluations());
     }

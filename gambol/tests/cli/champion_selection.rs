@@ -21,23 +21,28 @@ fn log(run: &Path) -> Vec<Value> {
 fn log_champion_and_verify_have_both_figures() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
-    let ended = run(small_run(&path, 20).args(["--seed", "5", "--set", "record.finalists=3"]));
+    let ended = run(small_run(&path, 20).args(["--seed", "5", "--set", "record.candidates=3"]));
     let champion = &json(&path.join("champion.json"))["content"];
     let (fitness, trained) = (champion["fitness"].as_f64().ok_or("a number")?, &champion["trained"]);
     assert_eq!((&champion["trials"]["count"], &champion["variation"]["mass"]), (&1.into(), &0.0.into()));
     assert_eq!((&trained["engine"], &trained["trials"]["count"]), (&"lanes".into(), &3.into()));
     assert!(trained["variation"]["friction"].as_f64() > Some(0.19), "{trained}");
-    assert_eq!(trained["parted"], Value::Null, "lanes and rapier agree");
+    assert_eq!(trained["diverged"], Value::Null, "lanes and rapier agree");
     assert_eq!(champion["seed"]["generation"], 0, "the run's seed");
 
     let log = log(&path);
-    let hearings: Vec<&Value> = log.iter().filter(|line| line["hearing"].is_object()).collect();
-    assert_eq!(hearings.iter().map(|line| &line["generation"]).collect::<Vec<_>>(), [10, 20]);
+    let re_evaluations: Vec<&Value> = log.iter().filter(|line| line["re_evaluation"].is_object()).collect();
+    assert_eq!(re_evaluations.iter().map(|line| &line["generation"]).collect::<Vec<_>>(), [10, 20]);
     assert!(log[8]["best_so_far"].is_null());
     assert_eq!(log[19]["best_so_far"], champion["fitness"]);
-    let mine = hearings.iter().find(|line| line["hearing"]["judged"] == champion["fitness"]).ok_or("it was heard")?;
-    assert_eq!(mine["hearing"]["trained"], trained["fitness"]);
-    assert!(hearings.iter().all(|line| (1..=12).contains(&line["hearing"]["finalists"].as_u64().unwrap_or(0))));
+    let mine = re_evaluations
+        .iter()
+        .find(|line| line["re_evaluation"]["judged"] == champion["fitness"])
+        .ok_or("it was heard")?;
+    assert_eq!(mine["re_evaluation"]["trained"], trained["fitness"]);
+    assert!(
+        re_evaluations.iter().all(|line| (1..=12).contains(&line["re_evaluation"]["candidates"].as_u64().unwrap_or(0)))
+    );
 
     let in_training = trained["fitness"].as_f64().ok_or("a number")?;
     assert_says(
@@ -58,13 +63,15 @@ fn log_champion_and_verify_have_both_figures() -> Outcome {
     Ok(())
 }
 
-/// Short episodes alone are reason enough for a jury.
+/// Short episodes alone are reason enough for a champion selection.
 #[test]
-fn whoever_shows_a_run_knows_whether_there_is_a_jury() -> Outcome {
+fn whoever_shows_a_run_knows_whether_there_is_a_champion_selection() -> Outcome {
     let folder = tempfile::tempdir()?;
-    for (name, rehearsal, judged) in [("rehearsed", "rehearsal=30", true), ("whole", "rehearsal=null", false)] {
+    for (name, training_steps, judged) in
+        [("rehearsed", "training_steps=30", true), ("whole", "training_steps=null", false)]
+    {
         let path = folder.path().join(name);
-        let ended = run(small_run(&path, 10).args(["--variation", "none", "--set", rehearsal]));
+        let ended = run(small_run(&path, 10).args(["--variation", "none", "--set", training_steps]));
         assert_eq!(ended.stderr.contains(" in training, mean "), judged, "{}", ended.stderr);
         succeed(gambol("report").arg(&path));
         assert_eq!(data(&fs::read_to_string(path.join("report.html"))?)["summary"]["judged"], judged);
@@ -72,9 +79,9 @@ fn whoever_shows_a_run_knows_whether_there_is_a_jury() -> Outcome {
     Ok(())
 }
 
-/// Between two hearings the file has whoever would be champion, and the run goes on as if nobody had asked.
+/// Between two re-evaluations the file has whoever would be champion, and the run goes on as if nobody had asked.
 #[test]
-fn a_run_that_ends_between_hearings_has_a_champion_and_goes_on_the_same() -> Outcome {
+fn a_run_that_ends_between_re_evaluations_has_a_champion_and_goes_on_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (whole, grown) = (folder.path().join("whole"), folder.path().join("grown"));
     succeed(&mut small_run(&whole, 24));
@@ -88,7 +95,7 @@ fn a_run_that_ends_between_hearings_has_a_champion_and_goes_on_the_same() -> Out
         assert!(fitness().is_some(), "after {generations} generations");
     }
     assert_same_run(&whole, &grown);
-    let waiting = json(&whole.join("checkpoint"))["content"]["finalists"].as_array().map(Vec::len);
+    let waiting = json(&whole.join("checkpoint"))["content"]["candidates"].as_array().map(Vec::len);
     assert_eq!(waiting, Some(4), "of generations 21 to 24");
     Ok(())
 }

@@ -1,14 +1,14 @@
-//! The yardsticks: each strategy on the classic tasks, evaluations to a solution, beside what papers report.
+//! The benchmarks: each strategy on the classic tasks, evaluations to a solution, beside what papers report.
 //!
 //! Nothing here is about creatures. It answers another question: are the strategies implemented right, and how well do
 //! they search where others have published numbers?
 
-mod contestants;
+mod entrants;
 mod published;
 mod solve;
 mod table;
 
-pub use contestants::{Contestant, contestants};
+pub use entrants::{Entrant, entrants};
 pub use published::{PUBLISHED, Published};
 pub use solve::{Attempt, Measured, measure};
 pub use table::render;
@@ -20,7 +20,7 @@ use tasks::{Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSetting
 /// A classic task with a published table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Yardstick {
+pub enum BenchmarkTask {
     /// Exclusive or.
     Xor,
     /// One pole on a cart.
@@ -34,7 +34,7 @@ pub enum Yardstick {
     GeneralTwoPoles,
 }
 
-impl Yardstick {
+impl BenchmarkTask {
     /// All of them, the easiest first.
     pub const ALL: [Self; 5] =
         [Self::Xor, Self::OnePole, Self::TwoPoles, Self::TwoPolesWithoutVelocities, Self::GeneralTwoPoles];
@@ -68,7 +68,7 @@ impl Yardstick {
         }
     }
 
-    /// The task, with the inputs and outputs a contestant wants.
+    /// The task, with the inputs and outputs a entrant wants.
     fn task(self, output_range: OutputRange, bias_input: bool) -> Result<Box<dyn Benchmark>, SettingError> {
         Ok(match self {
             Self::Xor => Box::new(Xor::new(XorSettings { output_range, bias_input })),

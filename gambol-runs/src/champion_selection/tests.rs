@@ -3,11 +3,11 @@ use ne_core::{Failure, Fitness};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// A finalist who wears on its sleeve what it is worth.
+/// A candidate who wears on its sleeve what it is worth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Candidate {
     /// Without variation.
-    nominal: f64,
+    reference: f64,
     /// In varied worlds; NaN fails there.
     varied: f64,
     usable: bool,
@@ -64,14 +64,14 @@ impl Task for Fake {
     }
 }
 
-/// A jury, those whose gaits it has looked at, and the trials it has held.
-struct Court {
-    jury: NominalJury,
+/// A champion selection, those whose gaits it has looked at, and the trials it has held.
+struct ScheduledSelection {
+    champion_selection: ReferenceSelection,
     seen: Arc<Mutex<Vec<Candidate>>>,
     tried: Arc<Mutex<Vec<Trial>>>,
 }
 
-impl Court {
+impl ScheduledSelection {
     fn new(lanes: Engine, rapier: Option<Engine>) -> Self {
         let seen: Arc<Mutex<Vec<Candidate>>> = Arc::default();
         let register = seen.clone();
@@ -88,7 +88,7 @@ impl Court {
             register.lock().expect("no test panics here").push(trial);
             candidate(phenotype).steady[trial as usize]
         };
-        let jury = NominalJury {
+        let champion_selection = ReferenceSelection {
             task: Box::new(Fake(lanes)),
             reference: rapier.map(|rapier| Box::new(Fake(rapier)) as Box<dyn Task>),
             proof: Some(Box::new(Fake(|candidate| Evaluation::new(candidate.varied)))),
@@ -97,14 +97,14 @@ impl Court {
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
-        Self { jury, seen, tried }
+        Self { champion_selection, seen, tried }
     }
 
-    /// The grades, and the fitness of those whose gait was looked at, in this order.
-    fn grades(&self, candidates: &[Candidate], standing: Option<Standing>) -> (Vec<u8>, Vec<f64>) {
-        let Judgement { grades, .. } = self.jury.judge(candidates, standing);
+    /// The tiers, and the fitness of those whose gait was looked at, in this order.
+    fn tiers(&self, candidates: &[Candidate], standing: Option<Standing>) -> (Vec<u8>, Vec<f64>) {
+        let Judgement { tiers, .. } = self.champion_selection.judge(candidates, standing);
         let seen = std::mem::take(&mut *self.seen.lock().expect("no test panics here"));
-        (grades, seen.iter().map(|candidate| candidate.nominal).collect())
+        (tiers, seen.iter().map(|candidate| candidate.reference).collect())
     }
 
     /// The trials that were held.
@@ -113,8 +113,8 @@ impl Court {
     }
 }
 
-fn nominal(candidate: &Candidate) -> Evaluation {
-    Evaluation::new(candidate.nominal)
+fn reference(candidate: &Candidate) -> Evaluation {
+    Evaluation::new(candidate.reference)
 }
 
 fn failed(_: &Candidate) -> Evaluation {
@@ -124,33 +124,39 @@ fn failed(_: &Candidate) -> Evaluation {
 /// Fitness without variation and with it, and whether the gait is usable; if so, then in every perturbed world.
 fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
     let steady = |usable| if usable { [15, 16] } else { [0, 0] };
-    all.iter().map(|&(nominal, varied, usable)| Candidate { nominal, varied, usable, steady: steady(usable) }).collect()
+    all.iter()
+        .map(|&(reference, varied, usable)| Candidate { reference, varied, usable, steady: steady(usable) })
+        .collect()
 }
 
-fn standing(grade: u8, fitness: f64) -> Option<Standing> {
-    Some(Standing { grade, fitness: Fitness::new(fitness).expect("finite") })
+fn standing(tier: u8, fitness: f64) -> Option<Standing> {
+    Some(Standing { tier, fitness: Fitness::new(fitness).expect("finite") })
 }
 
 #[test]
 fn what_rapier_confirms_stands() {
     let candidates = candidates(&[(1.0, 1.0, false), (-3.0, 1.0, false), (2.5, 1.0, false)]);
-    let judge = |lanes, rapier| Court::new(lanes, rapier).jury.judge(&candidates, None);
-    let alone = judge(nominal, None);
+    let judge = |lanes, rapier| ScheduledSelection::new(lanes, rapier).champion_selection.judge(&candidates, None);
+    let alone = judge(reference, None);
     assert_eq!(alone.evaluations, [1.0, -3.0, 2.5].map(Evaluation::new));
-    assert!(!alone.parted);
-    assert_eq!(judge(nominal, Some(nominal)), alone);
-    assert_eq!(judge(failed, Some(nominal)), judge(failed, None), "there is nobody to confirm");
+    assert!(!alone.diverged);
+    assert_eq!(judge(reference, Some(reference)), alone);
+    assert_eq!(judge(failed, Some(reference)), judge(failed, None), "there is nobody to confirm");
 }
 
 #[test]
 fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
     let candidates = candidates(&[(1.0, 1.0, true), (3.0, 1.0, true), (2.5, 1.0, true)]);
-    let judge = |lanes, rapier| Court::new(lanes, rapier).jury.judge(&candidates, None);
-    let off: Engine = |candidate| Evaluation::new(10.0 - candidate.nominal);
-    let by_a_bit: Engine = |candidate| Evaluation::new(candidate.nominal.next_up());
+    let judge = |lanes, rapier| ScheduledSelection::new(lanes, rapier).champion_selection.judge(&candidates, None);
+    let off: Engine = |candidate| Evaluation::new(10.0 - candidate.reference);
+    let by_a_bit: Engine = |candidate| Evaluation::new(candidate.reference.next_up());
     for rapier in [off, by_a_bit, failed] {
         let alone = judge(rapier, None);
-        assert_eq!(judge(nominal, Some(rapier)), Judgement { parted: true, ..alone }, "grades are those of rapier too");
+        assert_eq!(
+            judge(reference, Some(rapier)),
+            Judgement { diverged: true, ..alone },
+            "tiers are those of rapier too"
+        );
     }
 }
 
@@ -161,46 +167,46 @@ fn slow() -> Option<Standing> {
     standing(USABLE, SLOW)
 }
 
-/// Who is graded best is champion: so a usable one, and of those the one that is usable in more worlds.
+/// Who is given a tier best is champion: so a usable one, and of those the one that is usable in more worlds.
 #[test]
-fn a_usable_finalist_stands_above_a_fitter_one_that_is_not() {
-    let court = Court::new(nominal, None);
+fn a_usable_candidate_stands_above_a_fitter_one_that_is_not() {
+    let selection = ScheduledSelection::new(reference, None);
     let all = candidates(&[(9.0, 9.0, false), (5.0, 5.0, true), (7.0, 7.0, false), (6.0, 6.0, true)]);
-    let (grades, seen) = court.grades(&all, slow());
-    assert_eq!(grades, [0, 0, 0, HIGHEST]);
+    let (tiers, seen) = selection.tiers(&all, slow());
+    assert_eq!(tiers, [0, 0, 0, HIGHEST]);
     assert_eq!(seen, [9.0, 7.0, 6.0], "the best first, until one is usable");
     let nobody = candidates(&[(9.0, 9.0, false), (7.0, 7.0, false)]);
-    assert_eq!(court.grades(&nobody, slow()), (vec![0, 0], vec![9.0, 7.0]));
+    assert_eq!(selection.tiers(&nobody, slow()), (vec![0, 0], vec![9.0, 7.0]));
 }
 
 #[test]
 fn the_first_usable_champion_is_not_tried() {
-    let court = Court::new(nominal, None);
+    let selection = ScheduledSelection::new(reference, None);
     let all = candidates(&[(9.0, 9.0, false), (5.0, 5.0, true)]);
     for standing in [None, standing(0, 100.0)] {
-        assert_eq!(court.grades(&all, standing), (vec![0, USABLE], vec![9.0, 5.0]));
-        assert!(court.tried().is_empty());
+        assert_eq!(selection.tiers(&all, standing), (vec![0, USABLE], vec![9.0, 5.0]));
+        assert!(selection.tried().is_empty());
     }
-    assert_eq!(court.grades(&all, slow()).0, [0, HIGHEST]);
-    assert_eq!(court.tried(), [Trial::Short, Trial::Long]);
+    assert_eq!(selection.tiers(&all, slow()).0, [0, HIGHEST]);
+    assert_eq!(selection.tried(), [Trial::Short, Trial::Long]);
 }
 
 #[test]
-fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
-    let court = Court::new(nominal, None);
-    let grade = |steady| {
-        let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
-        court.grades(&[one], slow()).0[0]
+fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
+    let selection = ScheduledSelection::new(reference, None);
+    let tier = |steady| {
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady };
+        selection.tiers(&[one], slow()).0[0]
     };
-    let short: Vec<u8> = (0..=15).map(|worlds| grade([worlds, 0])).collect();
+    let short: Vec<u8> = (0..=15).map(|worlds| tier([worlds, 0])).collect();
     assert_eq!(short, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
-    let long: Vec<u8> = (0..=16).map(|worlds| grade([14, worlds])).collect();
+    let long: Vec<u8> = (0..=16).map(|worlds| tier([14, worlds])).collect();
     assert_eq!(long, [5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9]);
-    court.tried();
+    selection.tried();
     // A candidate less fit than the champion must be steadier, or it counts as usable and no more.
     let against = |champion: u8, steady| {
-        let one = Candidate { nominal: 1.0, varied: 1.0, usable: true, steady };
-        (court.grades(&[one], standing(champion, 2.0)).0[0], court.tried())
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady };
+        (selection.tiers(&[one], standing(champion, 2.0)).0[0], selection.tried())
     };
     assert_eq!(
         against(USABLE, [3, 16]),
@@ -218,58 +224,58 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_grade() {
 
 #[test]
 fn who_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usable() {
-    let court = Court::new(nominal, None);
-    let grade = |one: (f64, f64, bool)| court.grades(&candidates(&[one]), slow()).0[0];
+    let selection = ScheduledSelection::new(reference, None);
+    let tier = |one: (f64, f64, bool)| selection.tiers(&candidates(&[one]), slow()).0[0];
     for whole in [(2.0, 6.0, true), (2.0, 2.0, true), (2.0, 0.5, true)] {
-        assert_eq!(grade(whole), HIGHEST, "{whole:?}");
+        assert_eq!(tier(whole), HIGHEST, "{whole:?}");
     }
     for little in [(2.0, 0.4, true), (2.0, -6.0, true), (2.0, f64::NAN, true)] {
-        assert_eq!(grade(little), USABLE + 1, "{little:?}");
+        assert_eq!(tier(little), USABLE + 1, "{little:?}");
     }
     // Who keeps more comes first, then who is fitter.
     let all = candidates(&[(9.0, 0.9, true), (5.0, 4.9, true), (7.0, f64::NAN, true), (6.0, 0.6, true)]);
-    assert_eq!(court.grades(&all, slow()), (vec![0, HIGHEST, 0, 0], vec![5.0]));
+    assert_eq!(selection.tiers(&all, slow()), (vec![0, HIGHEST, 0, 0], vec![5.0]));
     let alike = candidates(&[(5.0, 5.0, true), (9.0, 8.9, true)]);
-    assert_eq!(court.grades(&alike, slow()), (vec![0, HIGHEST], vec![9.0]));
+    assert_eq!(selection.tiers(&alike, slow()), (vec![0, HIGHEST], vec![9.0]));
 }
 
 #[test]
 fn who_has_less_than_half_of_the_best_fitness_is_not_credited_for_keeping_it() {
-    let court = Court::new(nominal, None);
-    let grades = |slower: f64| court.grades(&candidates(&[(10.0, 0.1, true), (slower, slower, true)]), slow()).0;
-    assert_eq!((grades(4.9), grades(5.0)), (vec![USABLE + 1, 0], vec![0, HIGHEST]));
+    let selection = ScheduledSelection::new(reference, None);
+    let tiers = |slower: f64| selection.tiers(&candidates(&[(10.0, 0.1, true), (slower, slower, true)]), slow()).0;
+    assert_eq!((tiers(4.9), tiers(5.0)), (vec![USABLE + 1, 0], vec![0, HIGHEST]));
 }
 
 #[test]
 fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
-    let court = Court::new(nominal, None);
+    let selection = ScheduledSelection::new(reference, None);
     let safe = [(6.0, 6.0, false), (6.1, 6.1, false), (6.2, 6.2, false), (6.3, 6.3, false), (6.4, 6.4, true)];
     let all = candidates(&[&safe[..], &[(9.0, 0.9, true), (10.0, 1.0, false)]].concat());
-    assert_eq!(court.grades(&all, slow()), (vec![0, 0, 0, 0, HIGHEST, 0, 0], vec![6.4]));
+    assert_eq!(selection.tiers(&all, slow()), (vec![0, 0, 0, 0, HIGHEST, 0, 0], vec![6.4]));
     let without = [&all[..4], &all[5..]].concat();
     let seen = vec![6.3, 6.2, 6.1, 6.0, 10.0, 9.0];
-    assert_eq!(court.grades(&without, slow()), (vec![0, 0, 0, 0, USABLE + 1, 0], seen), "nobody is looked at twice");
+    assert_eq!(selection.tiers(&without, slow()), (vec![0, 0, 0, 0, USABLE + 1, 0], seen), "nobody is looked at twice");
 }
 
 #[test]
 fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
-    let court = Court::new(nominal, None);
+    let selection = ScheduledSelection::new(reference, None);
     let all: Vec<(f64, f64, bool)> = (1..=10).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);
-    assert_eq!(court.grades(&all, None), (vec![0; 10], vec![10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0]));
-    assert_eq!(court.grades(&all, standing(HIGHEST, 10.0)), (vec![0; 10], vec![]));
-    assert_eq!(court.grades(&all, standing(HIGHEST, 8.5)), (vec![0; 10], vec![10.0, 9.0]));
-    assert_eq!(court.grades(&all[..3], standing(HIGHEST - 1, 100.0)), (vec![0, HIGHEST, 0], vec![3.0, 2.0]));
-    let failed = Court::new(failed, None);
-    assert_eq!(failed.grades(&all, None), (vec![0; 10], vec![]), "who failed has no gait");
+    assert_eq!(selection.tiers(&all, None), (vec![0; 10], vec![10.0, 9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0]));
+    assert_eq!(selection.tiers(&all, standing(HIGHEST, 10.0)), (vec![0; 10], vec![]));
+    assert_eq!(selection.tiers(&all, standing(HIGHEST, 8.5)), (vec![0; 10], vec![10.0, 9.0]));
+    assert_eq!(selection.tiers(&all[..3], standing(HIGHEST - 1, 100.0)), (vec![0, HIGHEST, 0], vec![3.0, 2.0]));
+    let failed = ScheduledSelection::new(failed, None);
+    assert_eq!(failed.tiers(&all, None), (vec![0; 10], vec![]), "who failed has no gait");
 }
 
 #[test]
-fn without_varied_worlds_nobody_is_tried_and_without_a_judged_movement_nobody_is_graded() {
+fn without_varied_worlds_nobody_is_tried_and_without_a_judged_movement_nobody_is_given_a_tier() {
     let all = candidates(&[(1.0, 1.0, true), (3.0, 3.0, true)]);
-    let mut court = Court::new(nominal, None);
-    (court.jury.proof, court.jury.steadiness) = (None, None);
-    assert_eq!(court.grades(&all, slow()), (vec![0, USABLE], vec![3.0]));
-    court.jury.usable = None;
-    assert_eq!(court.grades(&all, slow()), (vec![0, 0], vec![]));
+    let mut selection = ScheduledSelection::new(reference, None);
+    (selection.champion_selection.proof, selection.champion_selection.steadiness) = (None, None);
+    assert_eq!(selection.tiers(&all, slow()), (vec![0, USABLE], vec![3.0]));
+    selection.champion_selection.usable = None;
+    assert_eq!(selection.tiers(&all, slow()), (vec![0, 0], vec![]));
 }

@@ -13,7 +13,7 @@ use std::path::Path;
 /// Why a lesson came to nothing.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum LessonError {
+pub enum CompleteRunError {
     /// The run could not be started, or broke off.
     #[error(transparent)]
     Train(#[from] TrainError),
@@ -39,16 +39,16 @@ pub enum LessonError {
 ///
 /// # Errors
 /// As [`train`] and [`write_report`]; and if every evaluation failed, or the champion does not do the same again.
-pub fn teach(config: &RunConfig, folder: &Path, registry: &Registry) -> Result<Champion, LessonError> {
+pub fn teach(config: &RunConfig, folder: &Path, registry: &Registry) -> Result<Champion, CompleteRunError> {
     let options =
         TrainOptions { threads: 0, registry: registry.clone(), signal: Default::default(), on_generation: &mut |_| {} };
     let outcome = train(config, folder, options)?;
     write_report(&outcome.folder, registry, Some(outcome.reason))?;
-    let no_champion = || LessonError::NoChampion { folder: folder.display().to_string() };
+    let no_champion = || CompleteRunError::NoChampion { folder: folder.display().to_string() };
     let champion = outcome.champion.ok_or_else(no_champion)?;
     match champion.verify(registry)? {
         verification if verification.is_identical() => Ok(champion),
-        verification => Err(LessonError::NotRepeated(Box::new(verification))),
+        verification => Err(CompleteRunError::NotRepeated(Box::new(verification))),
     }
 }
 

@@ -1,14 +1,16 @@
-//! The jury of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
+//! The champion selection of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
 //! whole episode of the creature, in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, nominal::Nominal, proving::Trial, stage::USABLE};
-use ne_core::{Evaluation, Evaluator, Fitness, Genome, Judgement, Jury, Parallel, Phenotype, Seed, Standing, Task};
+use crate::{config::EngineChoice, reference::ReferenceEpisode, robustness_check::Trial, stage::USABLE};
+use ne_core::{
+    ChampionSelection, Evaluation, Evaluator, Fitness, Genome, Judgement, Parallel, Phenotype, Seed, Standing, Task,
+};
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
 
-/// Judges finalists in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
+/// Judges candidates in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
 /// the bit, everybody is judged again, in rapier.
-pub(crate) struct NominalJury {
+pub(crate) struct ReferenceSelection {
     task: Box<dyn Task>,
     /// Rapier, if the task is not in rapier itself.
     reference: Option<Box<dyn Task>>,
@@ -28,7 +30,7 @@ type FirstUsable = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
 /// Says in how many perturbed worlds of a trial the gait of a controller is usable.
 type Steadiness = dyn Fn(&dyn Phenotype, Trial) -> usize + Send + Sync;
 
-/// In how many worlds of which trial a gait must be usable for one grade above [`USABLE`], for two and so on; one that fails
+/// In how many worlds of which trial a gait must be usable for one tier above [`USABLE`], for two and so on; one that fails
 /// at a step is not tried at those above. First a quarter of the worlds, half, three quarters, all but one. Finer steps would
 /// have a slow champion that is usable in one world more stand above one twice as fast.
 const STEPS: [(Trial, usize); 8] = [
@@ -42,13 +44,13 @@ const STEPS: [(Trial, usize); 8] = [
     (Trial::Long, Trial::Long.worlds() - 1),
 ];
 
-/// The highest grade.
+/// The highest tier.
 const HIGHEST: u8 = USABLE + STEPS.len() as u8;
 
-/// So many of the best finalists have their gaits judged at a hearing, until one of them is usable.
+/// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
 const JUDGED: usize = 8;
 
-/// How much of its fitness a finalist keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
+/// How much of its fitness a candidate keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
 /// be shorter there, and episodes are, so what keeps all of its speed may keep only half of its distance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Kept {
@@ -57,8 +59,8 @@ enum Kept {
     Most,
 }
 
-/// The jury's task in rapier, which remembers what it played last.
-struct InRapier(Nominal);
+/// The champion selection's task in rapier, which remembers what it played last.
+struct InRapier(ReferenceEpisode);
 
 impl Task for InRapier {
     fn inputs(&self) -> usize {
@@ -85,15 +87,15 @@ fn network_of(phenotype: &dyn Phenotype) -> Option<Network> {
     network.or_else(|| net.downcast_ref::<GraphNet>().map(|net| net.clone().into()))
 }
 
-impl NominalJury {
-    /// The jury of a run.
-    pub(crate) fn new(nominal: &Nominal, evaluator: Arc<Parallel>) -> Self {
-        let confirmed = nominal.task.engine() != EngineChoice::Rapier;
+impl ReferenceSelection {
+    /// The champion selection of a run.
+    pub(crate) fn new(reference: &ReferenceEpisode, evaluator: Arc<Parallel>) -> Self {
+        let confirmed = reference.task.engine() != EngineChoice::Rapier;
         Self {
-            task: Box::new(nominal.task.clone()),
-            reference: confirmed.then(|| Box::new(InRapier(nominal.clone())) as Box<dyn Task>),
-            proof: nominal.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
-            usable: nominal.stage.clone().map(|stage| {
+            task: Box::new(reference.task.clone()),
+            reference: confirmed.then(|| Box::new(InRapier(reference.clone())) as Box<dyn Task>),
+            proof: reference.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
+            usable: reference.stage.clone().map(|stage| {
                 let evaluator = evaluator.clone();
                 let first_usable = move |phenotypes: &[&dyn Phenotype]| {
                     // All are nets, or none is.
@@ -102,14 +104,14 @@ impl NominalJury {
                 };
                 Box::new(first_usable) as Box<FirstUsable>
             }),
-            steadiness: nominal.proving.clone().map(|ground| {
+            steadiness: reference.robustness_check.clone().map(|ground| {
                 let evaluator = evaluator.clone();
                 let steadiness = move |phenotype: &dyn Phenotype, trial| {
                     network_of(phenotype).map_or(0, |network| evaluator.install(|| ground.usable(&network, trial)))
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
-            seed: nominal.seed,
+            seed: reference.seed,
             evaluator,
         }
     }
@@ -117,35 +119,35 @@ impl NominalJury {
     /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
     /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; who
     /// would not become champion whatever came of it is not looked at.
-    fn grades<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
-        let mut grades = vec![0; finalists.len()];
-        let Some(usable) = &self.usable else { return grades };
-        let kept = self.kept(finalists, evaluations);
-        let place = |index: usize, grade: u8| Some(Standing { grade, fitness: evaluations[index].fitness()? });
+    fn tiers<G: Genome>(&self, candidates: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
+        let mut tiers = vec![0; candidates.len()];
+        let Some(usable) = &self.usable else { return tiers };
+        let kept = self.kept(candidates, evaluations);
+        let place = |index: usize, tier: u8| Some(Standing { tier, fitness: evaluations[index].fitness()? });
         let hoped = |index: usize| place(index, self.hoped(kept[index], standing));
-        let mut able: Vec<usize> = (0..finalists.len()).filter(|&index| hoped(index) > standing).collect();
+        let mut able: Vec<usize> = (0..candidates.len()).filter(|&index| hoped(index) > standing).collect();
         able.sort_by_key(|&index| Reverse((kept[index], evaluations[index].fitness())));
         // Those who keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
         let first = &able[..able.len().min(JUDGED)];
         let fittest = fittest.iter().take(JUDGED).filter(|index| !first.contains(index));
-        let candidates: Vec<usize> = first.iter().chain(fittest).copied().collect();
-        let controllers: Vec<G::Phenotype> = candidates.iter().map(|&index| finalists[index].express()).collect();
+        let tried: Vec<usize> = first.iter().chain(fittest).copied().collect();
+        let controllers: Vec<G::Phenotype> = tried.iter().map(|&index| candidates[index].express()).collect();
         let controllers: Vec<&dyn Phenotype> = controllers.iter().map(|net| net as &dyn Phenotype).collect();
         if let Some(first) = usable(&controllers) {
-            let best = candidates[first];
+            let best = tried[first];
             let hoped = self.hoped(kept[best], standing);
-            let enough = (USABLE..=hoped).find(|&grade| place(best, grade) > standing).unwrap_or(hoped);
-            grades[best] = self.steady(&finalists[best], enough, hoped);
+            let enough = (USABLE..=hoped).find(|&tier| place(best, tier) > standing).unwrap_or(hoped);
+            tiers[best] = self.steady(&candidates[best], enough, hoped);
         }
-        grades
+        tiers
     }
 
-    /// The grade that a usable finalist may get. The first champion that is usable need not be more than that: it is
+    /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
     /// wanted at once.
     fn hoped(&self, kept: Kept, standing: Option<Standing>) -> u8 {
-        let first = standing.is_none_or(|standing| standing.grade < USABLE);
+        let first = standing.is_none_or(|standing| standing.tier < USABLE);
         match kept {
             _ if first || self.steadiness.is_none() => USABLE,
             Kept::Little => USABLE + 1,
@@ -153,12 +155,12 @@ impl NominalJury {
         }
     }
 
-    /// The grade of a usable finalist, of whom up to `hoped` is hoped. Less than `enough` is no use, and told as
+    /// The tier of a usable candidate, of whom up to `hoped` is hoped. Less than `enough` is no use, and told as
     /// [`USABLE`].
-    fn steady<G: Genome>(&self, finalist: &G, enough: u8, hoped: u8) -> u8 {
+    fn steady<G: Genome>(&self, candidate: &G, enough: u8, hoped: u8) -> u8 {
         let Some(steadiness) = &self.steadiness else { return USABLE };
-        let controller = finalist.express();
-        let (mut grade, mut last) = (USABLE, None);
+        let controller = candidate.express();
+        let (mut tier, mut last) = (USABLE, None);
         for &(trial, worlds) in &STEPS[..usize::from(hoped - USABLE)] {
             let known = last.filter(|&(known, _)| known == trial);
             let (_, usable) = known.unwrap_or_else(|| (trial, steadiness(&controller, trial)));
@@ -166,21 +168,21 @@ impl NominalJury {
             if usable < worlds {
                 break;
             }
-            grade += 1;
+            tier += 1;
         }
-        if grade < enough { USABLE } else { grade }
+        if tier < enough { USABLE } else { tier }
     }
 
     /// How much of its fitness each keeps in varied worlds; little for whoever has less than half of the best fitness here,
     /// since it is easy to keep little.
-    fn kept<G: Genome>(&self, finalists: &[G], evaluations: &[Evaluation]) -> Vec<Kept> {
-        let mut kept = vec![Kept::Little; finalists.len()];
+    fn kept<G: Genome>(&self, candidates: &[G], evaluations: &[Evaluation]) -> Vec<Kept> {
+        let mut kept = vec![Kept::Little; candidates.len()];
         let Some(proof) = &self.proof else { return kept };
         let fitness = |index: usize| evaluations[index].fitness().map_or(0.0, Fitness::get);
-        let best = (0..finalists.len()).map(fitness).fold(0.0, f64::max);
+        let best = (0..candidates.len()).map(fitness).fold(0.0, f64::max);
         let fit: Vec<usize> =
-            (0..finalists.len()).filter(|&index| fitness(index) > 0.0 && fitness(index) >= 0.5 * best).collect();
-        let genomes: Vec<G> = fit.iter().map(|&index| finalists[index].clone()).collect();
+            (0..candidates.len()).filter(|&index| fitness(index) > 0.0 && fitness(index) >= 0.5 * best).collect();
+        let genomes: Vec<G> = fit.iter().map(|&index| candidates[index].clone()).collect();
         for (&index, varied) in fit.iter().zip(self.evaluator.evaluate(&**proof, &genomes, self.seed)) {
             let share = varied.fitness().map_or(0.0, Fitness::get) / fitness(index);
             kept[index] = match share {
@@ -196,39 +198,39 @@ impl NominalJury {
     fn confirmed<G: Genome>(
         &self,
         reference: &dyn Task,
-        finalists: &[G],
+        candidates: &[G],
         evaluations: &[Evaluation],
-        grades: &[u8],
+        tiers: &[u8],
         standing: Option<Standing>,
     ) -> bool {
-        let place = |index: usize| Some(Standing { grade: grades[index], fitness: evaluations[index].fitness()? });
-        let able = (0..finalists.len()).filter(|&index| place(index) > standing);
+        let place = |index: usize| Some(Standing { tier: tiers[index], fitness: evaluations[index].fitness()? });
+        let able = (0..candidates.len()).filter(|&index| place(index) > standing);
         let Some(best) = able.min_by_key(|&index| Reverse(place(index))) else { return true };
-        let again = reference.evaluate(&mut finalists[best].express(), self.seed);
+        let again = reference.evaluate(&mut candidates[best].express(), self.seed);
         let agree = again.outcome == evaluations[best].outcome;
         if !agree {
             let (lanes, rapier) = (&evaluations[best].outcome, &again.outcome);
-            tracing::warn!(?lanes, ?rapier, "lanes and rapier parted; the finalists are judged in rapier");
+            tracing::warn!(?lanes, ?rapier, "lanes and rapier diverged; the candidates are judged in rapier");
         }
         agree
     }
 }
 
-impl<G: Genome> Jury<G> for NominalJury {
+impl<G: Genome> ChampionSelection<G> for ReferenceSelection {
     fn seed(&self) -> Seed {
         self.seed
     }
 
-    fn judge(&self, finalists: &[G], standing: Option<Standing>) -> Judgement {
-        let evaluations = self.evaluator.evaluate(&*self.task, finalists, self.seed);
-        let grades = self.grades(finalists, &evaluations, standing);
+    fn judge(&self, candidates: &[G], standing: Option<Standing>) -> Judgement {
+        let evaluations = self.evaluator.evaluate(&*self.task, candidates, self.seed);
+        let tiers = self.tiers(candidates, &evaluations, standing);
         match &self.reference {
-            Some(reference) if !self.confirmed(&**reference, finalists, &evaluations, &grades, standing) => {
-                let evaluations = self.evaluator.evaluate(&**reference, finalists, self.seed);
-                let grades = self.grades(finalists, &evaluations, standing);
-                Judgement { evaluations, grades, parted: true }
+            Some(reference) if !self.confirmed(&**reference, candidates, &evaluations, &tiers, standing) => {
+                let evaluations = self.evaluator.evaluate(&**reference, candidates, self.seed);
+                let tiers = self.tiers(candidates, &evaluations, standing);
+                Judgement { evaluations, tiers, diverged: true }
             }
-            _ => Judgement { evaluations, grades, parted: false },
+            _ => Judgement { evaluations, tiers, diverged: false },
         }
     }
 }

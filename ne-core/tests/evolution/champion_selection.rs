@@ -1,4 +1,4 @@
-//! Champions chosen by a jury.
+//! Champions chosen by a champion selection.
 
 use crate::{
     TASK,
@@ -7,8 +7,9 @@ use crate::{
     state,
 };
 use ne_core::{
-    Champion, Checkpoint, Evaluation, Evaluator, Evolution, Finalist, Fitness, HearingReport, Hearings, Judgement,
-    Jury, Parallel, Progress, Seed, Serial, Standing, StopConditions, StopReason, conformance::Puppet,
+    Candidate, Champion, ChampionSelection, Checkpoint, Evaluation, Evaluator, Evolution, Fitness, Judgement, Parallel,
+    Progress, ReEvaluationReport, ReEvaluations, Seed, Serial, Standing, StopConditions, StopReason,
+    conformance::Puppet,
 };
 use proptest::prelude::*;
 use std::sync::{Arc, Mutex};
@@ -21,43 +22,43 @@ const WORLD: Seed = Seed::of_run(99);
 struct Known {
     /// The same shape as the script.
     worth: Vec<Vec<f64>>,
-    /// The same shape, or shorter: who is not in it has grade 0.
-    grades: Vec<Vec<u8>>,
+    /// The same shape, or shorter: who is not in it has tier 0.
+    tiers: Vec<Vec<u8>>,
     heard: Arc<Mutex<Vec<Vec<Puppet>>>>,
-    parted: bool,
+    diverged: bool,
 }
 
 fn genome(generation: u64, index: u64) -> Puppet {
     Puppet::new(0, 1, 100 * generation + index)
 }
 
-impl Jury<Puppet> for Known {
+impl ChampionSelection<Puppet> for Known {
     fn seed(&self) -> Seed {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Puppet], _: Option<Standing>) -> Judgement {
-        self.heard.lock().expect("no test panics here").push(finalists.to_vec());
-        let worth = |finalist: &Puppet| Evaluation::new(entry(&self.worth, finalist).unwrap_or(FAILED));
-        let grade = |finalist: &Puppet| entry(&self.grades, finalist).unwrap_or(0);
-        let grades = if self.grades.is_empty() { Vec::new() } else { finalists.iter().map(grade).collect() };
-        Judgement { evaluations: finalists.iter().map(worth).collect(), grades, parted: self.parted }
+    fn judge(&self, candidates: &[Puppet], _: Option<Standing>) -> Judgement {
+        self.heard.lock().expect("no test panics here").push(candidates.to_vec());
+        let worth = |candidate: &Puppet| Evaluation::new(entry(&self.worth, candidate).unwrap_or(FAILED));
+        let tier = |candidate: &Puppet| entry(&self.tiers, candidate).unwrap_or(0);
+        let tiers = if self.tiers.is_empty() { Vec::new() } else { candidates.iter().map(tier).collect() };
+        Judgement { evaluations: candidates.iter().map(worth).collect(), tiers, diverged: self.diverged }
     }
 }
 
 /// What a table of the script's shape says of a genome.
-fn entry<T: Copy>(table: &[Vec<T>], finalist: &Puppet) -> Option<T> {
+fn entry<T: Copy>(table: &[Vec<T>], candidate: &Puppet) -> Option<T> {
     let lines = (1..).zip(table);
     let all = lines.flat_map(|(line, entries)| (0..).zip(entries).map(move |(index, entry)| (line, index, entry)));
-    let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *finalist);
+    let mut mine = all.filter(|&(line, index, _)| genome(line, index) == *candidate);
     mine.next().map(|(_, _, &entry)| entry)
 }
 
-/// A run of these fitnesses in training before a jury to which they are worth `worth`.
-fn scripted(lines: &[&[f64]], worth: &[&[f64]], hearings: Hearings) -> (Evolution<Script>, Known) {
+/// A run of these fitnesses in training before a champion selection to which they are worth `worth`.
+fn scripted(lines: &[&[f64]], worth: &[&[f64]], re_evaluations: ReEvaluations) -> (Evolution<Script>, Known) {
     let known = Known { worth: worth.iter().map(|line| line.to_vec()).collect(), ..Known::default() };
     let stop = StopConditions { generations: Some(lines.len() as u64), ..Default::default() };
-    (Script::evolution(lines, stop).with_jury(hearings, known.clone()), known)
+    (Script::evolution(lines, stop).with_champion_selection(re_evaluations, known.clone()), known)
 }
 
 fn fitness(value: f64) -> Fitness {
@@ -68,21 +69,21 @@ fn fitness(value: f64) -> Fitness {
 fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     let lines: &[&[f64]] = &[&[1.0, 3.0, 2.0], &[FAILED, FAILED, FAILED], &[5.0, 7.0, 6.0], &[9.0, 9.0, 1.0]];
     let worth: &[&[f64]] = &[&[0.0, 4.0, 9.0], &[9.0, 9.0, 9.0], &[8.0, 2.0, 3.0], &[5.0, 6.0, 7.0]];
-    let (mut evolution, known) = scripted(lines, worth, Hearings { every: 3, finalists: 2 });
+    let (mut evolution, known) = scripted(lines, worth, ReEvaluations { every: 3, candidates: 2 });
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
         (
             report.best_so_far.map(Fitness::get),
-            report.hearing,
-            evolution.finalists().len(),
+            report.re_evaluation,
+            evolution.candidates().len(),
             evolution.progress().stagnation,
         )
     };
     assert_eq!(next(), (None, None, 1, 0));
     assert_eq!(next(), (None, None, 1, 0), "a generation that failed has nobody");
     let (judged, trained) = (Some(fitness(4.0)), Some(fitness(3.0)));
-    let report = HearingReport { finalists: 3, judged, trained, parted: false };
+    let report = ReEvaluationReport { candidates: 3, judged, trained, diverged: false };
     assert_eq!(next(), (Some(4.0), Some(report), 0, 0));
     assert_eq!(next(), (Some(4.0), None, 1, 0));
     let heard = known.heard.lock().expect("no test panics here").clone();
@@ -93,27 +94,27 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
         generation: 1,
         seed: WORLD,
         trained,
-        parted: false,
-        grade: 0,
+        diverged: false,
+        tier: 0,
     };
     assert_eq!(evolution.champion(), Some(&champion));
-    // Of the equals in training the first is finalist; worth 5, it would take over.
-    let next = evolution.champion_if_heard().expect("somebody");
+    // Of the equals in training the first is candidate; worth 5, it would take over.
+    let next = evolution.champion_if_re_evaluated().expect("somebody");
     assert_eq!((next.genome, next.fitness, next.trained), (genome(4, 0), fitness(5.0), Some(fitness(9.0))));
     assert_eq!(evolution.champion(), Some(&champion), "it was only asked");
-    assert_eq!(evolution.finalists().len(), 1);
+    assert_eq!(evolution.candidates().len(), 1);
 }
 
 #[test]
-fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_jury() {
+fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_champion_selection() {
     let lines: &[&[f64]] = &[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]];
     let (mut evolution, _) =
-        scripted(lines, &[&[6.0], &[6.0], &[7.0], &[FAILED], &[1.0]], Hearings { every: 1, finalists: 9 });
+        scripted(lines, &[&[6.0], &[6.0], &[7.0], &[FAILED], &[1.0]], ReEvaluations { every: 1, candidates: 9 });
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
         let champion = evolution.champion().expect("somebody");
-        let judged = report.hearing.and_then(|hearing| hearing.judged).map(Fitness::get);
+        let judged = report.re_evaluation.and_then(|re_evaluation| re_evaluation.judged).map(Fitness::get);
         (champion.generation, champion.fitness.get(), judged, evolution.progress().stagnation)
     };
     assert_eq!(next(), (1, 6.0, Some(6.0), 0));
@@ -123,73 +124,78 @@ fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_jury() {
     assert_eq!(next(), (3, 7.0, Some(1.0), 2));
 }
 
-/// A run of equals in training, one a generation, each heard at once, with these worths and grades.
-fn graded(worth: &[f64], grades: &[u8], stop: StopConditions) -> Evolution<Script> {
+/// A run of equals in training, one a generation, each heard at once, with these worths and tiers.
+fn given_a_tier(worth: &[f64], tiers: &[u8], stop: StopConditions) -> Evolution<Script> {
     let worth = worth.iter().map(|&worth| vec![worth]).collect();
-    let grades = grades.iter().map(|&grade| vec![grade]).collect();
-    let known = Known { worth, grades, ..Known::default() };
-    Script::evolution(&[&[1.0]], stop).with_jury(Hearings { every: 1, finalists: 1 }, known)
+    let tiers = tiers.iter().map(|&tier| vec![tier]).collect();
+    let known = Known { worth, tiers, ..Known::default() };
+    Script::evolution(&[&[1.0]], stop).with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known)
 }
 
 #[test]
-fn a_higher_grade_dethrones_a_fitter_champion_and_no_fitness_a_higher_grade() {
-    let mut evolution = graded(&[9.0, 2.0, 100.0, 3.0, FAILED, 1.0], &[0, 1, 0, 1, 200, 2], StopConditions::default());
+fn a_higher_tier_dethrones_a_fitter_champion_and_no_fitness_a_higher_tier() {
+    let mut evolution =
+        given_a_tier(&[9.0, 2.0, 100.0, 3.0, FAILED, 1.0], &[0, 1, 0, 1, 200, 2], StopConditions::default());
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
         let champion = evolution.champion().expect("somebody");
-        assert_eq!((report.best_so_far, report.grade), (Some(champion.fitness), champion.grade));
-        (champion.generation, champion.grade, champion.fitness.get(), evolution.progress().stagnation)
+        assert_eq!((report.best_so_far, report.tier), (Some(champion.fitness), champion.tier));
+        (champion.generation, champion.tier, champion.fitness.get(), evolution.progress().stagnation)
     };
     assert_eq!(next(), (1, 0, 9.0, 0));
-    assert_eq!(next(), (2, 1, 2.0, 0), "less fit, of a higher grade");
-    assert_eq!(next(), (2, 1, 2.0, 1), "fitter, of a lower grade");
-    assert_eq!(next(), (4, 1, 3.0, 0), "of the same grade, and fitter");
-    assert_eq!(next(), (4, 1, 3.0, 1), "who failed has no grade");
+    assert_eq!(next(), (2, 1, 2.0, 0), "less fit, of a higher tier");
+    assert_eq!(next(), (2, 1, 2.0, 1), "fitter, of a lower tier");
+    assert_eq!(next(), (4, 1, 3.0, 0), "of the same tier, and fitter");
+    assert_eq!(next(), (4, 1, 3.0, 1), "who failed has no tier");
     assert_eq!(next(), (6, 2, 1.0, 0));
 }
 
 #[test]
-fn at_one_hearing_the_highest_grade_wins_and_then_fitness() {
-    let grades = vec![vec![0, 1, 1, 0]];
-    let known = Known { worth: vec![vec![9.0, 2.0, 3.0, 8.0]], grades, ..Known::default() };
-    let hearings = Hearings { every: 1, finalists: 4 };
+fn at_one_re_evaluation_the_highest_tier_wins_and_then_fitness() {
+    let tiers = vec![vec![0, 1, 1, 0]];
+    let known = Known { worth: vec![vec![9.0, 2.0, 3.0, 8.0]], tiers, ..Known::default() };
+    let re_evaluations = ReEvaluations { every: 1, candidates: 4 };
     let mut evolution = Script::evolution(&[&[4.0, 3.0, 2.0, 1.0]], StopConditions::default());
-    evolution = evolution.with_jury(hearings, known);
+    evolution = evolution.with_champion_selection(re_evaluations, known);
     let prompter = Prompter::of(&evolution);
     let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
     let champion = evolution.champion().expect("somebody");
-    assert_eq!((champion.genome.clone(), champion.grade), (genome(1, 2), 1));
-    assert_eq!(report.hearing.and_then(|hearing| hearing.judged), Some(fitness(3.0)), "of who stood highest");
+    assert_eq!((champion.genome.clone(), champion.tier), (genome(1, 2), 1));
+    assert_eq!(
+        report.re_evaluation.and_then(|re_evaluation| re_evaluation.judged),
+        Some(fitness(3.0)),
+        "of who stood highest"
+    );
 }
 
 #[test]
-fn a_grade_that_is_good_enough_ends_the_run() {
+fn a_tier_that_is_good_enough_ends_the_run() {
     let run = |stop: StopConditions| {
-        let mut evolution = graded(&[9.0, 8.0, 7.0, 6.0], &[0, 1, 0, 3], stop);
+        let mut evolution = given_a_tier(&[9.0, 8.0, 7.0, 6.0], &[0, 1, 0, 3], stop);
         let prompter = Prompter::of(&evolution);
         let reason = evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
         (reason, evolution.progress().generations)
     };
     let none = StopConditions::default();
-    assert_eq!(run(StopConditions { grade: Some(1), ..none }), (StopReason::Grade, 2));
-    assert_eq!(run(StopConditions { grade: Some(2), ..none }), (StopReason::Grade, 4));
-    assert_eq!(run(StopConditions { grade: Some(1), target: Some(9.0), ..none }), (StopReason::Target, 1));
-    assert_eq!(run(StopConditions { grade: Some(4), generations: Some(6), ..none }), (StopReason::Generations, 6));
-    let overlaid = StopConditions { grade: Some(1), generations: Some(9), ..none };
-    let overlaid = overlaid.overlaid(StopConditions { grade: Some(2), ..none });
-    assert_eq!((overlaid.grade, overlaid.generations), (Some(2), Some(9)));
+    assert_eq!(run(StopConditions { tier: Some(1), ..none }), (StopReason::Tier, 2));
+    assert_eq!(run(StopConditions { tier: Some(2), ..none }), (StopReason::Tier, 4));
+    assert_eq!(run(StopConditions { tier: Some(1), target: Some(9.0), ..none }), (StopReason::Target, 1));
+    assert_eq!(run(StopConditions { tier: Some(4), generations: Some(6), ..none }), (StopReason::Generations, 6));
+    let overlaid = StopConditions { tier: Some(1), generations: Some(9), ..none };
+    let overlaid = overlaid.overlaid(StopConditions { tier: Some(2), ..none });
+    assert_eq!((overlaid.tier, overlaid.generations), (Some(2), Some(9)));
     assert_eq!(
-        format!("it ended because {}", StopReason::Grade),
-        "it ended because the champion has the grade asked for"
+        format!("it ended because {}", StopReason::Tier),
+        "it ended because the champion has the tier asked for"
     );
 }
 
 #[test]
-fn a_resumed_run_knows_the_grade_of_its_champion() -> Result<(), Box<dyn std::error::Error>> {
-    let (worth, grades) = ([2.0, 100.0, 3.0], [1, 0, 1]);
+fn a_resumed_run_knows_the_tier_of_its_champion() -> Result<(), Box<dyn std::error::Error>> {
+    let (worth, tiers) = ([2.0, 100.0, 3.0], [1, 0, 1]);
     let stop = |generations| StopConditions { generations: Some(generations), ..Default::default() };
-    let mut first = graded(&worth, &grades, stop(1));
+    let mut first = given_a_tier(&worth, &tiers, stop(1));
     let prompter = Prompter::of(&first);
     first.run(&Unused, &prompter, &mut [])?;
     let folder = tempfile::tempdir()?;
@@ -197,34 +203,34 @@ fn a_resumed_run_knows_the_grade_of_its_champion() -> Result<(), Box<dyn std::er
     first.write_checkpoint(&path)?;
     let known = Known {
         worth: worth.iter().map(|&worth| vec![worth]).collect(),
-        grades: grades.iter().map(|&grade| vec![grade]).collect(),
+        tiers: tiers.iter().map(|&tier| vec![tier]).collect(),
         ..Known::default()
     };
     let resumed = |stop| -> Result<Evolution<Script>, Box<dyn std::error::Error>> {
         let resumed = Evolution::resume(Checkpoint::<Script>::read(&path)?, stop);
-        Ok(resumed.with_jury(Hearings { every: 1, finalists: 1 }, known.clone()))
+        Ok(resumed.with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone()))
     };
     let mut second = resumed(stop(3))?;
     assert_eq!(second.champion(), first.champion());
     let report = second.generation(&Unused, &prompter, &mut [])?;
-    assert_eq!((report.best_so_far, report.grade), (Some(fitness(2.0)), 1), "a fitter one of a lower grade is none");
+    assert_eq!((report.best_so_far, report.tier), (Some(fitness(2.0)), 1), "a fitter one of a lower tier is none");
     second.run(&Unused, &prompter, &mut [])?;
-    assert_eq!(second.champion().map(|champion| (champion.generation, champion.grade)), Some((3, 1)));
+    assert_eq!(second.champion().map(|champion| (champion.generation, champion.tier)), Some((3, 1)));
     // A run whose champion is good enough already has ended.
-    let mut good_enough = resumed(StopConditions { grade: Some(1), ..Default::default() })?;
-    assert_eq!(good_enough.run(&Unused, &prompter, &mut [])?, StopReason::Grade);
+    let mut good_enough = resumed(StopConditions { tier: Some(1), ..Default::default() })?;
+    assert_eq!(good_enough.run(&Unused, &prompter, &mut [])?, StopReason::Tier);
     assert_eq!(good_enough.progress().generations, 1);
     Ok(())
 }
 
-/// Between hearings nobody can know whether there is progress.
+/// Between re-evaluations nobody can know whether there is progress.
 #[test]
 fn stop_conditions_look_at_the_champion() {
     let run = |stop: StopConditions| {
         let worth: Vec<Vec<f64>> = (1..=20).map(|generation| vec![f64::from(generation.min(7))]).collect();
         let known = Known { worth, ..Known::default() };
-        let hearings = Hearings { every: 4, finalists: 1 };
-        let mut evolution = Script::evolution(&[&[100.0]], stop).with_jury(hearings, known);
+        let re_evaluations = ReEvaluations { every: 4, candidates: 1 };
+        let mut evolution = Script::evolution(&[&[100.0]], stop).with_champion_selection(re_evaluations, known);
         let prompter = Prompter::of(&evolution);
         let reason = evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
         (reason, evolution.progress().generations)
@@ -236,89 +242,94 @@ fn stop_conditions_look_at_the_champion() {
 }
 
 #[test]
-fn a_finalist_is_heard_once_however_often_it_was_best() {
-    let finalist = |genome, fitness: f64, generation| Finalist { genome, fitness: self::fitness(fitness), generation };
-    let finalists =
-        vec![finalist(genome(1, 1), 5.0, 1), finalist(genome(1, 0), 6.0, 2), finalist(genome(1, 1), 9.0, 3)];
-    let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], Hearings { every: 1, finalists: 1 });
+fn a_candidate_is_heard_once_however_often_it_was_best() {
+    let candidate =
+        |genome, fitness: f64, generation| Candidate { genome, fitness: self::fitness(fitness), generation };
+    let candidates =
+        vec![candidate(genome(1, 1), 5.0, 1), candidate(genome(1, 0), 6.0, 2), candidate(genome(1, 1), 9.0, 3)];
+    let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], ReEvaluations { every: 1, candidates: 1 });
     let strategy = Script::evolution(&[&[1.0]], StopConditions::default());
     let folder = tempfile::tempdir().expect("a folder");
     strategy.write_checkpoint(&folder.path().join("checkpoint")).expect("it is written");
     let checkpoint: Checkpoint<Script> = Checkpoint::read(&folder.path().join("checkpoint")).expect("it is whole");
-    let resumed = Evolution::resume(Checkpoint { finalists, ..checkpoint }, StopConditions::default())
-        .with_jury(Hearings { every: 1, finalists: 1 }, known.clone());
-    let champion = resumed.champion_if_heard().expect("somebody");
+    let resumed = Evolution::resume(Checkpoint { candidates, ..checkpoint }, StopConditions::default())
+        .with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone());
+    let champion = resumed.champion_if_re_evaluated().expect("somebody");
     assert_eq!((champion.generation, champion.trained), (1, Some(fitness(5.0))), "as it was first");
     assert_eq!(*known.heard.lock().expect("no test panics here"), [vec![genome(1, 1), genome(1, 0)]]);
-    assert_eq!(evolution.champion_if_heard(), None);
+    assert_eq!(evolution.champion_if_re_evaluated(), None);
 }
 
-/// A jury that loses everybody.
+/// A champion selection that loses everybody.
 struct Asleep;
 
-impl Jury<Puppet> for Asleep {
+impl ChampionSelection<Puppet> for Asleep {
     fn seed(&self) -> Seed {
         WORLD
     }
 
     fn judge(&self, _: &[Puppet], _: Option<Standing>) -> Judgement {
-        Judgement { evaluations: Vec::new(), grades: Vec::new(), parted: false }
+        Judgement { evaluations: Vec::new(), tiers: Vec::new(), diverged: false }
     }
 }
 
 #[test]
-fn a_jury_that_loses_evaluations_makes_no_champion() {
+fn a_champion_selection_that_loses_evaluations_makes_no_champion() {
     let stop = StopConditions { generations: Some(2), ..Default::default() };
-    let mut evolution = Script::evolution(&[&[1.0]], stop).with_jury(Hearings { every: 1, finalists: 1 }, Asleep);
+    let mut evolution =
+        Script::evolution(&[&[1.0]], stop).with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, Asleep);
     let prompter = Prompter::of(&evolution);
     evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
     assert_eq!((evolution.champion(), evolution.progress().stagnation), (None, 2));
 }
 
 #[test]
-fn a_jury_whose_two_ways_part_is_reported() {
-    let known = Known { worth: vec![vec![1.0]], parted: true, ..Known::default() };
+fn a_champion_selection_whose_two_ways_part_is_reported() {
+    let known = Known { worth: vec![vec![1.0]], diverged: true, ..Known::default() };
     let mut evolution = Script::evolution(&[&[1.0]], StopConditions::default());
-    evolution = evolution.with_jury(Hearings { every: 1, finalists: 1 }, known);
+    evolution = evolution.with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known);
     let prompter = Prompter::of(&evolution);
     let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-    assert!(report.hearing.is_some_and(|hearing| hearing.parted));
+    assert!(report.re_evaluation.is_some_and(|re_evaluation| re_evaluation.diverged));
     let text = serde_json::to_string(&report).expect("plain data");
-    assert!(text.ends_with(r#""hearing":{"finalists":1,"judged":1.0,"trained":1.0,"parted":true}}"#), "{text}");
+    assert!(
+        text.ends_with(r#""re_evaluation":{"candidates":1,"judged":1.0,"trained":1.0,"diverged":true}}"#),
+        "{text}"
+    );
 }
 
 #[test]
-fn hearings_name_the_field() {
-    let message = |hearings: Hearings| hearings.validate().expect_err("out of range").to_string();
-    assert_eq!(message(Hearings { every: 0, finalists: 1 }), "every = 0: must be at least 1");
-    assert_eq!(message(Hearings { every: 1, finalists: 0 }), "finalists = 0: must be at least 1");
-    assert_eq!(Hearings { every: 1, finalists: 1 }.validate(), Ok(()));
+fn re_evaluations_name_the_field() {
+    let message = |re_evaluations: ReEvaluations| re_evaluations.validate().expect_err("out of range").to_string();
+    assert_eq!(message(ReEvaluations { every: 0, candidates: 1 }), "every = 0: must be at least 1");
+    assert_eq!(message(ReEvaluations { every: 1, candidates: 0 }), "candidates = 0: must be at least 1");
+    assert_eq!(ReEvaluations { every: 1, candidates: 1 }.validate(), Ok(()));
 }
 
 /// Judges climbers in the world of one seed.
 struct Panel;
 
-impl Jury<Weights> for Panel {
+impl ChampionSelection<Weights> for Panel {
     fn seed(&self) -> Seed {
         WORLD
     }
 
-    fn judge(&self, finalists: &[Weights], _: Option<Standing>) -> Judgement {
-        Judgement { evaluations: Serial.evaluate(&TASK, finalists, WORLD), grades: Vec::new(), parted: false }
+    fn judge(&self, candidates: &[Weights], _: Option<Standing>) -> Judgement {
+        Judgement { evaluations: Serial.evaluate(&TASK, candidates, WORLD), tiers: Vec::new(), diverged: false }
     }
 }
 
 fn judged(evolution: Evolution<Climber>) -> Evolution<Climber> {
-    evolution.with_jury(Hearings { every: 4, finalists: 5 }, Panel)
+    evolution.with_champion_selection(ReEvaluations { every: 4, candidates: 5 }, Panel)
 }
 
 #[test]
-fn a_run_with_a_jury_resumed_at_any_generation_ends_the_same() -> Result<(), Box<dyn std::error::Error>> {
+fn a_run_with_a_champion_selection_resumed_at_any_generation_ends_the_same() -> Result<(), Box<dyn std::error::Error>> {
     const GENERATIONS: u64 = 14;
     let mut whole = judged(crate::evolution(GENERATIONS));
     whole.run(&TASK, &Serial, &mut [])?;
     assert!(whole.champion().is_some_and(|champion| champion.seed == WORLD && champion.trained.is_some()));
-    assert_eq!(whole.finalists().len(), 2, "of generations 13 and 14");
+    assert_eq!(whole.candidates().len(), 2, "of generations 13 and 14");
     let (folder, threads) = (tempfile::tempdir()?, Parallel::new(3)?);
     let (path, end) = (folder.path().join("checkpoint"), folder.path().join("end"));
     whole.write_checkpoint(&end)?;
@@ -327,22 +338,22 @@ fn a_run_with_a_jury_resumed_at_any_generation_ends_the_same() -> Result<(), Box
         let mut first = judged(crate::evolution(until));
         first.run(&TASK, &Serial, &mut [])?;
         // As at the end of a run: asked for, and not kept.
-        first.champion_if_heard();
+        first.champion_if_re_evaluated();
         first.write_checkpoint(&path)?;
         let stop = StopConditions { generations: Some(GENERATIONS), ..Default::default() };
         let mut second = judged(Evolution::resume(Checkpoint::<Climber>::read(&path)?, stop));
         second.run(&TASK, &threads, &mut [])?;
         assert_eq!(state(&second), state(&whole), "resumed after generation {until}");
-        assert_eq!(second.champion_if_heard(), whole.champion_if_heard());
+        assert_eq!(second.champion_if_re_evaluated(), whole.champion_if_re_evaluated());
         second.write_checkpoint(&path)?;
         assert_eq!(std::fs::read(&path)?, last, "resumed after generation {until}");
     }
     Ok(())
 }
 
-/// A jury changes who is champion, and nothing of the search.
+/// A champion selection changes who is champion, and nothing of the search.
 #[test]
-fn a_jury_does_not_steer() {
+fn a_champion_selection_does_not_steer() {
     let (mut with, mut without) = (judged(crate::evolution(9)), crate::evolution(9));
     for evolution in [&mut with, &mut without] {
         evolution.run(&TASK, &Serial, &mut []).expect("the run ends in peace");
@@ -352,18 +363,18 @@ fn a_jury_does_not_steer() {
         (progress, serde_json::to_string(evolution.strategy()).expect("plain data"))
     };
     assert_eq!(search(&with), search(&without));
-    assert_eq!(without.champion_if_heard().as_ref(), without.champion());
+    assert_eq!(without.champion_if_re_evaluated().as_ref(), without.champion());
 }
 
 #[test]
-fn without_a_jury_no_file_speaks_of_one() -> Result<(), Box<dyn std::error::Error>> {
+fn without_a_champion_selection_no_file_speaks_of_one() -> Result<(), Box<dyn std::error::Error>> {
     let mut evolution = crate::evolution(3);
     let report = evolution.generation(&TASK, &Serial, &mut [])?;
     let folder = tempfile::tempdir()?;
     evolution.write_checkpoint(&folder.path().join("checkpoint"))?;
     let checkpoint = std::fs::read_to_string(folder.path().join("checkpoint"))?;
     let text = checkpoint + &serde_json::to_string(&report)?;
-    for word in ["finalists", "trained", "hearing"] {
+    for word in ["candidates", "trained", "re_evaluation"] {
         assert!(!text.contains(word), "{word}: {text}");
     }
     Ok(())
@@ -375,12 +386,12 @@ fn borrowed(lines: &[Vec<f64>]) -> Vec<&[f64]> {
 
 proptest! {
     /// Against the rule, written down naively: of all who were heard the first with the highest worth among those of the
-    /// highest grade.
+    /// highest tier.
     #[test]
     fn the_champion_is_the_best_of_all_who_were_heard(
         run in prop::collection::vec(prop::collection::vec((-3..4_i8, -3..4_i8, 0..3_u8), 1..5), 1..12),
         every in 1..5_u64,
-        finalists in 1..4_usize,
+        candidates in 1..4_usize,
     ) {
         // −3 stands for a failure.
         let value = |number: i8| if number == -3 { FAILED } else { f64::from(number) };
@@ -388,11 +399,11 @@ proptest! {
             run.iter().map(|line| line.iter().map(|one| value(of(one))).collect()).collect()
         };
         let (lines, worth) = (column(|one| one.0), column(|one| one.1));
-        let grades: Vec<Vec<u8>> = run.iter().map(|line| line.iter().map(|one| one.2).collect()).collect();
-        let known = Known { worth: worth.clone(), grades: grades.clone(), ..Known::default() };
+        let tiers: Vec<Vec<u8>> = run.iter().map(|line| line.iter().map(|one| one.2).collect()).collect();
+        let known = Known { worth: worth.clone(), tiers: tiers.clone(), ..Known::default() };
         let stop = StopConditions { generations: Some(lines.len() as u64), ..Default::default() };
         let mut evolution =
-            Script::evolution(&borrowed(&lines), stop).with_jury(Hearings { every, finalists }, known);
+            Script::evolution(&borrowed(&lines), stop).with_champion_selection(ReEvaluations { every, candidates }, known);
         let prompter = Prompter::of(&evolution);
         evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
 
@@ -403,14 +414,14 @@ proptest! {
         for (generation, line) in (1..).zip(&lines) {
             let mut ranks: Vec<usize> = (0..line.len()).filter(|&index| line[index].is_finite()).collect();
             ranks.sort_by(|&a, &b| line[b].total_cmp(&line[a]).then(a.cmp(&b)));
-            ranks.truncate(if hears(generation) { finalists } else { 1 });
+            ranks.truncate(if hears(generation) { candidates } else { 1 });
             heard.extend(ranks.into_iter().map(|index| (generation, index)));
         }
         let best = |until: u64| {
             let mut best: Option<(u64, usize, (u8, f64))> = None;
             for &(generation, index) in heard.iter().filter(|(generation, _)| *generation <= until) {
                 let worth = worth[generation as usize - 1][index];
-                let standing = (grades[generation as usize - 1][index], worth);
+                let standing = (tiers[generation as usize - 1][index], worth);
                 if worth.is_finite() && best.is_none_or(|(_, _, best)| standing > best) {
                     best = Some((generation, index, standing));
                 }
@@ -418,10 +429,10 @@ proptest! {
             best.map(|(generation, index, standing)| (genome(generation, index as u64), generation, standing))
         };
         let seen = |champion: Option<Champion<Puppet>>| {
-            champion.map(|champion| (champion.genome, champion.generation, (champion.grade, champion.fitness.get())))
+            champion.map(|champion| (champion.genome, champion.generation, (champion.tier, champion.fitness.get())))
         };
-        let last_hearing = (1..=lines.len() as u64).filter(|&generation| hears(generation)).max().unwrap_or(0);
-        prop_assert_eq!(seen(evolution.champion().cloned()), best(last_hearing));
-        prop_assert_eq!(seen(evolution.champion_if_heard()), best(lines.len() as u64));
+        let last_re_evaluation = (1..=lines.len() as u64).filter(|&generation| hears(generation)).max().unwrap_or(0);
+        prop_assert_eq!(seen(evolution.champion().cloned()), best(last_re_evaluation));
+        prop_assert_eq!(seen(evolution.champion_if_re_evaluated()), best(lines.len() as u64));
     }
 }

@@ -1,10 +1,10 @@
-//! Heats: fewer physics steps for as many individuals, and everything a run promises as before.
+//! Rungs: fewer physics steps for as many individuals, and everything a run promises as before.
 
 use crate::{
     damage::json,
     folder::{assert_same_run, read},
     killed::kill_after,
-    program::{WITHOUT_JURY, assert_says, gambol, long_run, small_run, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, gambol, long_run, small_run, succeed, text},
 };
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
@@ -13,7 +13,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// A third of the steps in one trial, then all steps in two of the three trials.
 const HEATS: [&str; 4] =
-    ["--set", "trials.count=3", "--set", r#"heats=[{"steps":20,"trials":1,"share":0.5},{"trials":2,"share":0.5}]"#];
+    ["--set", "trials.count=3", "--set", r#"rungs=[{"steps":20,"trials":1,"share":0.5},{"trials":2,"share":0.5}]"#];
 
 fn train(folder: &Path, flags: &[&str]) -> Command {
     let mut train = small_run(folder, 12);
@@ -32,22 +32,24 @@ fn verify(run: &Path) {
 }
 
 #[test]
-fn heats_save_steps_and_the_champion_is_one_who_was_evaluated_whole() -> Outcome {
+fn rungs_save_steps_and_the_champion_is_one_who_was_evaluated_whole() -> Outcome {
     let folder = tempfile::tempdir()?;
-    for (name, jury) in [("with-jury", &["--variation", "light"][..]), ("without", &WITHOUT_JURY)] {
-        let [heats, whole] = ["heats", "whole"].map(|run| folder.path().join(name).join(run));
+    for (name, champion_selection) in
+        [("with-champion_selection", &["--variation", "light"][..]), ("without", &WITHOUT_SELECTION)]
+    {
+        let [rungs, whole] = ["rungs", "whole"].map(|run| folder.path().join(name).join(run));
         // Nothing ends an episode early, so that steps can be told beforehand.
-        let plain = [jury, &["--set", "movement.terms=[]"]].concat();
-        succeed(&mut train(&heats, &plain));
-        succeed(train(&whole, &plain).args(["--set", "heats=[]"]));
-        verify(&heats);
+        let plain = [champion_selection, &["--set", "movement.terms=[]"]].concat();
+        succeed(&mut train(&rungs, &plain));
+        succeed(train(&whole, &plain).args(["--set", "rungs=[]"]));
+        verify(&rungs);
         // Of 8 all run 20 steps, 4 run two trials of 60 as well, 2 of these three.
-        let (fewer, all) = (last_line(&heats)?, last_line(&whole)?);
+        let (fewer, all) = (last_line(&rungs)?, last_line(&whole)?);
         assert_eq!(fewer["steps"], 12 * (8 * 20 + 4 * 2 * 60 + 2 * 3 * 60), "{name}");
         assert_eq!((&all["steps"], &all["evaluations"]), (&(12 * 8 * 3 * 60).into(), &fewer["evaluations"]), "{name}");
-        // A run without heats says nothing of them, as before there were any.
-        let heats_of = |run: &Path| json(&run.join("config.json"))["content"].get("heats").cloned();
-        assert_eq!((heats_of(&whole), heats_of(&heats).is_some()), (None, true));
+        // A run without rungs says nothing of them, as before there were any.
+        let rungs_of = |run: &Path| json(&run.join("config.json"))["content"].get("rungs").cloned();
+        assert_eq!((rungs_of(&whole), rungs_of(&rungs).is_some()), (None, true));
     }
     Ok(())
 }
@@ -55,10 +57,12 @@ fn heats_save_steps_and_the_champion_is_one_who_was_evaluated_whole() -> Outcome
 #[test]
 fn threads_and_engines_give_the_same_bytes() -> Outcome {
     let folder = tempfile::tempdir()?;
-    for (name, jury) in [("with-jury", &["--variation", "light"][..]), ("without", &WITHOUT_JURY)] {
+    for (name, champion_selection) in
+        [("with-champion_selection", &["--variation", "light"][..]), ("without", &WITHOUT_SELECTION)]
+    {
         let run = |run: &str, flags: &[&str]| {
             let path = folder.path().join(name).join(run);
-            succeed(train(&path, jury).args(flags));
+            succeed(train(&path, champion_selection).args(flags));
             path
         };
         let one = run("one", &["--threads", "1"]);
@@ -82,11 +86,11 @@ fn threads_and_engines_give_the_same_bytes() -> Outcome {
 
 /// Each strategy is told what those left behind are worth, and goes on.
 #[test]
-fn every_strategy_can_be_told_of_heats() -> Outcome {
+fn every_strategy_can_be_told_of_rungs() -> Outcome {
     let folder = tempfile::tempdir()?;
     for strategy in ["cma-es", "conventional", "neat", "open-es", "cosyne"] {
         let path = folder.path().join(strategy);
-        let mut train = train(&path, &[&WITHOUT_JURY[..], &["--strategy", strategy]].concat());
+        let mut train = train(&path, &[&WITHOUT_SELECTION[..], &["--strategy", strategy]].concat());
         if strategy == "neat" {
             // With so few species as a small population has.
             train.args(["--set", "strategy.neat.speciation.target.species=2"]);
@@ -98,14 +102,16 @@ fn every_strategy_can_be_told_of_heats() -> Outcome {
 }
 
 #[test]
-fn a_run_in_heats_that_is_killed_and_resumed_gives_the_same_bytes() -> Outcome {
+fn a_run_in_rungs_that_is_killed_and_resumed_gives_the_same_bytes() -> Outcome {
     let folder = tempfile::tempdir()?;
-    for (name, jury) in [("with-jury", &["--variation", "light"][..]), ("without", &WITHOUT_JURY)] {
+    for (name, champion_selection) in
+        [("with-champion_selection", &["--variation", "light"][..]), ("without", &WITHOUT_SELECTION)]
+    {
         let [whole, killed] = ["whole", "killed"].map(|run| folder.path().join(name).join(run));
         let train = |path: &Path| {
             let mut train = long_run(path);
-            train.args(["--threads", "1", "--set", "record.checkpoint_every=7"]).args(jury);
-            train.args(["--set", r#"heats=[{"steps":5,"share":0.7},{"steps":10,"share":0.4}]"#]);
+            train.args(["--threads", "1", "--set", "record.checkpoint_every=7"]).args(champion_selection);
+            train.args(["--set", r#"rungs=[{"steps":5,"share":0.7},{"steps":10,"share":0.4}]"#]);
             train
         };
         succeed(train(&whole).arg("--quiet"));

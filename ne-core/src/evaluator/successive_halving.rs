@@ -3,72 +3,72 @@ use crate::{Evaluation, Failure, Fitness, Genome, Seed, Task};
 use std::{cmp::Reverse, fmt};
 
 /// Spends the whole evaluation on the promising: everybody is evaluated on a cheaper task first, and only the best go on
-/// to the next heat, or to the task itself.
+/// to the next rung, or to the task itself.
 ///
 /// This is successive halving (Karnin, Koren & Somekh 2013; Jamieson & Talwalkar 2016) within a generation, with a share
-/// and a task of your own for each heat.
+/// and a task of your own for each rung.
 ///
 /// - Whoever reaches the end has the evaluation that the inner evaluator gives.
-/// - Whoever is left behind keeps the evaluation of the last heat it ran. If the best of those left behind in a heat has
+/// - Whoever is left behind keeps the evaluation of the last rung it ran. If the best of those left behind in a rung has
 ///   not less fitness than the lowest of those who went on, the fitness of all who were left behind there is lowered by
 ///   the same amount, so that it has. Their order stays, and so do their differences, as far as `f64` can tell. Only the
 ///   fitness is lowered, not objectives or measurements.
 /// - A failed evaluation ranks lowest, and of equals the first goes on first.
 /// - If all who went on have failed, as many of the next in rank go on too, until somebody succeeds or everybody has been
 ///   evaluated whole. So the best of a generation is never one who was left behind.
-/// - The steps of an evaluation are those of all the heats its individual ran.
+/// - The steps of an evaluation are those of all the rungs its individual ran.
 ///
-/// Without heats it is the inner evaluator.
+/// Without rungs it is the inner evaluator.
 #[derive(Debug)]
-pub struct Heats<E> {
+pub struct SuccessiveHalving<E> {
     inner: E,
-    heats: Vec<Heat>,
+    rungs: Vec<Rung>,
 }
 
 /// A cheaper evaluation that comes before the whole one.
-pub struct Heat {
-    /// What is evaluated in this heat, for phenotypes of the same shape.
+pub struct Rung {
+    /// What is evaluated in this rung, for phenotypes of the same shape.
     pub task: Box<dyn Task>,
-    /// The share of those who ran this heat that goes on, above 0 and below 1; rounded up, and at least one.
+    /// The share of those who ran this rung that goes on, above 0 and below 1; rounded up, and at least one.
     pub share: f64,
 }
 
-impl fmt::Debug for Heat {
+impl fmt::Debug for Rung {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Heat").field("share", &self.share).finish_non_exhaustive()
+        f.debug_struct("Rung").field("share", &self.share).finish_non_exhaustive()
     }
 }
 
-impl<E> Heats<E> {
-    /// Evaluates in these heats, the first one first. Shares are used as they are.
-    pub fn new(inner: E, heats: Vec<Heat>) -> Self {
-        Self { inner, heats }
+impl<E> SuccessiveHalving<E> {
+    /// Evaluates in these rungs, the first one first. Shares are used as they are.
+    pub fn new(inner: E, rungs: Vec<Rung>) -> Self {
+        Self { inner, rungs }
     }
 }
 
-impl<E: Evaluator> Evaluator for Heats<E> {
+impl<E: Evaluator> Evaluator for SuccessiveHalving<E> {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-        self.evaluate_from(&self.heats, task, genomes, seed)
+        self.evaluate_from(&self.rungs, task, genomes, seed)
     }
 }
 
-impl<E: Evaluator> Heats<E> {
-    /// Evaluates these genomes in these heats and, those who get so far, on the task. Either one of them succeeds there,
+impl<E: Evaluator> SuccessiveHalving<E> {
+    /// Evaluates these genomes in these rungs and, those who get so far, on the task. Either one of them succeeds there,
     /// or all have failed there.
-    fn evaluate_from<G: Genome>(&self, heats: &[Heat], task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-        let Some((heat, later)) = heats.split_first() else { return self.inner.evaluate(task, genomes, seed) };
-        let mut evaluations = self.inner.evaluate(&*heat.task, genomes, seed);
+    fn evaluate_from<G: Genome>(&self, rungs: &[Rung], task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
+        let Some((rung, later)) = rungs.split_first() else { return self.inner.evaluate(task, genomes, seed) };
+        let mut evaluations = self.inner.evaluate(&*rung.task, genomes, seed);
         if evaluations.len() != genomes.len() {
             // Nobody can say which belongs to whom; whoever asked sees that some are missing.
             return Vec::new();
         }
-        let (ranking, places) = (ranking(&evaluations), places(heat.share, genomes.len()));
+        let (ranking, places) = (ranking(&evaluations), places(rung.share, genomes.len()));
         let mut behind = &ranking[..];
         let mut lowest = None;
         while lowest.is_none() && !behind.is_empty() {
             let (group, next) = behind.split_at(places.min(behind.len()));
             behind = next;
-            // In the order of the generation again, so that of equals the first goes on first in the next heat too.
+            // In the order of the generation again, so that of equals the first goes on first in the next rung too.
             let mut group = group.to_vec();
             group.sort_unstable();
             let promoted: Vec<G> = group.iter().map(|&index| genomes[index].clone()).collect();
@@ -124,7 +124,7 @@ fn put_below(lowest: Fitness, behind: &[usize], evaluations: &mut [Evaluation]) 
             let lowered = ((fitness - best) + top).max(f64::MIN);
             above = (fitness, lowered.min(above.1.next_down()));
         }
-        let left_behind = || Failure::Other { what: "left behind in a heat, where no number is low enough".into() };
+        let left_behind = || Failure::Other { what: "left behind in a rung, where no number is low enough".into() };
         evaluations[index].outcome = Fitness::new(above.1).map_err(|_| left_behind());
     }
 }

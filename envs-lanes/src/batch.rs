@@ -20,7 +20,7 @@ use tasks::Snapshot;
 /// A lane is a creature only between [`begin`](Self::begin) and the end of its trial; what is left in it afterwards goes
 /// on moving, and nobody looks.
 #[derive(Clone)]
-pub(crate) struct Herd<const W: usize> {
+pub(crate) struct Batch<const W: usize> {
     instructions: Instructions,
     world: LaneWorld<W>,
     senses: LaneSenses,
@@ -52,8 +52,8 @@ pub(crate) struct Herd<const W: usize> {
     fastest: Lanes<W>,
 }
 
-impl<const W: usize> Herd<W> {
-    /// A herd of the creature of this environment. `topology`: that of the nets that think in lanes, if any do.
+impl<const W: usize> Batch<W> {
+    /// A batch of the creature of this environment. `topology`: that of the nets that think in lanes, if any do.
     pub(crate) fn new(
         environment: &LaneEnvironment,
         settled: &Settled<crate::LaneEngine>,
@@ -222,14 +222,14 @@ impl<const W: usize> Herd<W> {
     }
 }
 
-struct Sense<'a, const W: usize>(&'a mut Herd<W>);
+struct Sense<'a, const W: usize>(&'a mut Batch<W>);
 
 impl<const W: usize> Work for Sense<'_, W> {
     type Output = ();
 
     #[inline(always)]
     fn run(self) {
-        let Herd { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, .. } = self.0;
+        let Batch { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, .. } = self.0;
         senses.read(world, &Clocks { time, since_landing, rest_height, gaps }, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);
@@ -237,14 +237,14 @@ impl<const W: usize> Work for Sense<'_, W> {
     }
 }
 
-struct Step<'a, const W: usize>(&'a mut Herd<W>, Option<&'a mut Laps>);
+struct Step<'a, const W: usize>(&'a mut Batch<W>, Option<&'a mut Laps>);
 
 impl<const W: usize> Work for Step<'_, W> {
     type Output = ();
 
     #[inline(always)]
     fn run(mut self) {
-        let Herd { world, senses, actuated, motors, outputs, power, fastest, .. } = self.0;
+        let Batch { world, senses, actuated, motors, outputs, power, fastest, .. } = self.0;
         for (drive, output) in motors.drives().iter().zip(outputs) {
             let wanted = output.clamp(-Lanes::ONE, Lanes::ONE);
             let top = Lanes::splat(drive.top_speed);

@@ -1,10 +1,10 @@
-use super::{Attempt, Measured, PUBLISHED, Published, Yardstick};
+use super::{Attempt, BenchmarkTask, Measured, PUBLISHED, Published};
 use std::fmt::Write;
 
 /// What was measured, task by task, beside what is published, as text.
 pub fn render(measured: &[Measured]) -> String {
     let mut text = String::new();
-    for task in Yardstick::ALL {
+    for task in BenchmarkTask::ALL {
         let mine: Vec<&Measured> = measured.iter().filter(|measured| measured.task == task).collect();
         if !mine.is_empty() {
             // Writing to a string does not fail.
@@ -14,7 +14,7 @@ pub fn render(measured: &[Measured]) -> String {
     text
 }
 
-fn render_task(text: &mut String, task: Yardstick, measured: &[&Measured]) -> std::fmt::Result {
+fn render_task(text: &mut String, task: BenchmarkTask, measured: &[&Measured]) -> std::fmt::Result {
     writeln!(text, "{}: evaluations to a solution", task.name())?;
     writeln!(
         text,
@@ -51,7 +51,7 @@ fn render_task(text: &mut String, task: Yardstick, measured: &[&Measured]) -> st
 }
 
 /// What papers report on a task, the best first.
-fn published(task: Yardstick, wanted: impl Fn(&Published) -> bool) -> String {
+fn published(task: BenchmarkTask, wanted: impl Fn(&Published) -> bool) -> String {
     let of_task = PUBLISHED.iter().filter(|published| published.task == task && wanted(published));
     let texts: Vec<String> = of_task.map(|of| format!("{} {} ({})", of.method, of.evaluations, of.source)).collect();
     if texts.is_empty() { "–".into() } else { texts.join(", ") }

@@ -1,4 +1,4 @@
-//! Evaluating in heats: who goes on, what those left behind are worth, and what it costs.
+//! Evaluating in rungs: who goes on, what those left behind are worth, and what it costs.
 
 use crate::{
     common::{Climber, Imitate},
@@ -6,8 +6,8 @@ use crate::{
     state,
 };
 use ne_core::{
-    Evaluation, Evaluator, Evolution, Failure, Fitness, Genome, Heat, Heats, Parallel, Phenotype, Seed, Serial,
-    StopConditions, Strategy as _, Task,
+    Evaluation, Evaluator, Evolution, Failure, Fitness, Genome, Parallel, Phenotype, Rung, Seed, Serial,
+    StopConditions, Strategy as _, SuccessiveHalving, Task,
 };
 use proptest::prelude::{Strategy, *};
 use serde::{Deserialize, Serialize};
@@ -76,13 +76,17 @@ impl Task for Gene {
 
 const SEED: Seed = Seed::of_run(1);
 
-/// A heat for each share, and at the end a task of its own.
+/// A rung for each share, and at the end a task of its own.
 fn evaluate<E: Evaluator>(inner: E, shares: &[f64], entrants: &[Entrant]) -> Vec<Evaluation> {
-    let heat = |(gene, &share)| Heat { task: Box::new(Gene(gene)), share };
-    Heats::new(inner, shares.iter().enumerate().map(heat).collect()).evaluate(&Gene(shares.len()), entrants, SEED)
+    let rung = |(gene, &share)| Rung { task: Box::new(Gene(gene)), share };
+    SuccessiveHalving::new(inner, shares.iter().enumerate().map(rung).collect()).evaluate(
+        &Gene(shares.len()),
+        entrants,
+        SEED,
+    )
 }
 
-/// How many heats an individual ran, the whole evaluation included.
+/// How many rungs an individual ran, the whole evaluation included.
 fn tasks_run(evaluation: &Evaluation) -> usize {
     let tasks = evaluation.steps.ilog(100) as usize + 1;
     assert_eq!(evaluation.steps, (0..tasks).map(|gene| Gene(gene).steps()).sum::<u64>(), "each task once");
@@ -125,19 +129,19 @@ fn if_all_who_went_on_failed_the_next_in_rank_go_on() {
 }
 
 #[test]
-fn without_heats_it_is_the_inner_evaluator() {
+fn without_rungs_it_is_the_inner_evaluator() {
     let genomes = Climber::new(9).ask(SEED.generation(1)).to_vec();
     let inner = Serial.evaluate(&Imitate { batch: 2 }, &genomes, SEED);
-    assert_eq!(Heats::new(Serial, Vec::new()).evaluate(&Imitate { batch: 2 }, &genomes, SEED), inner);
+    assert_eq!(SuccessiveHalving::new(Serial, Vec::new()).evaluate(&Imitate { batch: 2 }, &genomes, SEED), inner);
 }
 
 #[test]
-fn a_run_in_heats_is_the_same_on_any_number_of_threads() {
+fn a_run_in_rungs_is_the_same_on_any_number_of_threads() {
     fn run<E: Evaluator>(inner: E, batch: usize) -> String {
-        let heat = |share| Heat { task: Box::new(Imitate { batch }), share };
+        let rung = |share| Rung { task: Box::new(Imitate { batch }), share };
         let stop = StopConditions { generations: Some(12), ..Default::default() };
         let mut evolution = Evolution::new(Climber::new(21), Seed::of_run(5), stop);
-        let evaluator = Heats::new(inner, vec![heat(0.7), heat(0.3)]);
+        let evaluator = SuccessiveHalving::new(inner, vec![rung(0.7), rung(0.3)]);
         evolution.run(&Imitate { batch }, &evaluator, &mut []).expect("the run ends in peace");
         state(&evolution)
     }
@@ -165,8 +169,8 @@ impl Evaluator for Careless {
 #[test]
 fn lost_evaluations_are_not_covered_up() {
     for loses_at_most in [3, 6] {
-        let heat = || Heat { task: Box::new(Unused), share: 0.5 };
-        let evaluator = Heats::new(Careless { loses_at_most }, vec![heat(), heat()]);
+        let rung = || Rung { task: Box::new(Unused), share: 0.5 };
+        let evaluator = SuccessiveHalving::new(Careless { loses_at_most }, vec![rung(), rung()]);
         let stop = StopConditions { generations: Some(1), ..Default::default() };
         let mut evolution = Evolution::new(Climber::new(6), Seed::of_run(5), stop);
         let error = evolution.run(&Unused, &evaluator, &mut []).expect_err("some are missing");
@@ -214,7 +218,7 @@ proptest! {
             for (other, further) in evaluations.iter().enumerate() {
                 if tasks_run(further) > gene + 1 && further.outcome.is_ok() {
                     prop_assert!(behind.fitness() < further.fitness());
-                    // In the heat that both ran, the one who went further was no worse, of equals the first.
+                    // In the rung that both ran, the one who went further was no worse, of equals the first.
                     let (mine, theirs) = (entrants[one].0[gene], entrants[other].0[gene]);
                     prop_assert!(theirs > mine || (theirs == mine && other < one));
                 } else if tasks_run(further) == gene + 1 {
@@ -233,10 +237,10 @@ proptest! {
         let winners = evaluations.iter().filter(succeeded).count();
         prop_assert!(winners > 0 || ran(shares.len() + 1) == entrants.len(), "everybody has had a chance");
         let failed = evaluations.iter().any(|evaluation| tasks_run(evaluation) > shares.len() && evaluation.outcome.is_err());
-        for (heat, share) in shares.iter().enumerate() {
-            let places = (share * ran(heat + 1) as f64 - 1e-9).ceil() as usize;
-            let went_on = ran(heat + 2);
-            prop_assert!(went_on == places || (failed && went_on > places), "{} of {}", went_on, ran(heat + 1));
+        for (rung, share) in shares.iter().enumerate() {
+            let places = (share * ran(rung + 1) as f64 - 1e-9).ceil() as usize;
+            let went_on = ran(rung + 2);
+            prop_assert!(went_on == places || (failed && went_on > places), "{} of {}", went_on, ran(rung + 1));
         }
         let best = evaluations.iter().filter(|evaluation| evaluation.outcome.is_ok()).max_by_key(|best| best.fitness());
         prop_assert!(best.is_none_or(|best| tasks_run(best) > shares.len()), "a champion was evaluated whole");

@@ -1,4 +1,4 @@
-use super::Yardstick;
+use super::BenchmarkTask;
 use gambol_runs::config::StrategySettings;
 use ne_fixed::{
     CmaEsSettings, ConventionalNeSettings, CosyneSettings, GaussianMutation, MutationChoice, OpenEsSettings,
@@ -9,9 +9,9 @@ use tasks::OutputRange;
 
 /// A strategy with the settings and the net it has for a task.
 #[derive(Clone, Debug)]
-pub struct Contestant {
+pub struct Entrant {
     /// The task.
-    pub task: Yardstick,
+    pub task: BenchmarkTask,
     /// The strategy and its settings.
     pub settings: StrategySettings,
     /// The net whose weights are searched; NEAT takes the numbers of inputs and outputs from it.
@@ -25,15 +25,15 @@ pub struct Contestant {
 }
 
 /// Each strategy with each task, some with more than one setting.
-pub fn contestants() -> Vec<Contestant> {
+pub fn entrants() -> Vec<Entrant> {
     let others = |task| [cma_es(task), cosyne(task), open_es(task), conventional(task)];
     let all = |task| neat(task).into_iter().chain(others(task));
-    Yardstick::ALL.into_iter().flat_map(all).collect()
+    BenchmarkTask::ALL.into_iter().flat_map(all).collect()
 }
 
 /// NEAT as the paper has it, and where poles are balanced without velocities also with settings of our own.
-fn neat(task: Yardstick) -> Vec<Contestant> {
-    let with = |settings, description| Contestant {
+fn neat(task: BenchmarkTask) -> Vec<Entrant> {
+    let with = |settings, description| Entrant {
         task,
         settings: StrategySettings::new("neat", &settings),
         topology: DenseShape::new(task.inputs(), Vec::new(), 1).into(),
@@ -42,7 +42,7 @@ fn neat(task: Yardstick) -> Vec<Contestant> {
         description,
     };
     match task {
-        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => vec![
+        BenchmarkTask::TwoPolesWithoutVelocities | BenchmarkTask::GeneralTwoPoles => vec![
             with(NeatSettings::stanley_2002_double_pole(), "NeatSettings::stanley_2002_double_pole"),
             with(NeatSettings::pole_balancing(), "NeatSettings::pole_balancing"),
         ],
@@ -50,27 +50,27 @@ fn neat(task: Yardstick) -> Vec<Contestant> {
     }
 }
 
-fn cma_es(task: Yardstick) -> Contestant {
+fn cma_es(task: BenchmarkTask) -> Entrant {
     let settings = match task {
-        Yardstick::Xor => CmaEsSettings::default(),
+        BenchmarkTask::Xor => CmaEsSettings::default(),
         _ => CmaEsSettings::pole_balancing(),
     };
     on_its_net(task, StrategySettings::new("cma-es", &settings))
 }
 
-fn cosyne(task: Yardstick) -> Contestant {
+fn cosyne(task: BenchmarkTask) -> Entrant {
     let settings = match task {
-        Yardstick::Xor => CosyneSettings::default(),
+        BenchmarkTask::Xor => CosyneSettings::default(),
         _ => CosyneSettings::pole_balancing(),
     };
     on_its_net(task, StrategySettings::new("cosyne", &settings))
 }
 
-fn open_es(task: Yardstick) -> Contestant {
+fn open_es(task: BenchmarkTask) -> Entrant {
     on_its_net(task, StrategySettings::new("open-es", &OpenEsSettings::default()))
 }
 
-fn conventional(task: Yardstick) -> Contestant {
+fn conventional(task: BenchmarkTask) -> Entrant {
     // The default mutates one gene in twenty, which leaves most children of so small nets as they were.
     let mutation = MutationChoice::Gaussian(GaussianMutation { rate: 0.4, deviation: 1.0 });
     let settings = ConventionalNeSettings { mutation, ..ConventionalNeSettings::default() };
@@ -78,21 +78,21 @@ fn conventional(task: Yardstick) -> Contestant {
 }
 
 /// A search for the weights of the net the task is given.
-fn on_its_net(task: Yardstick, settings: StrategySettings) -> Contestant {
+fn on_its_net(task: BenchmarkTask, settings: StrategySettings) -> Entrant {
     // The constant input is one more.
     let inputs = task.inputs() + 1;
     let (topology, output_range, description): (Topology, _, _) = match task {
-        Yardstick::Xor => (DenseShape::new(2, vec![4], 1).into(), OutputRange::MinusOneToOne, "net 2-4-1, tanh"),
-        Yardstick::OnePole | Yardstick::TwoPoles => {
+        BenchmarkTask::Xor => (DenseShape::new(2, vec![4], 1).into(), OutputRange::MinusOneToOne, "net 2-4-1, tanh"),
+        BenchmarkTask::OnePole | BenchmarkTask::TwoPoles => {
             let description = "one logistic neuron, a constant among its inputs";
             (single_neuron(inputs).into(), OutputRange::ZeroToOne, description)
         }
-        Yardstick::TwoPolesWithoutVelocities | Yardstick::GeneralTwoPoles => {
+        BenchmarkTask::TwoPolesWithoutVelocities | BenchmarkTask::GeneralTwoPoles => {
             let description = "two logistic neurons connected with all inputs, each other and themselves";
             (fully_recurrent(inputs, 2).into(), OutputRange::ZeroToOne, description)
         }
     };
-    Contestant { task, settings, topology, output_range, bias_input: task != Yardstick::Xor, description }
+    Entrant { task, settings, topology, output_range, bias_input: task != BenchmarkTask::Xor, description }
 }
 
 /// One neuron without a bias, connected with all inputs.

@@ -1,4 +1,4 @@
-//! Where it is tried whether a finalist's gait would be usable in worlds that are not quite the one it is judged in.
+//! Where it is tried whether a candidate's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
     perturbation::{Cause, World},
@@ -10,7 +10,7 @@ use ne_net::Network;
 use rand::RngExt;
 use std::sync::{Arc, OnceLock};
 
-const PROVING_GROUND: Purpose = Purpose::new("proving ground");
+const ROBUSTNESS_CHECK: Purpose = Purpose::new("robustness check");
 
 /// Which perturbed worlds a candidate is tried in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,14 +61,14 @@ impl Trial {
 
 /// A few worlds, always the same, of the kind that [`robustness`](crate::robust::robustness) is measured in.
 #[derive(Clone)]
-pub struct ProvingGround {
+pub struct RobustnessCheck {
     stage: Stage,
     seed: Seed,
     /// For each trial, built when they are first needed.
     worlds: [Arc<OnceLock<Worlds>>; Trial::ALL.len()],
 }
 
-impl ProvingGround {
+impl RobustnessCheck {
     pub(crate) fn new(stage: Stage, seed: Seed) -> Self {
         Self { stage, seed, worlds: Default::default() }
     }
@@ -82,7 +82,7 @@ impl ProvingGround {
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
         let reach = trial.reach() * self.stage.environment().blueprint().body_length();
         // Other worlds than those robustness is measured in, whatever the run's seed.
-        let lot: u64 = self.seed.stream(PROVING_GROUND).random();
+        let lot: u64 = self.seed.stream(ROBUSTNESS_CHECK).random();
         let world = |index| {
             let World { conditions, landscape, .. } =
                 World::draw(Seed::of_run(lot), trial.world(index), &self.stage, reach);
@@ -112,7 +112,7 @@ mod tests {
         let request = Request { creature: names.0, movement: names.1, ..Request::default() };
         let mut config = request.resolve(&Registry::default()).expect("shipped");
         config.seed = seed;
-        config.stop = StopConditions { generations: Some(40), grade: Some(USABLE), ..StopConditions::default() };
+        config.stop = StopConditions { generations: Some(40), tier: Some(USABLE), ..StopConditions::default() };
         let options = TrainOptions {
             threads: 1,
             registry: Registry::default(),
@@ -131,10 +131,10 @@ mod tests {
             .map(|(seed, trial)| {
                 let (champion, registry) = (champion(seed), Registry::default());
                 let stage = Stage::new(champion.episode_parts(), &registry).expect("builds");
-                let proving = ProvingGround::new(stage.clone(), Seed::of_run(seed));
-                let count = proving.usable(&champion.network, trial);
+                let robustness_check = RobustnessCheck::new(stage.clone(), Seed::of_run(seed));
+                let count = robustness_check.usable(&champion.network, trial);
                 let stage = stage.in_rapier();
-                let one_by_one = proving.draw(trial).into_iter().map(|world| Worlds::new(&stage, &[world]));
+                let one_by_one = robustness_check.draw(trial).into_iter().map(|world| Worlds::new(&stage, &[world]));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network)).sum::<usize>(), count);
                 count
             })
@@ -145,7 +145,7 @@ mod tests {
     #[test]
     fn every_run_has_worlds_of_its_own() {
         let stage = stage("biped-1", "jumping");
-        let worlds = |seed, trial| ProvingGround::new(stage.clone(), Seed::of_run(seed)).draw(trial);
+        let worlds = |seed, trial| RobustnessCheck::new(stage.clone(), Seed::of_run(seed)).draw(trial);
         for trial in Trial::ALL {
             assert_eq!(worlds(1, trial).len(), trial.worlds());
             assert_eq!(worlds(1, trial), worlds(1, trial));
