@@ -6,7 +6,7 @@ use gambol::Registry;
 use gambol::{
     config::RunConfig,
     report::write_report,
-    shaping::{Curriculum, Leg, PlannedStage, StageProgress, legs, train_curriculum},
+    shaping::{Curriculum, PlannedStage, StageProgress, StageRun, stage_runs, train_curriculum},
     training::TrainOptions,
 };
 use ne_core::{Decision, Moment, Promotion};
@@ -22,8 +22,8 @@ struct WiderAndWider {
 const STEP: f64 = 0.1;
 
 impl Curriculum for WiderAndWider {
-    fn next(&self, legs: &[Leg]) -> Option<PlannedStage> {
-        let passed = |leg: &Leg| if leg.decision == Decision::Promote { 1.0 } else { -1.0 };
+    fn next(&self, legs: &[StageRun]) -> Option<PlannedStage> {
+        let passed = |leg: &StageRun| if leg.decision == Decision::Promote { 1.0 } else { -1.0 };
         let level = legs.iter().map(passed).sum::<f64>().max(0.0);
         let mut config = self.base.clone();
         config.terrain = "gaps".parse().ok()?;
@@ -34,8 +34,8 @@ impl Curriculum for WiderAndWider {
             name: format!("gaps-{stage}0"),
             config,
             promotion: Some(Arc::new(KeepsUp)),
-            carry: None,
-            forget: false,
+            transfer: None,
+            allow_loss: false,
         })
     }
 }
@@ -69,8 +69,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let curriculum = WiderAndWider { base: base.clone(), stages: 6 };
     let told = &mut |stage: &PlannedStage, _: Option<&_>| println!("{}", stage.name);
-    let outcome = train_curriculum(&curriculum, &base, &path, StageProgress { on_leg: told }, options)?;
-    for leg in legs(&outcome.folder)? {
+    let outcome = train_curriculum(&curriculum, &base, &path, StageProgress { on_stage_run: told }, options)?;
+    for leg in stage_runs(&outcome.folder)? {
         println!("{:02}-{}: {:?} after {} generations", leg.number, leg.name, leg.decision, leg.progress.generations);
     }
     write_report(&outcome.folder, &Registry::default(), Some(outcome.reason))?;

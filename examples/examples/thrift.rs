@@ -101,7 +101,7 @@ fn train(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
         signal: Default::default(),
         on_generation: &mut |_| {},
     };
-    train_stages(config, &part, StageProgress { on_leg: &mut |_, _| {} }, options)?;
+    train_stages(config, &part, StageProgress { on_stage_run: &mut |_, _| {} }, options)?;
     Ok(fs::rename(part, folder)?)
 }
 

@@ -150,7 +150,7 @@ fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     let options = TrainOptions { threads: 0, registry, signal: Default::default(), on_generation: &mut |_| {} };
     match config.stages.is_empty() {
         true => train(config, &part, options)?,
-        false => train_stages(config, &part, StageProgress { on_leg: &mut |_, _| {} }, options)?,
+        false => train_stages(config, &part, StageProgress { on_stage_run: &mut |_, _| {} }, options)?,
     };
     Ok(fs::rename(part, folder)?)
 }

@@ -82,6 +82,7 @@ impl<'a> Recorder<'a> {
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
+        let _span = tracing::debug_span!("checkpoint").entered();
         self.sync()?;
         self.write_champion(evolution.strategy().name(), evolution.champion_if_re_evaluated().as_ref())?;
         self.write_front(evolution.strategy(), evolution.progress().generations)?;
@@ -154,6 +155,7 @@ impl<'a> Recorder<'a> {
         // A stage that is passed or left is saved once it has ended, with the champion that goes on from it.
         let goes_on = event.decision == Decision::Stay;
         if goes_on && generation.is_multiple_of(self.config.record.checkpoint_every) {
+            let _span = tracing::debug_span!("checkpoint").entered();
             self.sync()?;
             self.write_champion(event.strategy.name(), event.champion)?;
             self.write_front(event.strategy, generation)?;

@@ -17,7 +17,7 @@ use ne_core::{
 };
 use std::{path::Path, sync::Arc};
 
-/// How a run is to be carried out; none of it changes what the run finds.
+/// How a run is to be transferred out; none of it changes what the run finds.
 pub struct TrainOptions<'a> {
     /// Threads; 0: one for each core.
     pub threads: usize,
@@ -120,12 +120,12 @@ pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Re
     }
     let setup = Setup::new(config, &options.registry)?;
     let strategy = options.registry.strategies.build(&config.strategy, &setup.topology).map_err(SetupError::from)?;
-    train_leg(strategy, config, &setup, folder, config.stop, None, options)
+    train_stage_run(strategy, config, &setup, folder, config.stop, None, options)
 }
 
 /// As [`train`], from where a search is to begin, with the rules of a stage, and limits in place of those in the
 /// configuration.
-pub(crate) fn train_leg(
+pub(crate) fn train_stage_run(
     strategy: AnyStrategy,
     config: &RunConfig,
     setup: &Setup,
@@ -155,7 +155,7 @@ pub fn resume(folder: &Path, stop: Option<StopConditions>, options: TrainOptions
 
 /// As [`resume`], with the rules of a stage; `now` are the limits of this process, where they are other than those to be
 /// written down.
-pub(crate) fn resume_leg(
+pub(crate) fn resume_stage_run(
     folder: &Path,
     stop: StopConditions,
     now: StopConditions,
@@ -235,6 +235,7 @@ fn drive(
     evaluator: Arc<Parallel>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError> {
+    let _span = tracing::debug_span!("run", folder = %folder.path().display()).entered();
     let mut evolution = evolution.with_signal(options.signal);
     if let Some(reference) = &setup.reference {
         evolution = evolution.with_champion_selection(

@@ -134,6 +134,7 @@ impl<G: Genome> ScheduledSelection<G> {
         candidates: &[Candidate<G>],
         standing: Option<Standing>,
     ) -> (ReEvaluationReport, Option<Champion<G>>) {
+        let _span = tracing::debug_span!("re-evaluation", candidates = candidates.len()).entered();
         let candidates = distinct(candidates);
         let genomes: Vec<G> = candidates.iter().map(|candidate| candidate.genome.clone()).collect();
         let Judgement { evaluations, tiers, diverged } = self.champion_selection.judge(&genomes, standing);

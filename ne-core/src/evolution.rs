@@ -202,12 +202,14 @@ impl<S: Strategy> Evolution<S> {
         observers: &mut [Box<dyn Observer<S> + '_>],
     ) -> Result<GenerationReport, EvolutionError> {
         let generation = self.progress.generations + 1;
+        let _span = tracing::debug_span!("generation", generation).entered();
         let seed = self.seed.generation(generation);
         let genomes = self.strategy.ask(seed).to_vec();
         if genomes.is_empty() {
             return Err(EvolutionError::EmptyPopulation { strategy: self.strategy.name().into(), generation });
         }
-        let evaluations = evaluator.evaluate(task, &genomes, seed);
+        let evaluate = || evaluator.evaluate(task, &genomes, seed);
+        let evaluations = tracing::debug_span!("evaluation", individuals = genomes.len()).in_scope(evaluate);
         if evaluations.len() != genomes.len() {
             let (found, expected) = (evaluations.len(), genomes.len());
             return Err(EvolutionError::EvaluationCount { found, expected, generation });

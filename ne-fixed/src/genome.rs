@@ -1,5 +1,5 @@
 use ne_core::{Genome, SettingError};
-use ne_net::{Growth, Network, NetworkError, Topology};
+use ne_net::{Network, NetworkError, Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
 
 /// The weights of a net of fixed topology, as a string of genes.
@@ -55,8 +55,8 @@ impl WeightVector {
     }
 
     /// The same individual in a net that has grown: what is new begins at 0.
-    pub(crate) fn grown(&self, topology: &Topology, growth: &Growth) -> Self {
-        let weights = growth.carry(&self.weights, 0.0);
+    pub(crate) fn remapped(&self, topology: &Topology, growth: &TopologyMap) -> Self {
+        let weights = growth.transfer(&self.weights, 0.0);
         Self { topology: topology.clone(), weights, mutation_deviation: self.mutation_deviation }
     }
 

@@ -1,9 +1,9 @@
 use crate::WeightVector;
 use ne_core::SettingError;
-use ne_net::{Growth, Topology};
+use ne_net::{Topology, TopologyMap};
 
 /// Checks that a growth is from one topology to the other.
-pub(crate) fn check(growth: &Growth, old: &Topology, new: &Topology) -> Result<(), SettingError> {
+pub(crate) fn check(growth: &TopologyMap, old: &Topology, new: &Topology) -> Result<(), SettingError> {
     let (found, expected) =
         ([growth.old_weight_count(), growth.weight_count()], [old.weight_count(), new.weight_count()]);
     if found == expected {

@@ -5,7 +5,7 @@ use crate::{
     innovation::direct_connection,
 };
 use ne_core::SettingError;
-use ne_net::Growth;
+use ne_net::TopologyMap;
 use std::cmp::Reverse;
 
 impl Neat {
@@ -19,7 +19,12 @@ impl Neat {
     /// # Errors
     /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, or `inputs` or
     /// `outputs` are not of these nets.
-    pub fn grown(self, settings: NeatSettings, inputs: &Growth, outputs: &Growth) -> Result<Self, SettingError> {
+    pub fn remapped(
+        self,
+        settings: NeatSettings,
+        inputs: &TopologyMap,
+        outputs: &TopologyMap,
+    ) -> Result<Self, SettingError> {
         check("inputs", inputs, self.layout.inputs)?;
         check("outputs", outputs, self.layout.outputs)?;
         let mut next = Self::new(settings, inputs.weight_count(), outputs.weight_count())?;
@@ -51,7 +56,7 @@ impl Neat {
 }
 
 /// Checks that this is about so many old inputs or outputs.
-fn check(field: &str, growth: &Growth, old: usize) -> Result<(), SettingError> {
+fn check(field: &str, growth: &TopologyMap, old: usize) -> Result<(), SettingError> {
     match growth.old_weight_count() {
         count if count == old => Ok(()),
         count => Err(SettingError::new(field, format!("from {count}"), format!("from {old}, as the nets have"))),
@@ -74,8 +79,8 @@ enum Fate {
 }
 
 impl Renumbering {
-    fn new(old: Layout, new: Layout, inputs: &Growth, outputs: &Growth) -> Self {
-        let places = |growth: &Growth, first: usize| {
+    fn new(old: Layout, new: Layout, inputs: &TopologyMap, outputs: &TopologyMap) -> Self {
+        let places = |growth: &TopologyMap, first: usize| {
             let place = |old: usize| growth.origins().iter().position(|&origin| origin == Some(old));
             let node = |old: usize| place(old).map(|place| (first + place) as NodeId);
             (0..growth.old_weight_count()).map(node).collect()

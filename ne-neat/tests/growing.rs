@@ -2,12 +2,12 @@
 
 use ne_core::{Evaluation, Genome, Phenotype, Seed, Strategy};
 use ne_neat::{BiasKind, Layout, Neat, NeatGenome, NeatSettings, StartTopology};
-use ne_net::Growth;
+use ne_net::TopologyMap;
 use std::{cmp::Reverse, collections::BTreeMap};
 
-fn growths() -> (Growth, Growth) {
-    let inputs = Growth::new(vec![None, Some(0), Some(1), None, Some(2)], 3).expect("a growth");
-    let outputs = Growth::new(vec![Some(0), None, Some(1)], 2).expect("a growth");
+fn growths() -> (TopologyMap, TopologyMap) {
+    let inputs = TopologyMap::new(vec![None, Some(0), Some(1), None, Some(2)], 3).expect("a growth");
+    let outputs = TopologyMap::new(vec![Some(0), None, Some(1)], 2).expect("a growth");
     (inputs, outputs)
 }
 
@@ -83,7 +83,7 @@ fn genomes_do_the_same_and_stay_related() {
         let old: Vec<&NeatGenome> = order.iter().map(|&index| &old[index]).collect();
         assert!(old.iter().any(|genome| genome.hidden_count() > 3));
 
-        let mut grown = neat.grown(settings.clone(), &inputs, &outputs).expect("grows");
+        let mut grown = neat.remapped(settings.clone(), &inputs, &outputs).expect("grows");
         let text = serde_json::to_string(&grown).expect("serialises");
         let mut read: Neat = serde_json::from_str(&text).expect("deserialises");
         let new = grown.ask(Seed::of_run(2).generation(1)).to_vec();
@@ -126,16 +126,16 @@ fn genomes_do_the_same_and_stay_related() {
 #[test]
 fn a_lost_input_is_as_one_that_is_silent() {
     // The second input is lost, the others change places; the first output is lost.
-    let turned = Growth::new(vec![Some(2), None, Some(0)], 3).expect("a growth");
-    let second = Growth::new(vec![Some(1)], 2).expect("a growth");
+    let turned = TopologyMap::new(vec![Some(2), None, Some(0)], 3).expect("a growth");
+    let second = TopologyMap::new(vec![Some(1)], 2).expect("a growth");
     for settings in settings() {
-        for outputs in [Growth::none(2), second.clone()] {
+        for outputs in [TopologyMap::none(2), second.clone()] {
             let mut neat = Neat::new(settings.clone(), 3, 2).expect("valid");
             (1..=14).for_each(|number| drop(generation(&mut neat, number)));
             let (old, evaluations) = generation(&mut neat, 15);
             let mut order: Vec<usize> = (0..old.len()).collect();
             order.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-            let mut next = neat.grown(settings.clone(), &turned, &outputs).expect("goes on");
+            let mut next = neat.remapped(settings.clone(), &turned, &outputs).expect("goes on");
             let new = next.ask(Seed::of_run(2).generation(1)).to_vec();
             for (old, new) in order.iter().map(|&index| &old[index]).zip(&new) {
                 let text = serde_json::to_string(new).expect("serialises");
@@ -161,12 +161,12 @@ fn a_lost_input_is_as_one_that_is_silent() {
 
 #[test]
 fn populations_may_change_their_size() {
-    let same = (Growth::none(3), Growth::none(2));
+    let same = (TopologyMap::none(3), TopologyMap::none(2));
     for size in [25, 90] {
         let mut neat = Neat::new(NeatSettings { population: 40, ..NeatSettings::default() }, 3, 2).expect("valid");
         (1..=5).for_each(|number| drop(generation(&mut neat, number)));
         let settings = NeatSettings { population: size, ..NeatSettings::default() };
-        let mut grown = neat.grown(settings, &same.0, &same.1).expect("goes on");
+        let mut grown = neat.remapped(settings, &same.0, &same.1).expect("goes on");
         assert_eq!(grown.ask(Seed::of_run(2).generation(1)).len(), size);
     }
 }
@@ -175,11 +175,11 @@ fn populations_may_change_their_size() {
 fn errors_name_what_does_not_fit() {
     let neat = || Neat::new(NeatSettings { recurrent: true, ..NeatSettings::default() }, 3, 2).expect("valid");
     let (inputs, outputs) = growths();
-    let error = |settings: NeatSettings, inputs: &Growth, outputs: &Growth| {
-        neat().grown(settings, inputs, outputs).expect_err("does not fit").to_string()
+    let error = |settings: NeatSettings, inputs: &TopologyMap, outputs: &TopologyMap| {
+        neat().remapped(settings, inputs, outputs).expect_err("does not fit").to_string()
     };
     let recurrent = || NeatSettings { recurrent: true, ..NeatSettings::default() };
-    let others = Growth::none(4);
+    let others = TopologyMap::none(4);
     assert_eq!(error(recurrent(), &others, &outputs), "inputs = from 4: must be from 3, as the nets have");
     assert_eq!(error(recurrent(), &inputs, &others), "outputs = from 4: must be from 2, as the nets have");
     assert_eq!(

@@ -49,16 +49,16 @@
 mod activation;
 mod dense;
 mod graph;
-mod growth;
 mod mathematics;
 mod network;
 mod tied;
 mod topology;
+mod topology_map;
 
 pub use activation::Activation;
 pub use dense::{DenseNet, DenseNetError, DenseShape};
 pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
-pub use growth::Growth;
 pub use network::Network;
 pub use tied::{GenesError, Tie, TiedShape, Turn};
 pub use topology::{NetworkError, Topology};
+pub use topology_map::TopologyMap;

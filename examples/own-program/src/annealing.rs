@@ -89,6 +89,6 @@ impl NetStrategy for Annealing {
 
     /// It walks on from where it was, as warm as when it began: what it had come to counts on another task no more.
     fn transfer(self, settings: &Settings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::begin_at(settings, to.topology, &to.genes.carry(self.current.weights(), 0.0))
+        Self::begin_at(settings, to.topology, &to.genes.transfer(self.current.weights(), 0.0))
     }
 }

@@ -65,6 +65,7 @@ const POPULATIONS: usize = 6;
 /// # Errors
 /// If a file of the run cannot be read, or the page cannot be written.
 pub fn write_report(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -> Result<(), ReportError> {
+    let _span = tracing::debug_span!("report").entered();
     let config = folder.read_config()?;
     // A curriculum that is listed nowhere has stages all the same.
     let report = match config.stages.is_empty() && !folder.stages().is_dir() {

@@ -12,12 +12,12 @@ use gambol_runs::{
     champion::Champion,
     config::{RunConfig, StageSettings},
     run_folder::{FolderError, RunFolder},
-    shaping::{self, Leg},
+    shaping::{self, StageRun},
 };
 use ne_core::{Decision, StopReason};
 use serde::Serialize;
 
-/// A leg of the way through the stages.
+/// A stage run of the way through the stages.
 #[derive(Serialize)]
 pub(super) struct StageData {
     /// The stage's number, from 1.
@@ -46,19 +46,19 @@ pub(super) fn compose(
     registry: &Registry,
     ended: Option<StopReason>,
 ) -> Result<Report, ReportError> {
-    let legs = shaping::legs(folder)?;
-    let Some(last) = legs.last() else {
+    let stage_runs = shaping::stage_runs(folder)?;
+    let Some(last) = stage_runs.last() else {
         let missing = "stage that has begun".into();
         return Err(FolderError::NotARun { path: folder.path().into(), missing }.into());
     };
     let mut report = super::compose(&RunFolder::at(&last.folder), registry, ended)?;
     let (mut generations, mut evaluations, mut steps) = (0, 0, 0);
     report.history.clear();
-    for leg in &legs {
-        let leg_folder = RunFolder::at(&leg.folder);
-        let log = leg_folder.read_log()?;
+    for stage_run in &stage_runs {
+        let stage_folder = RunFolder::at(&stage_run.folder);
+        let log = stage_folder.read_log()?;
         report.history.extend(history::points(&log, None).into_iter().map(|point| point.after(generations)));
-        let data = stage(leg, &leg_folder, config, generations, log.len() as u64, registry)?;
+        let data = stage(stage_run, &stage_folder, config, generations, log.len() as u64, registry)?;
         report.stages.push(data);
         generations += log.len() as u64;
         evaluations += log.last().map_or(0, |last| last.evaluations);
@@ -74,7 +74,7 @@ pub(super) fn compose(
 }
 
 fn stage(
-    leg: &Leg,
+    stage_run: &StageRun,
     folder: &RunFolder,
     run: &RunConfig,
     before: u64,
@@ -90,22 +90,22 @@ fn stage(
     let ground = ground.and_then(|episode| GroundData::new(episode.environment().ground(), DRAWN));
     let film = champion.as_ref().map(|champion| champion_film(champion, registry)).transpose()?;
     Ok(StageData {
-        number: leg.stage + 1,
-        name: leg.name.clone(),
+        number: stage_run.stage + 1,
+        name: stage_run.name.clone(),
         first_generation: before + 1,
         last_generation: before + generations,
         fitness: champion.as_ref().map(|champion| champion.fitness.get()),
         unit: registry.movements.find(&config.movement.name).map_or_else(String::new, |entry| entry.unit.clone()),
-        facts: facts(leg, &config, run.stages.get(leg.stage)),
+        facts: facts(stage_run, &config, run.stages.get(stage_run.stage)),
         film,
         ground,
         creature: (config.creature != run.creature).then(|| config.creature.clone()),
     })
 }
 
-fn facts(leg: &Leg, config: &RunConfig, settings: Option<&StageSettings>) -> Vec<Fact> {
+fn facts(stage_run: &StageRun, config: &RunConfig, settings: Option<&StageSettings>) -> Vec<Fact> {
     let rule = settings.and_then(|settings| settings.promotion.as_ref());
-    let ended = match leg.decision {
+    let ended = match stage_run.decision {
         Decision::Promote => "passed",
         Decision::Demote => "sent back to the stage before",
         Decision::Stay if rule.is_some() => "not passed when the run ended",
@@ -114,7 +114,7 @@ fn facts(leg: &Leg, config: &RunConfig, settings: Option<&StageSettings>) -> Vec
     let mut facts = vec![Fact::new("Movement", &config.movement.name)];
     facts.extend(rule.map(|rule| Fact::new("Passed with", rule)));
     facts.push(Fact::new("Result", ended));
-    facts.push(Fact::new("Evaluations", leg.progress.evaluations));
+    facts.push(Fact::new("Evaluations", stage_run.progress.evaluations));
     facts.extend(config.origin.as_ref().map(|origin| Fact::new("Kept", origin)));
     facts
 }

@@ -8,7 +8,7 @@ mod strategy;
 mod variations;
 
 pub use engine::EngineChoice;
-pub use origin::{Carried, Origin};
+pub use origin::{Origin, Transferred};
 pub use rungs::RungSettings;
 pub use stage::StageSettings;
 pub use strategy::StrategySettings;

@@ -7,8 +7,8 @@ use std::fmt;
 pub struct Origin {
     /// The run folder or the champion file, as it was named.
     pub source: String,
-    /// What was carried over.
-    pub carried: Carried,
+    /// What was transferred.
+    pub transferred: Transferred,
     /// The strategy it was learned with.
     pub strategy: String,
     /// The generation the source had reached; of a champion the one it was found in.
@@ -39,10 +39,10 @@ fn is_zero(count: &usize) -> bool {
     *count == 0
 }
 
-/// What is carried from a run to the next.
+/// What is transferred from a run to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
-pub enum Carried {
+pub enum Transferred {
     /// The whole state of the strategy: its population, or its distribution. The strategy must stay the same.
     Population,
     /// The champion's weights, from which the new search begins; the net keeps its shape, and limbs their common genes.
@@ -53,7 +53,7 @@ pub enum Carried {
     Nothing,
 }
 
-impl fmt::Display for Carried {
+impl fmt::Display for Transferred {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Population => "population",
@@ -68,11 +68,11 @@ impl fmt::Display for Carried {
 impl fmt::Display for Origin {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { source, generation, weights_kept, weights_new, weights_lost, .. } = self;
-        match self.carried {
-            Carried::Nothing => return write!(f, "begins anew after {source}: nothing is kept"),
-            Carried::Population => write!(f, "goes on with the population of {source} (generation {generation})")?,
-            Carried::Champion => write!(f, "goes on from the champion of {source} (generation {generation})")?,
-            Carried::Topology => {
+        match self.transferred {
+            Transferred::Nothing => return write!(f, "begins anew after {source}: nothing is kept"),
+            Transferred::Population => write!(f, "goes on with the population of {source} (generation {generation})")?,
+            Transferred::Champion => write!(f, "goes on from the champion of {source} (generation {generation})")?,
+            Transferred::Topology => {
                 write!(f, "goes on with the net of the champion of {source} (generation {generation})")?;
             }
         }

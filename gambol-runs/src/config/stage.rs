@@ -1,4 +1,4 @@
-use super::Carried;
+use super::Transferred;
 use creatures::Sensor;
 use ne_core::Rule;
 use serde::{Deserialize, Serialize};
@@ -23,14 +23,14 @@ pub struct StageSettings {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub promotion: Option<Rule>,
     /// When the population goes back to the stage before; looked at after `promotion`. The first stage has none. What goes
-    /// back is as much as can be, whatever `carry` says; inputs and weights that this stage added are given up.
+    /// back is as much as can be, whatever `transfer` says; inputs and weights that this stage added are given up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demotion: Option<Rule>,
     /// What it takes from the stage before; by default as much as it can: the population if the strategy is the same, else the
     /// champion, or from NEAT the champion's topology.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub carry: Option<Carried>,
+    pub transfer: Option<Transferred>,
     /// Whether inputs, outputs and weights of the stage before may be given up; else a stage that lacks them is refused.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub forget: bool,
+    pub allow_loss: bool,
 }

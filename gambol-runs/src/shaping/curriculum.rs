@@ -1,5 +1,5 @@
-use super::Leg;
-use crate::config::{Carried, RunConfig};
+use super::StageRun;
+use crate::config::{RunConfig, Transferred};
 use ne_core::Promotion;
 use std::sync::Arc;
 
@@ -8,10 +8,10 @@ use std::sync::Arc;
 /// [`Stages`](super::Stages) follows the list in a configuration. One of your own may make stages up as it goes along: raise
 /// the difficulty of a terrain with every stage passed, lower it after a demotion.
 ///
-/// An implementor owes: the same stage for the same legs. A run that is resumed asks for all of them again.
+/// An implementor owes: the same stage for the same stage runs. A run that is resumed asks for all of them again.
 pub trait Curriculum: Send + Sync {
-    /// The stage after these legs, which is the first after none; `None`: the run is done.
-    fn next(&self, legs: &[Leg]) -> Option<PlannedStage>;
+    /// The stage after these stage runs, which is the first after none; `None`: the run is done.
+    fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage>;
 }
 
 /// A stage that is to come.
@@ -25,8 +25,8 @@ pub struct PlannedStage {
     pub config: RunConfig,
     /// When it is passed; `None`: it goes on until the run ends.
     pub promotion: Option<Arc<dyn Promotion>>,
-    /// What it takes from the leg before; `None`: as much as it can.
-    pub carry: Option<Carried>,
+    /// What it takes from the stage run before; `None`: as much as it can.
+    pub transfer: Option<Transferred>,
     /// Whether inputs, outputs and weights may be given up.
-    pub forget: bool,
+    pub allow_loss: bool,
 }

@@ -1,4 +1,4 @@
-//! Shaping: what was learned on one task is carried to the next.
+//! Shaping: what was learned on one task is transferred to the next.
 //!
 //! A run with [`stages`](crate::config::RunConfig::stages) learns one after the other: first to run on the flat, then over
 //! gaps, with eyes, then with less energy. Its one decision: **every stage is a run folder of its own** inside the run's,
@@ -10,23 +10,23 @@
 //! | [`StageSettings`](crate::config::StageSettings) | a stage in a configuration: what changes, when it is passed |
 //! | [`Curriculum`] | says which stage comes next; [`Stages`] follows the list in a configuration, yours does what it likes |
 //! | [`Promotion`](ne_core::Promotion) | says when a stage is passed; [`Rule`](ne_core::Rule) has the usual conditions |
-//! | [`Carried`](crate::config::Carried), [`Origin`](crate::config::Origin) | what goes from one stage to the next, and what went |
+//! | [`Transferred`](crate::config::Carried), [`Origin`](crate::config::Origin) | what goes from one stage to the next, and what went |
 //! | [`train_stages`], [`resume_stages`] | the way through the stages |
 
-mod carry;
 mod curriculum;
-mod legs;
 mod source;
 mod stage_progress;
+mod stage_runs;
 mod stages;
+mod transfer;
 
-pub use carry::CarryError;
 pub use curriculum::{Curriculum, PlannedStage};
-pub use legs::{Leg, legs, run_of_stage};
 pub use stage_progress::{
     ShapingError, StageProgress, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
 };
+pub use stage_runs::{StageRun, run_of_stage, stage_runs};
 pub use stages::{StageError, StageProblem, Stages};
+pub use transfer::TransferError;
 
 #[cfg(test)]
 mod tests;

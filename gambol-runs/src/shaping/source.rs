@@ -1,6 +1,6 @@
 //! What a new search can begin from: a run, or a champion alone.
 
-use super::{carry::CarryError, legs};
+use super::{stage_runs, transfer::TransferError};
 use crate::Registry;
 use crate::{
     champion::{Champion, ChannelRecord},
@@ -28,18 +28,18 @@ pub(super) enum Kind {
 
 impl Source {
     /// A run folder, or a champion file; of a run with stages, the stage it has come to.
-    pub(crate) fn open(path: &Path, registry: &Registry) -> Result<Self, CarryError> {
+    pub(crate) fn open(path: &Path, registry: &Registry) -> Result<Self, TransferError> {
         if !path.is_dir() {
             let name = path.display().to_string();
             let champion = Champion::read(path).map_err(FolderError::from)?;
             return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
         }
-        let folder = latest_leg(RunFolder::open(path)?)?;
+        let folder = latest_stage_run(RunFolder::open(path)?)?;
         Self::run(folder.path().display().to_string(), folder, registry)
     }
 
     /// A run, under a name of its own.
-    pub(crate) fn run(name: String, folder: RunFolder, registry: &Registry) -> Result<Self, CarryError> {
+    pub(crate) fn run(name: String, folder: RunFolder, registry: &Registry) -> Result<Self, TransferError> {
         if !folder.checkpoint().is_file() {
             return Err(FolderError::NotARun { path: folder.path().into(), missing: "checkpoint".into() }.into());
         }
@@ -74,7 +74,7 @@ impl Source {
     }
 
     /// Whether the search of a run has left what it had found, and there is a champion to begin at.
-    pub(super) fn has_begun_anew(&self) -> Result<bool, CarryError> {
+    pub(super) fn has_begun_anew(&self) -> Result<bool, TransferError> {
         let Kind::Run { folder, strategy, .. } = &self.kind else { return Ok(false) };
         let checkpoint = read_checkpoint(strategy, folder)?;
         let someone = checkpoint.champion.is_some() || !checkpoint.candidates.is_empty();
@@ -82,7 +82,7 @@ impl Source {
     }
 
     /// Whether the search of a run has left what it had found, and found nothing since.
-    pub(super) fn has_nothing_to_carry(&self) -> Result<bool, CarryError> {
+    pub(super) fn has_nothing_to_transfer(&self) -> Result<bool, TransferError> {
         match &self.kind {
             Kind::Run { folder, strategy, .. } => {
                 Ok(read_checkpoint(strategy, folder)?.strategy.has_nothing_to_transfer())
@@ -93,7 +93,7 @@ impl Source {
 
     /// The net of the champion: its topology, its weights, and their names; expressed, or with its genes as they are
     /// searched.
-    pub(super) fn champion(&self, expressed: bool) -> Result<ChampionNet, CarryError> {
+    pub(super) fn champion(&self, expressed: bool) -> Result<ChampionNet, TransferError> {
         let [inputs, outputs] = self.channels().map(|channels| names_of(&channels));
         match &self.kind {
             Kind::Champion(champion) => {
@@ -105,7 +105,7 @@ impl Source {
             Kind::Run { folder, setup, strategy, .. } => {
                 let found = read_champion(strategy, folder, expressed)?;
                 let (topology, weights, generation) =
-                    found.ok_or_else(|| CarryError::NoChampion { source_name: self.name.clone() })?;
+                    found.ok_or_else(|| TransferError::NoChampion { source_name: self.name.clone() })?;
                 let names = match topology == setup.topology {
                     true => setup.weight_names.clone(),
                     false => topology::of_weights(&topology, &inputs, &outputs),
@@ -127,21 +127,21 @@ pub(super) fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
     channels.iter().map(|channel| channel.name.clone()).collect()
 }
 
-/// The folder that a run is to be gone on from: of one with stages, that of the last leg.
+/// The folder that a run is to be gone on from: of one with stages, that of the last stage run.
 ///
 /// # Errors
-/// If a file of a leg cannot be read.
-pub(super) fn latest_leg(folder: RunFolder) -> Result<RunFolder, FolderError> {
+/// If a file of a stage run cannot be read.
+pub(super) fn latest_stage_run(folder: RunFolder) -> Result<RunFolder, FolderError> {
     if folder.checkpoint().is_file() {
         return Ok(folder);
     }
-    Ok(legs(&folder)?.last().map_or(folder, |leg| RunFolder::at(&leg.folder)))
+    Ok(stage_runs(&folder)?.last().map_or(folder, |stage_run| RunFolder::at(&stage_run.folder)))
 }
 
 pub(super) fn read_checkpoint(
     strategy: &StrategyEntry,
     folder: &RunFolder,
-) -> Result<Checkpoint<AnyStrategy>, CarryError> {
+) -> Result<Checkpoint<AnyStrategy>, TransferError> {
     Ok(strategy.read_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?)
 }
 
@@ -153,7 +153,7 @@ fn read_champion(
     strategy: &StrategyEntry,
     folder: &RunFolder,
     expressed: bool,
-) -> Result<Option<(Topology, Vec<f32>, u64)>, CarryError> {
+) -> Result<Option<(Topology, Vec<f32>, u64)>, TransferError> {
     let Checkpoint { champion, candidates, .. } = read_checkpoint(strategy, folder)?;
     let file = folder.champion();
     let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;

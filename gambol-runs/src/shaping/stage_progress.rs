@@ -1,13 +1,13 @@
-//! The way through the stages: each leg is a run folder that begins where the one before ended.
+//! The way through the stages: each stage run is a run folder that begins where the one before ended.
 
 use super::{
-    Curriculum, Leg, PlannedStage, StageError, Stages,
-    carry::{CarryError, Departure, Manner},
-    legs::{keep_champion, leg, total},
-    source::{Source, latest_leg},
+    Curriculum, PlannedStage, StageError, StageRun, Stages,
+    source::{Source, latest_stage_run},
+    stage_runs::{keep_champion, stage_run, total},
+    transfer::{PreparedTransfer, TransferError, TransferOptions},
 };
 use crate::{
-    config::{Carried, Origin, RunConfig},
+    config::{Origin, RunConfig, Transferred},
     episode_parts::SetupError,
     run_folder::{FolderError, FolderLock, RunFolder},
     setup::Setup,
@@ -18,8 +18,8 @@ use std::{fs, path::Path, time::Instant};
 
 /// How a run with stages is watched.
 pub struct StageProgress<'a> {
-    /// Called when a leg begins, or is taken up again: its folder is there, and its stage is about to be trained.
-    pub on_leg: &'a mut dyn FnMut(&PlannedStage, Option<&Origin>),
+    /// Called when a stage run begins, or is taken up again: its folder is there, and its stage is about to be trained.
+    pub on_stage_run: &'a mut dyn FnMut(&PlannedStage, Option<&Origin>),
 }
 
 /// Why a run could not go on from another, or through its stages.
@@ -29,10 +29,10 @@ pub enum ShapingError {
     /// A stage is wrong; nothing was trained.
     #[error(transparent)]
     Stage(#[from] StageError),
-    /// What was learned cannot be carried over.
+    /// What was learned cannot be transferred.
     #[error(transparent)]
-    Carry(#[from] CarryError),
-    /// A run could not be carried out.
+    Transfer(#[from] TransferError),
+    /// A run could not be transferred out.
     #[error(transparent)]
     Train(#[from] TrainError),
     /// A folder cannot be used, or could not be written.
@@ -52,23 +52,24 @@ pub enum ShapingError {
 /// body that has changed. The folder's configuration says where it came from, and what was kept.
 ///
 /// # Errors
-/// If the source cannot be read, nothing can be carried to this configuration, or as [`train`](crate::training::train).
+/// If the source cannot be read, nothing can be transferred to this configuration, or as [`train`](crate::training::train).
 pub fn train_from(
     config: &RunConfig,
     source: &Path,
-    carried: Option<Carried>,
-    forget: bool,
+    transferred: Option<Transferred>,
+    allow_loss: bool,
     folder: &Path,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let source = Source::open(source, &options.registry)?;
-    let departure = Departure::prepare(source, config, Manner { carried, forget }, &options.registry)?;
+    let departure =
+        PreparedTransfer::prepare(source, config, TransferOptions { transferred, allow_loss }, &options.registry)?;
     let config = departure.config.clone();
     if !config.stages.is_empty() {
         return Err(ShapingError::Stages);
     }
     let strategy = departure.search(&options.registry.strategies)?;
-    Ok(training::train_leg(strategy, &config, &departure.setup, folder, config.stop, None, options)?)
+    Ok(training::train_stage_run(strategy, &config, &departure.setup, folder, config.stop, None, options)?)
 }
 
 /// The configuration with the sensors and the controller of a run (of one with stages, of the last) or a champion: what a
@@ -79,7 +80,7 @@ pub fn train_from(
 pub fn adopt(config: &RunConfig, source: &Path) -> Result<RunConfig, ShapingError> {
     let mut config = config.clone();
     if source.is_dir() {
-        let learned = latest_leg(RunFolder::open(source)?)?.read_config()?;
+        let learned = latest_stage_run(RunFolder::open(source)?)?.read_config()?;
         config.sensors = Some(learned.sensors.unwrap_or(learned.creature.sensors));
         config.controller = learned.controller;
     } else {
@@ -174,36 +175,36 @@ fn travel(
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     let began = Instant::now();
-    let mut legs: Vec<Leg> = Vec::new();
+    let mut stage_runs: Vec<StageRun> = Vec::new();
     let mut last: Option<Outcome> = None;
-    while let Some(planned) = curriculum.next(&legs) {
-        let number = legs.len() + 1;
+    while let Some(planned) = curriculum.next(&stage_runs) {
+        let number = stage_runs.len() + 1;
         let path = folder.stages().join(format!("{number:02}-{}", planned.name));
-        let leg_folder = RunFolder::at(&path);
-        let is_begun = leg_folder.checkpoint().is_file();
-        if is_begun && leg_folder.read_standing()?.decision != Decision::Stay {
-            legs.push(leg(&leg_folder, number, planned.stage, &planned.name)?);
+        let stage_folder = RunFolder::at(&path);
+        let is_begun = stage_folder.checkpoint().is_file();
+        if is_begun && stage_folder.read_standing()?.decision != Decision::Stay {
+            stage_runs.push(stage_run(&stage_folder, number, planned.stage, &planned.name)?);
             continue;
         }
-        let used = total(&legs);
+        let used = total(&stage_runs);
         let stop = limits(config.stop, used, planned.promotion.is_some());
         if let Some(reason) = exhausted(stop) {
             if is_begun {
-                legs.push(leg(&leg_folder, number, planned.stage, &planned.name)?);
+                stage_runs.push(stage_run(&stage_folder, number, planned.stage, &planned.name)?);
             }
-            return finish(folder, reason, total(&legs), last, &legs);
+            return finish(folder, reason, total(&stage_runs), last, &stage_runs);
         }
         let mut now = stop;
         now.minutes = config.stop.minutes.map(|minutes| (minutes - began.elapsed().as_secs_f64() / 60.0).max(1e-6));
-        let leg_config = RunConfig {
-            seed: config.seed.wrapping_add(SEED_STEP * legs.len() as u64),
+        let stage_config = RunConfig {
+            seed: config.seed.wrapping_add(SEED_STEP * stage_runs.len() as u64),
             stop,
             record: config.record.clone(),
             stages: Vec::new(),
             ..planned.config.clone()
         };
         // The process may have been killed before it came to that.
-        keep_champion(folder, &legs, is_begun.then_some(&leg_folder))?;
+        keep_champion(folder, &stage_runs, is_begun.then_some(&stage_folder))?;
         let options = TrainOptions {
             threads: options.threads,
             registry: options.registry.clone(),
@@ -211,37 +212,37 @@ fn travel(
             on_generation: &mut *options.on_generation,
         };
         let outcome = if is_begun {
-            (stage_progress.on_leg)(&planned, leg_folder.read_config()?.origin.as_ref());
-            training::resume_leg(&path, stop, now, planned.promotion.clone(), options).map_err(ShapingError::from)
+            (stage_progress.on_stage_run)(&planned, stage_folder.read_config()?.origin.as_ref());
+            training::resume_stage_run(&path, stop, now, planned.promotion.clone(), options).map_err(ShapingError::from)
         } else {
-            begin(&planned, leg_config, &path, legs.last(), now, &mut *stage_progress.on_leg, options)
+            begin(&planned, stage_config, &path, stage_runs.last(), now, &mut *stage_progress.on_stage_run, options)
         };
         let outcome = outcome.map_err(|error| of_the_run(error, folder, used))?;
-        keep_champion(folder, &legs, Some(&leg_folder))?;
-        let passed = leg(&leg_folder, number, planned.stage, &planned.name)?;
+        keep_champion(folder, &stage_runs, Some(&stage_folder))?;
+        let passed = stage_run(&stage_folder, number, planned.stage, &planned.name)?;
         if passed.decision == Decision::Stay {
-            legs.push(passed);
-            let used = total(&legs);
-            return finish(folder, outcome.reason, used, Some(outcome), &legs);
+            stage_runs.push(passed);
+            let used = total(&stage_runs);
+            return finish(folder, outcome.reason, used, Some(outcome), &stage_runs);
         }
         last = Some(outcome);
-        legs.push(passed);
+        stage_runs.push(passed);
     }
-    let used = total(&legs);
-    finish(folder, StopReason::Promoted, used, last, &legs)
+    let used = total(&stage_runs);
+    finish(folder, StopReason::Promoted, used, last, &stage_runs)
 }
 
-/// Seeds of the legs of a run lie so far apart.
+/// Seeds of the stage runs of a run lie so far apart.
 const SEED_STEP: u64 = 1_000_000;
 
-/// Begins a leg: from nothing, or from where the leg before ended.
+/// Begins a stage run: from nothing, or from where the stage run before ended.
 fn begin(
     planned: &PlannedStage,
     config: RunConfig,
     path: &Path,
-    before: Option<&Leg>,
+    before: Option<&StageRun>,
     now: StopConditions,
-    on_leg: &mut dyn FnMut(&PlannedStage, Option<&Origin>),
+    on_stage_run: &mut dyn FnMut(&PlannedStage, Option<&Origin>),
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
     if path.exists() {
@@ -251,32 +252,32 @@ fn begin(
     }
     let Some(before) = before else {
         let setup = Setup::new(&config, &options.registry).map_err(TrainError::from)?;
-        on_leg(planned, None);
+        on_stage_run(planned, None);
         let strategies = &options.registry.strategies;
         let strategy = strategies
             .build(&config.strategy, &setup.topology)
             .map_err(|error| TrainError::from(SetupError::from(error)))?;
         let promotion = planned.promotion.clone();
-        return Ok(training::train_leg(strategy, &config, &setup, path, now, promotion, options)?);
+        return Ok(training::train_stage_run(strategy, &config, &setup, path, now, promotion, options)?);
     };
     // Named as the folders lie beside each other, so that a run may be moved.
     let name = before.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
     let source = Source::run(name, RunFolder::open(&before.folder)?, &options.registry)?;
-    // A search that has nothing to carry is no reason to end a run: its champion goes on, as the folder's origin says.
-    let carried = match planned.carry {
-        Some(Carried::Population) if source.has_nothing_to_carry()? => None,
-        carried => carried,
+    // A search that has nothing to transfer is no reason to end a run: its champion goes on, as the folder's origin says.
+    let transferred = match planned.transfer {
+        Some(Transferred::Population) if source.has_nothing_to_transfer()? => None,
+        transferred => transferred,
     };
-    let manner = Manner { carried, forget: planned.forget };
-    let departure = Departure::prepare(source, &config, manner, &options.registry)?;
+    let how = TransferOptions { transferred, allow_loss: planned.allow_loss };
+    let departure = PreparedTransfer::prepare(source, &config, how, &options.registry)?;
     let config = departure.config.clone();
-    on_leg(planned, config.origin.as_ref());
+    on_stage_run(planned, config.origin.as_ref());
     let strategy = departure.search(&options.registry.strategies)?;
     let promotion = planned.promotion.clone();
-    Ok(training::train_leg(strategy, &config, &departure.setup, path, now, promotion, options)?)
+    Ok(training::train_stage_run(strategy, &config, &departure.setup, path, now, promotion, options)?)
 }
 
-/// The limits of a leg: what is left of the budgets. A fitness, a tier or stagnation ends the run only in a stage without
+/// The limits of a stage run: what is left of the budgets. A fitness, a tier or stagnation ends the run only in a stage without
 /// a rule of its own.
 fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopConditions {
     let left = |limit: Option<u64>, used: u64| limit.map(|limit| limit.saturating_sub(used));
@@ -301,7 +302,7 @@ fn exhausted(stop: StopConditions) -> Option<StopReason> {
     .find_map(|(left, reason)| (left == Some(0)).then_some(reason))
 }
 
-/// The error of a leg, told of the whole run: its folder, and the generations of all legs; `used` is what those before have
+/// The error of a stage run, told of the whole run: its folder, and the generations of all stage runs; `used` is what those before have
 /// used.
 pub(super) fn of_the_run(error: ShapingError, run: &RunFolder, used: Progress) -> ShapingError {
     let folder = run.clone();
@@ -321,12 +322,16 @@ fn finish(
     reason: StopReason,
     progress: Progress,
     last: Option<Outcome>,
-    legs: &[Leg],
+    stage_runs: &[StageRun],
 ) -> Result<Outcome, ShapingError> {
-    keep_champion(folder, legs, None)?;
+    keep_champion(folder, stage_runs, None)?;
     let champion = match last {
         Some(outcome) => outcome.champion,
-        None => match legs.last().map(|leg| RunFolder::at(&leg.folder).champion()).filter(|path| path.is_file()) {
+        None => match stage_runs
+            .last()
+            .map(|stage_run| RunFolder::at(&stage_run.folder).champion())
+            .filter(|path| path.is_file())
+        {
             Some(path) => Some(crate::champion::Champion::read(&path).map_err(FolderError::from)?),
             None => None,
         },

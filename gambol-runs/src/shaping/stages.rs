@@ -1,6 +1,6 @@
 use super::{
-    Curriculum, Leg, PlannedStage,
-    carry::{CarryError, Manner, check_planned},
+    Curriculum, PlannedStage, StageRun,
+    transfer::{TransferError, TransferOptions, check_planned},
 };
 use crate::Registry;
 use crate::{
@@ -46,12 +46,12 @@ pub enum StageProblem {
     /// It cannot be built.
     #[error(transparent)]
     Setup(#[from] SetupError),
-    /// Nothing can be carried to it.
+    /// Nothing can be transferred to it.
     #[error(transparent)]
-    Carry(#[from] CarryError),
-    /// Nothing can be carried back from it to the stage before.
+    Transfer(#[from] TransferError),
+    /// Nothing can be transferred back from it to the stage before.
     #[error("demotion: {0}")]
-    Demotion(Box<CarryError>),
+    Demotion(Box<TransferError>),
 }
 
 impl Stages {
@@ -72,9 +72,9 @@ impl Stages {
             let place = (index == 0, index + 1 == config.stages.len());
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
             if let Some(setup_before) = &setup_before {
-                let manner = Manner { carried: settings.carry, forget: settings.forget };
+                let how = TransferOptions { transferred: settings.transfer, allow_loss: settings.allow_loss };
                 let (earlier, this) = ((&before.strategy, setup_before), (&resolved.strategy, &setup));
-                check_planned(earlier, this, manner, &registry.strategies).map_err(|error| wrong(error.into()))?;
+                check_planned(earlier, this, how, &registry.strategies).map_err(|error| wrong(error.into()))?;
                 if settings.demotion.is_some() {
                     check_planned(this, earlier, BACK, &registry.strategies)
                         .map_err(|error| wrong(StageProblem::Demotion(error.into())))?;
@@ -94,27 +94,31 @@ impl Stages {
 }
 
 /// Whoever goes back takes as much as can be, and gives up what the later stage had added.
-const BACK: Manner = Manner { carried: None, forget: true };
+const BACK: TransferOptions = TransferOptions { transferred: None, allow_loss: true };
 
 impl Curriculum for Stages {
-    fn next(&self, legs: &[Leg]) -> Option<PlannedStage> {
-        let stage = match legs.last() {
+    fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage> {
+        let stage = match stage_runs.last() {
             None => 0,
-            Some(Leg { stage, decision: Decision::Demote, .. }) => stage.saturating_sub(1),
-            Some(Leg { stage, .. }) => stage + 1,
+            Some(StageRun { stage, decision: Decision::Demote, .. }) => stage.saturating_sub(1),
+            Some(StageRun { stage, .. }) => stage + 1,
         };
         let (settings, config) = self.stages.get(stage)?;
         let rules = Rules { promotion: settings.promotion.clone(), demotion: settings.demotion.clone() };
         let has_rules = rules.promotion.is_some() || rules.demotion.is_some();
-        let goes_back = legs.last().is_some_and(|leg| leg.decision == Decision::Demote);
-        let manner = if goes_back { BACK } else { Manner { carried: settings.carry, forget: settings.forget } };
+        let goes_back = stage_runs.last().is_some_and(|stage_run| stage_run.decision == Decision::Demote);
+        let how = if goes_back {
+            BACK
+        } else {
+            TransferOptions { transferred: settings.transfer, allow_loss: settings.allow_loss }
+        };
         Some(PlannedStage {
             stage,
             name: settings.name.clone(),
             config: config.clone(),
             promotion: has_rules.then(|| Arc::new(rules) as Arc<dyn Promotion>),
-            carry: manner.carried,
-            forget: manner.forget,
+            transfer: how.transferred,
+            allow_loss: how.allow_loss,
         })
     }
 }
@@ -211,8 +215,8 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     if settings.demotion.is_some() && is_first {
         return Err(SettingError::new("demotion", "a rule", "missing in the first stage: there is none before it"));
     }
-    if (settings.carry.is_some() || settings.forget) && is_first {
-        let field = if settings.forget { "forget" } else { "carry" };
+    if (settings.transfer.is_some() || settings.allow_loss) && is_first {
+        let field = if settings.allow_loss { "allow_loss" } else { "transfer" };
         return Err(SettingError::new(field, "given", "missing in the first stage: there is none before it"));
     }
     for (field, rule) in [("promotion", &settings.promotion), ("demotion", &settings.demotion)] {

@@ -10,7 +10,7 @@ use crate::{
 use creatures::Sensor;
 use envs_rapier::Variation;
 use ne_core::{Decision, EvolutionError, Phenotype, Progress, StopReason};
-use ne_net::{Activation, GraphNeuron, GraphShape, Growth};
+use ne_net::{Activation, GraphNeuron, GraphShape, TopologyMap};
 use serde_json::json;
 
 fn config(creature: &str) -> RunConfig {
@@ -32,12 +32,12 @@ fn with_more_senses(config: &RunConfig) -> RunConfig {
 
 /// Checks that nets of the old setup do in the new one what they did, whatever the new senses say.
 fn assert_same_behaviour(name: &str, old: &Setup, new: &Setup) {
-    let growth = Growth::by_name(&old.weight_names, &new.weight_names);
+    let growth = TopologyMap::by_name(&old.weight_names, &new.weight_names);
     assert_eq!(growth.lost(), Vec::<usize>::new(), "{name}");
     assert!(growth.gained() > 0, "{name}");
     let genes: Vec<f32> = (0..old.topology.weight_count()).map(|index| libm::sinf(3.7 * index as f32 + 1.0)).collect();
     let mut before = old.topology.network(&genes);
-    let mut after = new.topology.network(&growth.carry(&genes, 0.0));
+    let mut after = new.topology.network(&growth.transfer(&genes, 0.0));
     for step in 0..30 {
         let value = |name: &str| {
             let sum: usize = name.bytes().map(usize::from).sum();
@@ -87,12 +87,12 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     let frozen = FrozenTopology { inputs, outputs, net: net.into() };
     let old = RunConfig { topology: Some(frozen.clone()), ..old };
     let more = setup(&RunConfig { topology: None, ..with_more_senses(&old) });
-    let grown = frozen.grown(more.inputs(), more.outputs(), false);
+    let grown = frozen.remapped(more.inputs(), more.outputs(), false);
     let new = RunConfig { topology: Some(grown.clone()), ..with_more_senses(&old) };
     assert_same_behaviour("frozen", &setup(&old), &setup(&new));
     // It gives up what it has gained only if it may.
-    assert_eq!(grown.grown(bare.inputs(), bare.outputs(), true), frozen);
-    assert_eq!(grown.grown(bare.inputs(), bare.outputs(), false), grown);
+    assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), true), frozen);
+    assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), false), grown);
 }
 
 fn stages(stages: serde_json::Value) -> Result<Stages, String> {
@@ -163,10 +163,10 @@ fn a_stage_has_a_creature_of_its_own_as_a_whole() {
     let worm = creatures::find("apod").expect("shipped");
     let stages = stages(json!([
         { "name": "run", "promotion": { "generations": 3 } },
-        { "name": "worm", "promotion": { "generations": 3 }, "forget": true, "carry": "nothing", "changes": {
+        { "name": "worm", "promotion": { "generations": 3 }, "allow_loss": true, "transfer": "nothing", "changes": {
             "creature": worm, "movement": { "name": "backwards" }, "sensors": ["joint-angles"]
         } },
-        { "name": "biped", "carry": "nothing", "changes": { "creature": creatures::find("biped-1").expect("shipped") } }
+        { "name": "biped", "transfer": "nothing", "changes": { "creature": creatures::find("biped-1").expect("shipped") } }
     ]))
     .expect("valid");
     let configs: Vec<&RunConfig> = stages.configs().map(|(_, config)| config).collect();
@@ -207,15 +207,15 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
         { "name": "c", "promotion": { "generations": 1 } }
     ]))
     .expect("valid");
-    let mut legs: Vec<Leg> = Vec::new();
+    let mut legs: Vec<StageRun> = Vec::new();
     use Decision::{Demote, Promote};
     for (name, decision) in [("a", Promote), ("b", Demote), ("a", Promote), ("b", Promote), ("c", Promote)] {
         let planned = stages.next(&legs).expect("a stage");
         assert_eq!(planned.name, name);
         // Only whoever goes back may give something up.
         let went_back = legs.last().is_some_and(|leg| leg.decision == Demote);
-        assert_eq!(planned.forget, went_back);
-        legs.push(Leg {
+        assert_eq!(planned.allow_loss, went_back);
+        legs.push(StageRun {
             number: legs.len() + 1,
             stage: planned.stage,
             name: planned.name,
@@ -249,8 +249,8 @@ fn errors_name_stage_and_field() {
             "stages[0] (\"a\"): demotion = a rule: must be missing in the first stage: there is none before it",
         ),
         (
-            json!([{ "name": "a", "carry": "champion" }]),
-            "stages[0] (\"a\"): carry = given: must be missing in the first stage: there is none before it",
+            json!([{ "name": "a", "transfer": "champion" }]),
+            "stages[0] (\"a\"): transfer = given: must be missing in the first stage: there is none before it",
         ),
         (
             two(json!({ "name": "b", "promotion": { "generations": 0 } })),
@@ -309,7 +309,7 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): 58 of 58 weights: what was learned with it would be lost; keep it, or allow it with ",
         ),
         (
-            two(json!({ "name": "b", "carry": "topology", "changes": { "strategy": { "neat": {} } } })),
+            two(json!({ "name": "b", "transfer": "topology", "changes": { "strategy": { "neat": {} } } })),
             "stages[1] (\"b\"): neat goes on from a population of its own, and from no single net",
         ),
         (
@@ -324,8 +324,8 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): changes.creature: invalid type: string \"biped-2\", expected ",
         ),
         (
-            two(json!({ "name": "b", "carry": "population", "changes": { "strategy": { "open-es": {} } } })),
-            "stages[1] (\"b\"): a population of cma-es is none of open-es: carry the champion or its topology, or keep the strategy",
+            two(json!({ "name": "b", "transfer": "population", "changes": { "strategy": { "open-es": {} } } })),
+            "stages[1] (\"b\"): a population of cma-es is none of open-es: transfer the champion or its topology, or keep the strategy",
         ),
     ] {
         let error = stages(given.clone()).expect_err("it is wrong");
@@ -345,6 +345,6 @@ fn errors_name_stage_and_field() {
     ]);
     assert!(stages(there_and_back).is_ok());
     // What was learned may be given up if that is said.
-    let forgetful = json!({ "name": "b", "forget": true, "changes": { "sensors": ["joint-angles"] } });
+    let forgetful = json!({ "name": "b", "allow_loss": true, "changes": { "sensors": ["joint-angles"] } });
     assert!(stages(two(forgetful)).is_ok());
 }

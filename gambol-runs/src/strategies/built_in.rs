@@ -52,7 +52,7 @@ impl NetStrategy for ConventionalNe {
     }
 
     fn transfer(self, settings: &ConventionalNeSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.topology.clone(), to.genes)
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
     }
 
     fn begin_at(settings: &ConventionalNeSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
@@ -80,7 +80,7 @@ impl NetStrategy for Neat {
     }
 
     fn transfer(self, settings: &NeatSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.inputs, to.outputs)
+        Self::remapped(self, settings.clone(), to.inputs, to.outputs)
     }
 
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {
@@ -102,7 +102,7 @@ impl NetStrategy for CmaEs {
     }
 
     fn transfer(self, settings: &CmaEsSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.topology.clone(), to.genes)
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
     }
 
     fn begin_at(settings: &CmaEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
@@ -136,7 +136,7 @@ impl NetStrategy for OpenEs {
     }
 
     fn transfer(self, settings: &OpenEsSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.topology.clone(), to.genes)
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
     }
 
     fn begin_at(settings: &OpenEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
@@ -162,7 +162,7 @@ impl NetStrategy for Cosyne {
     }
 
     fn transfer(self, settings: &CosyneSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.topology.clone(), to.genes)
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
     }
 
     fn begin_at(settings: &CosyneSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
@@ -188,7 +188,7 @@ impl NetStrategy for Nsga2 {
     }
 
     fn transfer(self, settings: &Nsga2Settings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::grown(self, settings.clone(), to.topology.clone(), to.genes)
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
     }
 
     fn begin_at(settings: &Nsga2Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {

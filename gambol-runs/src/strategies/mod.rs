@@ -12,7 +12,7 @@ pub use any::{AnyGenome, AnyStrategy};
 pub use catalogue::{StrategyCatalogue, StrategyEntry, StrategyError};
 
 use ne_core::{Genome, SettingError, Strategy};
-use ne_net::{Growth, Network, Topology};
+use ne_net::{Network, Topology, TopologyMap};
 use serde::{Serialize, de::DeserializeOwned};
 
 /// A strategy over neural nets that a configuration can name, with its settings.
@@ -87,11 +87,11 @@ pub struct Transfer<'a> {
     /// The new topology; of NEAT only its inputs and outputs count.
     pub topology: &'a Topology,
     /// Which of its weights go on from which of the old topology's.
-    pub genes: &'a Growth,
+    pub genes: &'a TopologyMap,
     /// Which of the new inputs are which of the old.
-    pub inputs: &'a Growth,
+    pub inputs: &'a TopologyMap,
     /// Which of the new outputs are which of the old.
-    pub outputs: &'a Growth,
+    pub outputs: &'a TopologyMap,
 }
 
 fn expressed_net<G: Genome<Phenotype: Into<Network>>>(genome: &G) -> (Topology, Vec<f32>) {

@@ -8,7 +8,7 @@ impl FrozenTopology {
     /// The topology with these inputs and outputs. A new input of a graph is connected with every output; a new output has a
     /// bias and hears every input. What it has too much is given up if `forget` says so: inputs with all connections from them,
     /// outputs by becoming hidden neurons; else it stays, and is refused when it is used.
-    pub(crate) fn grown(&self, senses: &[Channel], motors: &[Channel], forget: bool) -> Self {
+    pub(crate) fn remapped(&self, senses: &[Channel], motors: &[Channel], forget: bool) -> Self {
         let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
         let (inputs, outputs) = (names(senses), names(motors));
         let kept = |old: &[String], new: &[String]| old.iter().all(|name| new.contains(name));
@@ -20,13 +20,13 @@ impl FrozenTopology {
             Topology::Dense(shape) => {
                 DenseShape { inputs: inputs.len(), outputs: outputs.len(), ..DenseShape::clone(shape) }.into()
             }
-            Topology::Graph(shape) => self.grown_graph(shape, &inputs, &outputs).into(),
+            Topology::Graph(shape) => self.remapped_graph(shape, &inputs, &outputs).into(),
             other => other.clone(),
         };
         Self { inputs, outputs, net }
     }
 
-    fn grown_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {
+    fn remapped_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {
         let place = |name: &String| inputs.iter().position(|other| other == name);
         // What is no neuron stays below them, and is refused when it is used.
         let neuron_node = |node: usize| (inputs.len() + node).saturating_sub(shape.inputs);

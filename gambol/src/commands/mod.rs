@@ -50,7 +50,9 @@ const INTERRUPTED: u8 = 130;
 pub fn program(registry: &Registry) -> ExitCode {
     let log = tracing_subscriber::EnvFilter::try_from_env("GAMBOL_LOG").unwrap_or_else(|_| "warn".into());
     // A program that logs already goes on as it does.
-    let _ = tracing_subscriber::fmt().with_env_filter(log).with_writer(io::stderr).try_init();
+    let closing = tracing_subscriber::fmt::format::FmtSpan::CLOSE;
+    let lines = tracing_subscriber::fmt().with_env_filter(log).with_span_events(closing).with_writer(io::stderr);
+    let _ = lines.try_init();
     match Program::parse().command.run(registry) {
         Ok(code) => code,
         // What reads our output has seen enough.
@@ -103,7 +105,8 @@ Exit codes:
        train and resume with --until usable: no usable gait was found
   130  a run was interrupted; it is saved and can be resumed
 
-Set GAMBOL_LOG=debug to see what the libraries do."
+Set GAMBOL_LOG=debug to see what the libraries do, and how long each generation, evaluation, re-evaluation,
+checkpoint and report takes."
 )]
 struct Program {
     #[command(subcommand)]

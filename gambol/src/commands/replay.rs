@@ -1,6 +1,6 @@
 use super::{Outcome, gait::champion_file};
 use crate::{
-    Registry, Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::legs,
+    Registry, Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::stage_runs,
     stage::Stage, trajectory::Recording,
 };
 use clap::Args;
@@ -132,8 +132,8 @@ fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
 /// A point of the front in a run's folder, counted from 1; of a run with stages, of its latest.
 fn point(folder: &Path, number: usize, registry: &Registry) -> Result<Champion, Box<dyn Error>> {
     let run = RunFolder::open(folder)?;
-    let latest = legs(&run)?.pop();
-    let folder = latest.map_or(Ok(run), |leg| RunFolder::open(&leg.folder))?;
+    let latest = stage_runs(&run)?.pop();
+    let folder = latest.map_or(Ok(run), |stage_run| RunFolder::open(&stage_run.folder))?;
     let config = folder.read_config()?;
     if !folder.front().is_file() {
         let (path, strategy) = (folder.path().display(), config.strategy.name());

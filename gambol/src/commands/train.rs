@@ -2,7 +2,7 @@ use super::{INTERRUPTED, NOT_USABLE, Outcome, progress::Show};
 use crate::{
     Registry, Setup,
     champion::Champion,
-    config::{Carried, RunConfig},
+    config::{RunConfig, Transferred},
     gait, report,
     request::Request,
     shaping::{self, StageProgress},
@@ -68,10 +68,10 @@ pub(crate) struct Train {
     from: Option<PathBuf>,
     /// What to take along from there: population, champion or topology [default: as much as can be]
     #[arg(long, value_name = "WHAT", requires = "from")]
-    carry: Option<String>,
+    transfer: Option<String>,
     /// Let inputs, outputs and weights go that the new controller does not have
     #[arg(long, requires = "from")]
-    forget: bool,
+    allow_loss: bool,
     /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
@@ -133,7 +133,7 @@ pub(super) struct Limits {
     stagnation: Option<u64>,
 }
 
-/// How a run is carried out and shown; none of it changes what is found.
+/// How a run is transferred out and shown; none of it changes what is found.
 #[derive(Args, Clone, Copy)]
 pub(super) struct Manner {
     /// Threads [default: one for each core]
@@ -227,12 +227,12 @@ impl Train {
             config.strategy.set_population(population);
         }
         config.stop = self.limits.over(config.stop);
-        let carried = self.carried()?;
+        let transferred = self.transferred()?;
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
         if let Some(source) = &self.from {
             config.origin = None;
             return carry_out(&self.manner, &config, registry, |options, _| {
-                Ok(shaping::train_from(&config, source, carried, self.forget, &folder, options)?)
+                Ok(shaping::train_from(&config, source, transferred, self.allow_loss, &folder, options)?)
             });
         }
         if let Err(error) = Setup::new(&config, &registry) {
@@ -244,13 +244,15 @@ impl Train {
         })
     }
 
-    /// What was asked to be carried.
-    fn carried(&self) -> Result<Option<Carried>, String> {
-        let Some(name) = &self.carry else { return Ok(None) };
-        let all = [Carried::Population, Carried::Champion, Carried::Topology];
-        let names = all.map(|carried| carried.to_string());
-        let found = all.into_iter().find(|carried| carried.to_string() == *name);
-        found.map(Some).ok_or_else(|| suggest::unknown("thing to carry", name, &names.each_ref().map(String::as_str)))
+    /// What was asked to be transferred.
+    fn transferred(&self) -> Result<Option<Transferred>, String> {
+        let Some(name) = &self.transfer else { return Ok(None) };
+        let all = [Transferred::Population, Transferred::Champion, Transferred::Topology];
+        let names = all.map(|transferred| transferred.to_string());
+        let found = all.into_iter().find(|transferred| transferred.to_string() == *name);
+        found
+            .map(Some)
+            .ok_or_else(|| suggest::unknown("thing to transfer", name, &names.each_ref().map(String::as_str)))
     }
 }
 
@@ -293,8 +295,10 @@ pub(super) fn carry_out(
         on_generation: &mut |generation| show.borrow_mut().generation(generation),
     };
     let stages = config.stages.len();
-    let ended =
-        start(options, StageProgress { on_leg: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) });
+    let ended = start(
+        options,
+        StageProgress { on_stage_run: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) },
+    );
     let show = show.into_inner();
     show.end();
     let outcome = ended?;

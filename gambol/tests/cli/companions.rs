@@ -138,7 +138,7 @@ fn a_stage_may_have_companions_by_name_and_the_next_drop_them() -> Outcome {
     let out = folder.path().join("run");
     succeed(gambol("train").arg("--config").arg(&path).arg("--out").arg(&out).args(["--no-report", "--quiet"]));
     let companions =
-        |leg: &str| json(&out.join("stages").join(leg).join("config.json"))["content"]["companions"].take();
+        |stage_run: &str| json(&out.join("stages").join(stage_run).join("config.json"))["content"]["companions"].take();
     assert_eq!(companions("01-topology")[1]["name"], "biped-x2");
     assert_eq!(companions("02-weights"), Value::Null);
 

@@ -273,7 +273,7 @@ fn legs_are_in_the_order_of_their_numbers() -> Outcome {
         fs::rename(run_folder.join("stages").join(old), run_folder.join("stages").join(new))?;
     }
     fs::create_dir(run_folder.join("stages/notes-of-mine"))?;
-    let legs = gambol::shaping::legs(&gambol::run_folder::RunFolder::open(&run_folder)?)?;
+    let legs = gambol::shaping::stage_runs(&gambol::run_folder::RunFolder::open(&run_folder)?)?;
     let found: Vec<_> = legs.iter().map(|leg| (leg.number, leg.stage, leg.name.as_str())).collect();
     assert_eq!(found, [(9, 0, "run"), (11, 1, "feel"), (100, 2, "jump")]);
     Ok(())
@@ -286,8 +286,8 @@ fn a_stage_has_a_creature_by_its_name_or_its_file() -> Outcome {
     config["stop"] = json!({ "generations": 4 });
     config["stages"] = json!([
         { "name": "biped", "promotion": { "generations": 2 } },
-        { "name": "other", "carry": "nothing", "changes": { "creature": "tetrapod-1" }, "promotion": { "generations": 1 } },
-        { "name": "mine", "carry": "nothing", "changes": { "creature": "mine.json" } }
+        { "name": "other", "transfer": "nothing", "changes": { "creature": "tetrapod-1" }, "promotion": { "generations": 1 } },
+        { "name": "mine", "transfer": "nothing", "changes": { "creature": "mine.json" } }
     ]);
     let mut mine = serde_json::to_value(creatures::find("biped-1").expect("shipped"))?;
     mine["name"] = json!("mine");
@@ -347,18 +347,21 @@ fn a_run_goes_on_from_another_run_or_a_champion() -> Outcome {
     assert_says(&succeed(gambol("verify").arg(path("second/champion.json"))), &["identical: "]);
     let origin = json(&path("second/config.json"))["content"]["origin"].clone();
     assert_eq!(
-        (&origin["carried"], &origin["generation"], &origin["weights_new"]),
+        (&origin["transferred"], &origin["generation"], &origin["weights_new"]),
         (&json!("population"), &json!(6), &json!(0))
     );
     // The same again from the same source, and another way from the champion.
     succeed(from("first", "again").args(["--quiet", "--threads", "1"]));
     assert_eq!(read(&path("second/checkpoint")), read(&path("again/checkpoint")));
-    for carried in ["champion", "topology"] {
-        succeed(from("first", carried).args(["--carry", carried, "--quiet"]));
-        assert_eq!(json(&path(carried).join("config.json"))["content"]["origin"]["carried"], json!(carried));
+    for transferred in ["champion", "topology"] {
+        succeed(from("first", transferred).args(["--transfer", transferred, "--quiet"]));
+        assert_eq!(
+            json(&path(transferred).join("config.json"))["content"]["origin"]["transferred"],
+            json!(transferred)
+        );
     }
     succeed(from("first/champion.json", "of-a-champion").arg("--quiet"));
-    assert_eq!(json(&path("of-a-champion/config.json"))["content"]["origin"]["carried"], json!("topology"));
+    assert_eq!(json(&path("of-a-champion/config.json"))["content"]["origin"]["transferred"], json!("topology"));
     // A configuration that went on from somewhere says so.
     let mut repeat = gambol("train");
     repeat
@@ -373,7 +376,7 @@ fn a_run_goes_on_from_another_run_or_a_champion() -> Outcome {
     Ok(())
 }
 
-/// The weights a CMA-ES that was carried over begins at.
+/// The weights a CMA-ES that was transferred begins at.
 fn start_of(run: &Path) -> Value {
     json(&run.join("checkpoint"))["content"]["strategy"]["start"].clone()
 }
@@ -395,7 +398,7 @@ fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
     assert!(heard["content"]["champion"].is_object());
     let mut train = gambol("train");
     train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
-    train.args(["--generations", "1", "--carry", "topology", "--from"]).arg(path("first"));
+    train.args(["--generations", "1", "--transfer", "topology", "--from"]).arg(path("first"));
     succeed(train.arg("--out").arg(path("second")));
     assert_eq!(json(&path("second/config.json"))["content"]["origin"]["generation"], generation);
     assert_eq!(start_of(&path("second")), champion_weights(&path("first")));
@@ -437,13 +440,16 @@ fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
         train.args(["--generations", "2", "--from"]).arg(path("first")).arg("--out").arg(path(out)).args(more);
         train
     };
-    let carried = |run: &Path| json(&run.join("config.json"))["content"]["origin"]["carried"].clone();
+    let transferred = |run: &Path| json(&run.join("config.json"))["content"]["origin"]["transferred"].clone();
     succeed(&mut from("second", &[]));
-    assert_eq!(carried(&path("second")), json!("champion"));
+    assert_eq!(transferred(&path("second")), json!("champion"));
     assert_eq!(start_of(&path("second")), champion_weights(&path("first")));
-    // The distribution is gone: nothing of it can be carried.
-    let message = fail(&mut from("third", &["--carry", "population"]));
-    assert_says(&message, &["the search of ", " has just begun anew and has nothing to carry: carry the champion"]);
+    // The distribution is gone: nothing of it can be transferred.
+    let message = fail(&mut from("third", &["--transfer", "population"]));
+    assert_says(
+        &message,
+        &["the search of ", " has just begun anew and has nothing to transfer: transfer the champion"],
+    );
     assert!(!path("third").exists());
     // A run in stages does not end there.
     let mut config = three_stages();
@@ -453,17 +459,17 @@ fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     config["stop"] = json!({ "generations": 4 });
     config["stages"] = json!([
         { "name": "run", "promotion": { "generations": 3 } },
-        { "name": "jump", "carry": "population", "changes": { "movement": { "name": "jumping", "steps": 40 } } }
+        { "name": "jump", "transfer": "population", "changes": { "movement": { "name": "jumping", "steps": 40 } } }
     ]);
     succeed(train(&write(folder.path(), &config), &path("stages-of-it")).arg("--quiet"));
     let leg = |name: &str| path("stages-of-it").join("stages").join(name);
-    assert_eq!(carried(&leg("02-jump")), json!("champion"));
+    assert_eq!(transferred(&leg("02-jump")), json!("champion"));
     assert_eq!(start_of(&leg("02-jump")), champion_weights(&leg("01-run")));
     Ok(())
 }
 
 #[test]
-fn what_cannot_be_carried_is_said_before_training() -> Outcome {
+fn what_cannot_be_transferred_is_said_before_training() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
     succeed(small_run(&path("first"), 3).arg("--quiet"));
@@ -477,14 +483,14 @@ fn what_cannot_be_carried_is_said_before_training() -> Outcome {
     };
     assert_says(
         &from(&["apod", "running"]),
-        &["what was learned with it would be lost; keep it, or allow it with --forget"],
+        &["what was learned with it would be lost; keep it, or allow it with --allow-loss"],
     );
     assert_says(&from(&["biped-1", "running", "--strategy", "neat"]), &["neat goes on from a population of its own"]);
     assert_says(
-        &from(&["biped-1", "running", "--strategy", "ga", "--carry", "population"]),
+        &from(&["biped-1", "running", "--strategy", "ga", "--transfer", "population"]),
         &["a population of cma-es is none of conventional"],
     );
-    assert_says(&from(&["biped-1", "running", "--carry", "champoin"]), &["did you mean \"champion\"?"]);
+    assert_says(&from(&["biped-1", "running", "--transfer", "champoin"]), &["did you mean \"champion\"?"]);
     let mut missing = gambol("train");
     missing.args(["biped-1", "running", "--from"]).arg(path("nowhere")).arg("--out").arg(path("second"));
     assert_says(&fail(&mut missing), &[text(&path("nowhere"))]);

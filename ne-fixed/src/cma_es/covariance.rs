@@ -1,5 +1,5 @@
 use super::triangle::Triangle;
-use ne_net::Growth;
+use ne_net::TopologyMap;
 use serde::{Deserialize, Serialize};
 
 /// Which covariance matrices [`CmaEs`](crate::CmaEs) adapts.
@@ -55,11 +55,13 @@ impl Covariance {
 
     /// The covariance of the weights of a grown net; new ones have this variance and vary with no other. Into a separable
     /// one go the variances alone.
-    pub(super) fn grown(&self, growth: &Growth, model: CovarianceModel, variance: f64) -> Self {
+    pub(super) fn remapped(&self, growth: &TopologyMap, model: CovarianceModel, variance: f64) -> Self {
         match (model, self) {
-            (CovarianceModel::Separable, _) => Self::Separable { variances: growth.carry(&self.variances(), variance) },
+            (CovarianceModel::Separable, _) => {
+                Self::Separable { variances: growth.transfer(&self.variances(), variance) }
+            }
             (CovarianceModel::Full, Self::Separable { variances }) => {
-                Self::full(Triangle::of(growth.weight_count(), &growth.carry(variances, variance), |_, _| 0.0))
+                Self::full(Triangle::of(growth.weight_count(), &growth.transfer(variances, variance), |_, _| 0.0))
             }
             (CovarianceModel::Full, Self::Full { matrix, .. }) => {
                 let origins = growth.origins();
@@ -67,7 +69,7 @@ impl Covariance {
                     (Some(row), Some(column)) => matrix.element(row, column),
                     _ => 0.0,
                 };
-                let diagonal = growth.carry(&self.variances(), variance);
+                let diagonal = growth.transfer(&self.variances(), variance);
                 Self::full(Triangle::of(growth.weight_count(), &diagonal, element))
             }
         }

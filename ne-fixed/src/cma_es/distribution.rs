@@ -1,5 +1,5 @@
 use super::{covariance::Covariance, covariance::CovarianceModel, parameters::Parameters};
-use ne_net::Growth;
+use ne_net::TopologyMap;
 
 /// The normal distribution N(m, σ²C) that individuals are drawn from, and the paths it has taken.
 ///
@@ -28,14 +28,14 @@ impl Distribution {
     }
 
     /// The distribution over the weights of a grown net; new ones have a mean of 0 and this deviation.
-    pub(super) fn grown(&self, growth: &Growth, model: CovarianceModel, deviation: f64) -> Self {
+    pub(super) fn remapped(&self, growth: &TopologyMap, model: CovarianceModel, deviation: f64) -> Self {
         let relative = deviation / self.step_size;
         Self {
-            mean: growth.carry(&self.mean, 0.0),
+            mean: growth.transfer(&self.mean, 0.0),
             step_size: self.step_size,
-            covariance: self.covariance.grown(growth, model, relative * relative),
-            step_size_path: growth.carry(&self.step_size_path, 0.0),
-            covariance_path: growth.carry(&self.covariance_path, 0.0),
+            covariance: self.covariance.remapped(growth, model, relative * relative),
+            step_size_path: growth.transfer(&self.step_size_path, 0.0),
+            covariance_path: growth.transfer(&self.covariance_path, 0.0),
             updates: self.updates,
         }
     }

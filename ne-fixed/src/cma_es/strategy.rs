@@ -4,7 +4,7 @@ use super::{
 };
 use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
 use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{Growth, NetworkError, Topology};
+use ne_net::{NetworkError, Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
 
 const MEAN: Purpose = Purpose::new("cma-es mean");
@@ -126,19 +126,19 @@ impl CmaEs {
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
-    pub fn grown(
+    pub fn remapped(
         self,
         settings: CmaEsSettings,
         topology: impl Into<Topology>,
-        growth: &Growth,
+        growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
-        let start = self.start.map(|start| growth.carry(&start, 0.0));
+        let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
         let distribution = self.distribution.map(|mut distribution| {
             distribution.limit_deviation(REVIVED * first, f64::INFINITY);
-            distribution.grown(growth, model, first)
+            distribution.remapped(growth, model, first)
         });
         let mut restarts = next.restarts.clone();
         if distribution.is_some() {

@@ -6,7 +6,7 @@ use crate::{
     ranking::best_first,
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
-use ne_net::{Growth, Topology};
+use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -114,11 +114,11 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
-    pub fn grown(
+    pub fn remapped(
         self,
         settings: ConventionalNeSettings<S, C, M>,
         topology: impl Into<Topology>,
-        growth: &Growth,
+        growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
@@ -126,7 +126,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
             true => (&self.start, (0..self.start.len()).collect()),
             false => (&self.parents, best_first(&self.scores)),
         };
-        let start = order.into_iter().map(|index| parents[index].grown(&next.topology, growth)).collect();
+        let start = order.into_iter().map(|index| parents[index].remapped(&next.topology, growth)).collect();
         Ok(Self { start, ..next })
     }
 

@@ -1,7 +1,7 @@
 use super::{CosyneSettings, cauchy, permutation::shuffle_marked, state::State};
 use crate::{Crossover, WeightVector, diversity::diversity, growing::check, ranking::best_first};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{Growth, Topology};
+use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
@@ -88,11 +88,11 @@ impl Cosyne {
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
-    pub fn grown(
+    pub fn remapped(
         self,
         settings: CosyneSettings,
         topology: impl Into<Topology>,
-        growth: &Growth,
+        growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
@@ -100,7 +100,7 @@ impl Cosyne {
             true => (&self.start, (0..self.start.len()).collect()),
             false => (&self.parents, best_first(&self.scores)),
         };
-        let start: Vec<_> = order.into_iter().map(|index| growth.carry(parents[index].weights(), 0.0)).collect();
+        let start: Vec<_> = order.into_iter().map(|index| growth.transfer(parents[index].weights(), 0.0)).collect();
         next.with_start(&start)
     }
 

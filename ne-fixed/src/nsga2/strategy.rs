@@ -8,7 +8,7 @@ use ne_core::{
     Evaluation, Fitness, FrontPoint, Purpose, Seed, Selector, SettingError, Statistic, Strategy,
     pareto::{self, Point, Rank},
 };
-use ne_net::{Growth, Topology};
+use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 use std::cmp::Reverse;
@@ -108,11 +108,11 @@ impl Nsga2 {
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
-    pub fn grown(
+    pub fn remapped(
         self,
         settings: Nsga2Settings,
         topology: impl Into<Topology>,
-        growth: &Growth,
+        growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
@@ -120,7 +120,7 @@ impl Nsga2 {
             true => self.start.iter().collect(),
             false => self.parents.iter().map(|parent| &parent.genome).collect(),
         };
-        let start = survivors.into_iter().map(|genome| genome.grown(&next.topology, growth)).collect();
+        let start = survivors.into_iter().map(|genome| genome.remapped(&next.topology, growth)).collect();
         Ok(Self { start, ..next })
     }
 

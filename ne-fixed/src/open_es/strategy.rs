@@ -1,7 +1,7 @@
 use super::{OpenEsSettings, adam::AdamMemory, state::State};
 use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{Growth, NetworkError, Topology};
+use ne_net::{NetworkError, Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
 
 const CENTRE: Purpose = Purpose::new("open-es centre");
@@ -82,19 +82,19 @@ impl OpenEs {
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
-    pub fn grown(
+    pub fn remapped(
         self,
         settings: OpenEsSettings,
         topology: impl Into<Topology>,
-        growth: &Growth,
+        growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check(growth, &self.topology, &next.topology)?;
-        let centre = if self.centre.is_empty() { Vec::new() } else { growth.carry(&self.centre, 0.0) };
+        let centre = if self.centre.is_empty() { Vec::new() } else { growth.transfer(&self.centre, 0.0) };
         let adam = AdamMemory {
             steps: self.adam.steps,
-            means: growth.carry(&self.adam.means, 0.0),
-            squares: growth.carry(&self.adam.squares, 0.0),
+            means: growth.transfer(&self.adam.means, 0.0),
+            squares: growth.transfer(&self.adam.squares, 0.0),
         };
         let deviation = self.deviation.max(next.settings.least_deviation).min(next.settings.deviation);
         Ok(Self { centre, adam, deviation, ..next })

@@ -8,7 +8,7 @@ use ne_core::{
     conformance::{StrategyOptions, check_strategy},
 };
 use ne_fixed::{CmaEs, CmaEsSettings, CovarianceModel, Initialization, Restart};
-use ne_net::Growth;
+use ne_net::TopologyMap;
 use serde_json::json;
 
 fn new(settings: CmaEsSettings) -> CmaEs {
@@ -308,8 +308,8 @@ fn of_several_starts_the_one_that_got_farthest_goes_on() {
     assert_eq!(visited, [0, 0, 1, 1, 2, 2, 1, 1, 1]);
     let mut begun = far_apart(settings.clone());
     generation(&mut begun, 1);
-    let (place, growth) = (begun.mean().expect("a search")[0], Growth::none(26));
-    let grown = begun.grown(settings.clone(), dense(), &growth).expect("grows by nothing");
+    let (place, growth) = (begun.mean().expect("a search")[0], TopologyMap::none(26));
+    let grown = begun.remapped(settings.clone(), dense(), &growth).expect("grows by nothing");
     assert!(!grown.has_begun_anew());
     let visited = searches(grown.clone(), 5, |_, _| 1.0);
     assert_eq!(

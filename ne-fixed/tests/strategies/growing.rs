@@ -6,10 +6,10 @@ use ne_fixed::{
     CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, CovarianceModel, Nsga2,
     Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
 };
-use ne_net::{DenseShape, Growth, Topology};
+use ne_net::{DenseShape, Topology, TopologyMap};
 
 /// The net of the tests with an input in front, one at the end, and an output in the middle; and what becomes of its weights.
-fn grown() -> (Topology, Growth) {
+fn grown() -> (Topology, TopologyMap) {
     let names = |inputs: &[&str], outputs: &[&str]| {
         let mut names = Vec::new();
         for target in ["h0", "h1", "h2", "h3"] {
@@ -23,7 +23,7 @@ fn grown() -> (Topology, Growth) {
     };
     let old = names(&["a", "b", "c"], &["x", "y"]);
     let new = names(&["left", "a", "b", "c", "right"], &["x", "between", "y"]);
-    (DenseShape::new(5, vec![4], 3).into(), Growth::by_name(&old, &new))
+    (DenseShape::new(5, vec![4], 3).into(), TopologyMap::by_name(&old, &new))
 }
 
 /// What a net answers to a few inputs, bit by bit.
@@ -94,11 +94,11 @@ fn populations_go_on_in_grown_nets() {
     for size in [30, 20, 50] {
         let settings = |population| ConventionalNeSettings { population, ..ConventionalNeSettings::default() };
         let (strategy, old) = trained(ConventionalNe::new(settings(30), dense()).expect("valid"));
-        let new = strategy.grown(settings(size), topology.clone(), &growth).expect("grows");
+        let new = strategy.remapped(settings(size), topology.clone(), &growth).expect("grows");
         assert_population_goes_on(old, new, size);
         let settings = |population| CosyneSettings { population, ..CosyneSettings::default() };
         let (strategy, old) = trained(Cosyne::new(settings(30), dense()).expect("valid"));
-        let new = strategy.grown(settings(size), topology.clone(), &growth).expect("grows");
+        let new = strategy.remapped(settings(size), topology.clone(), &growth).expect("grows");
         assert_population_goes_on(old, new, size);
     }
 }
@@ -109,7 +109,7 @@ fn the_survivors_of_a_search_for_compromises_go_on() {
     let settings = Nsga2Settings::default();
     let (strategy, _) = trained(Nsga2::new(settings.clone(), dense()).expect("valid"));
     let front = strategy.front().expect("it has one")[0].genome.weights().to_vec();
-    let mut new = strategy.grown(settings, topology, &growth).expect("grows");
+    let mut new = strategy.remapped(settings, topology, &growth).expect("grows");
     let first = new.clone().ask(Seed::of_run(2).generation(1)).to_vec();
     assert_eq!(reload(&new).ask(Seed::of_run(2).generation(1)), first);
     // With the fitness as the only objective the front is the best.
@@ -131,7 +131,7 @@ fn a_mean_goes_on_in_grown_nets() {
         let deviation = |strategy: &CmaEs| strategy.statistics()[1].value;
         let first = settings(after).step_size;
         let expected = deviation(&strategy).max(first);
-        let new = strategy.grown(settings(after), topology.clone(), &growth).expect("grows");
+        let new = strategy.remapped(settings(after), topology.clone(), &growth).expect("grows");
         assert_same_behaviour(&old, &mean(&new));
         // The new weights deviate by the first step size.
         assert!((deviation(&new) / expected - 1.0).abs() < 1e-9, "{} of {expected}", deviation(&new));
@@ -146,9 +146,9 @@ fn what_has_settled_can_leave_again() {
     (1..=400).for_each(|number| drop(generation(&mut strategy, number)));
     let deviation = |strategy: &CmaEs| strategy.statistics()[1].value;
     assert!(deviation(&strategy) < 0.1 * settings.step_size);
-    let same = Growth::none(dense().weight_count());
+    let same = TopologyMap::none(dense().weight_count());
     let mean = strategy.mean().expect("a mean").to_vec();
-    let new = strategy.grown(settings.clone(), dense(), &same).expect("goes on");
+    let new = strategy.remapped(settings.clone(), dense(), &same).expect("goes on");
     assert_eq!(new.mean(), Some(mean.as_slice()));
     assert!((deviation(&new) / (0.3 * settings.step_size) - 1.0).abs() < 1e-9);
 }
@@ -158,7 +158,7 @@ fn a_centre_goes_on_in_grown_nets() {
     let (topology, growth) = grown();
     let settings = OpenEsSettings::default();
     let (mut strategy, _) = trained(OpenEs::new(settings.clone(), dense()).expect("valid"));
-    let new = strategy.clone().grown(settings.clone(), topology, &growth).expect("grows");
+    let new = strategy.clone().remapped(settings.clone(), topology, &growth).expect("grows");
     let seed = Seed::of_run(1).generation(8);
     // The centre is the first individual.
     let old = strategy.ask(seed)[0].weights().to_vec();
@@ -171,29 +171,29 @@ fn a_centre_goes_on_in_grown_nets() {
 
 #[test]
 fn a_recurrent_net_goes_on_too() {
-    let same = Growth::none(recurrent().weight_count());
+    let same = TopologyMap::none(recurrent().weight_count());
     let settings = ConventionalNeSettings::default();
     let (strategy, old) = trained(ConventionalNe::new(settings.clone(), recurrent()).expect("valid"));
-    let mut new = strategy.grown(settings, recurrent(), &same).expect("goes on");
+    let mut new = strategy.remapped(settings, recurrent(), &same).expect("goes on");
     assert_eq!(weights(new.ask(Seed::of_run(2).generation(1))), old);
 }
 
 #[test]
 fn errors_name_what_does_not_fit() {
     let (topology, _) = grown();
-    let same = Growth::none(26);
+    let same = TopologyMap::none(26);
     let message = "growth = from 26 to 26 weights: must be from 26 to 39, as the topologies have";
     let conventional = ConventionalNe::new(ConventionalNeSettings::default(), dense()).expect("valid");
-    let error = conventional.clone().grown(ConventionalNeSettings::default(), topology.clone(), &same);
+    let error = conventional.clone().remapped(ConventionalNeSettings::default(), topology.clone(), &same);
     assert_eq!(error.expect_err("too few").to_string(), message);
     let cosyne = Cosyne::new(CosyneSettings::default(), dense()).expect("valid");
-    let error = cosyne.clone().grown(CosyneSettings::default(), topology.clone(), &same);
+    let error = cosyne.clone().remapped(CosyneSettings::default(), topology.clone(), &same);
     assert_eq!(error.expect_err("too few").to_string(), message);
     let cma_es = CmaEs::new(CmaEsSettings::default(), dense()).expect("valid");
-    let error = cma_es.grown(CmaEsSettings::default(), topology.clone(), &same);
+    let error = cma_es.remapped(CmaEsSettings::default(), topology.clone(), &same);
     assert_eq!(error.expect_err("too few").to_string(), message);
     let open_es = OpenEs::new(OpenEsSettings::default(), dense()).expect("valid");
-    let error = open_es.grown(OpenEsSettings::default(), topology.clone(), &same);
+    let error = open_es.remapped(OpenEsSettings::default(), topology.clone(), &same);
     assert_eq!(error.expect_err("too few").to_string(), message);
     let error = cosyne.with_start(&[vec![0.0; 3]]).expect_err("too few").to_string();
     assert!(error.starts_with("start[0] = weights: found 3, a net of shape 3-4-2 has 26"), "{error}");

@@ -17,12 +17,12 @@ use std::collections::BTreeMap;
 /// # Ok::<(), ne_core::SettingError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Growth {
+pub struct TopologyMap {
     origins: Vec<Option<usize>>,
     old: usize,
 }
 
-impl Growth {
+impl TopologyMap {
     /// For each weight of the grown topology, which of the `old` weights it goes on from; `None`: it is new.
     ///
     /// # Errors
@@ -87,7 +87,7 @@ impl Growth {
     ///
     /// # Panics
     /// If `values` are not as many as the old topology has weights.
-    pub fn carry<T: Copy>(&self, values: &[T], new: T) -> Vec<T> {
+    pub fn transfer<T: Copy>(&self, values: &[T], new: T) -> Vec<T> {
         assert_eq!(values.len(), self.old, "one value for each old weight");
         self.origins.iter().map(|origin| origin.map_or(new, |origin| values[origin])).collect()
     }
@@ -104,18 +104,18 @@ mod tests {
 
     #[test]
     fn weights_go_on_by_their_names() {
-        let growth = Growth::by_name(&names(&["a", "b", "c"]), &names(&["new", "c", "a"]));
+        let growth = TopologyMap::by_name(&names(&["a", "b", "c"]), &names(&["new", "c", "a"]));
         assert_eq!(growth.origins(), [None, Some(2), Some(0)]);
         assert_eq!((growth.gained(), growth.lost()), (1, vec![1]));
-        assert_eq!(growth.carry(&[1, 2, 3], 0), [0, 3, 1]);
+        assert_eq!(growth.transfer(&[1, 2, 3], 0), [0, 3, 1]);
         // A name that is there twice is an origin once.
-        let growth = Growth::by_name(&names(&["a"]), &names(&["a", "a"]));
+        let growth = TopologyMap::by_name(&names(&["a"]), &names(&["a", "a"]));
         assert_eq!(growth.origins(), [Some(0), None]);
     }
 
     #[test]
     fn errors_name_the_place() {
-        let error = |origins: Vec<Option<usize>>| Growth::new(origins, 2).expect_err("invalid").to_string();
+        let error = |origins: Vec<Option<usize>>| TopologyMap::new(origins, 2).expect_err("invalid").to_string();
         assert_eq!(error(vec![None, Some(2)]), "origins[1] = 2: must be below 2");
         assert_eq!(error(vec![Some(1), Some(1)]), "origins[1] = 1: must be the origin of one weight only");
     }
@@ -125,8 +125,8 @@ mod tests {
         fn nothing_is_carried_twice_and_nothing_is_forgotten(old in 0_usize..20, picks in prop::collection::vec(0_usize..40, 0..30)) {
             let old_names: Vec<String> = (0..old).map(|index| index.to_string()).collect();
             let new_names: Vec<String> = picks.iter().map(ToString::to_string).collect();
-            let growth = Growth::by_name(&old_names, &new_names);
-            prop_assert_eq!(Growth::new(growth.origins().to_vec(), old), Ok(growth.clone()));
+            let growth = TopologyMap::by_name(&old_names, &new_names);
+            prop_assert_eq!(TopologyMap::new(growth.origins().to_vec(), old), Ok(growth.clone()));
             prop_assert_eq!(growth.weight_count() - growth.gained() + growth.lost().len(), old);
             prop_assert_eq!((growth.weight_count(), growth.old_weight_count()), (picks.len(), old));
         }

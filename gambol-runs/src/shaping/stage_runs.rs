@@ -1,4 +1,4 @@
-//! The legs of a run with stages, read from its folder.
+//! The stage runs of a run with stages, read from its folder.
 
 use crate::{
     champion::Champion,
@@ -9,7 +9,7 @@ use std::{fs, path::Path, path::PathBuf};
 
 /// A stretch of the way: a stage from its beginning until it was passed, left, or broken off.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Leg {
+pub struct StageRun {
     /// Which, from 1.
     pub number: usize,
     /// The stage's index.
@@ -26,11 +26,11 @@ pub struct Leg {
     pub champion: Option<Standing>,
 }
 
-/// The legs of a run with stages so far, in order; the last may be under way.
+/// The stage runs of a run with stages so far, in order; the last may be under way.
 ///
 /// # Errors
-/// If a file of a leg cannot be read.
-pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
+/// If a file of a stage run cannot be read.
+pub fn stage_runs(folder: &RunFolder) -> Result<Vec<StageRun>, FolderError> {
     let Ok(entries) = fs::read_dir(folder.stages()) else { return Ok(Vec::new()) };
     let numbered = |path: PathBuf| {
         let (number, name) = path.file_name()?.to_str()?.split_once('-')?;
@@ -40,15 +40,15 @@ pub fn legs(folder: &RunFolder) -> Result<Vec<Leg>, FolderError> {
         entries.flatten().filter_map(|entry| numbered(entry.path())).collect();
     folders.sort();
     let config = folder.read_config()?;
-    let mut legs = Vec::new();
+    let mut stage_runs = Vec::new();
     for (number, name, path) in folders {
-        let leg_folder = RunFolder::at(&path);
-        if leg_folder.checkpoint().is_file() {
-            let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(legs.len());
-            legs.push(leg(&leg_folder, number, stage, &name)?);
+        let stage_folder = RunFolder::at(&path);
+        if stage_folder.checkpoint().is_file() {
+            let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(stage_runs.len());
+            stage_runs.push(stage_run(&stage_folder, number, stage, &name)?);
         }
     }
-    Ok(legs)
+    Ok(stage_runs)
 }
 
 /// The folder of the run that this folder is a stage of, if it is one.
@@ -60,27 +60,31 @@ pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
     (!config.stages.is_empty()).then(|| run.path().into())
 }
 
-pub(super) fn leg(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<Leg, FolderError> {
+pub(super) fn stage_run(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<StageRun, FolderError> {
     let standing = folder.read_standing()?;
     let champion = standing.champion.map(|champion| Standing { tier: champion.tier, fitness: champion.fitness });
     let (decision, progress) = (standing.decision, standing.progress);
-    Ok(Leg { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
+    Ok(StageRun { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
 }
 
-/// What all legs have used.
-pub(super) fn total(legs: &[Leg]) -> Progress {
-    let sum = |count: fn(&Progress) -> u64| legs.iter().map(|leg| count(&leg.progress)).sum();
+/// What all stage runs have used.
+pub(super) fn total(stage_runs: &[StageRun]) -> Progress {
+    let sum = |count: fn(&Progress) -> u64| stage_runs.iter().map(|stage_run| count(&stage_run.progress)).sum();
     Progress {
         generations: sum(|progress| progress.generations),
         evaluations: sum(|progress| progress.evaluations),
         steps: sum(|progress| progress.steps),
-        stagnation: legs.last().map_or(0, |leg| leg.progress.stagnation),
+        stagnation: stage_runs.last().map_or(0, |stage_run| stage_run.progress.stagnation),
     }
 }
 
-/// The champion of the latest leg that has one is that of the run; `current` is the leg under way.
-pub(super) fn keep_champion(run: &RunFolder, legs: &[Leg], current: Option<&RunFolder>) -> Result<(), FolderError> {
-    let earlier = legs.iter().rev().map(|leg| RunFolder::at(&leg.folder).champion());
+/// The champion of the latest stage run that has one is that of the run; `current` is the stage run under way.
+pub(super) fn keep_champion(
+    run: &RunFolder,
+    stage_runs: &[StageRun],
+    current: Option<&RunFolder>,
+) -> Result<(), FolderError> {
+    let earlier = stage_runs.iter().rev().map(|stage_run| RunFolder::at(&stage_run.folder).champion());
     let mut latest = current.map(RunFolder::champion).into_iter().chain(earlier).filter(|path| path.is_file());
     match latest.next() {
         Some(path) => Ok(Champion::read(&path)?.write(&run.champion())?),

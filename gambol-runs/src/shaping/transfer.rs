@@ -3,7 +3,7 @@
 use super::source::{ChampionNet, Kind, Source, names_of, read_checkpoint};
 use crate::Registry;
 use crate::{
-    config::{Carried, FrozenTopology, Origin, RunConfig, StrategySettings},
+    config::{FrozenTopology, Origin, RunConfig, StrategySettings, Transferred},
     episode_parts::SetupError,
     run_folder::FolderError,
     setup::Setup,
@@ -11,12 +11,12 @@ use crate::{
 };
 use creatures::Channel;
 use ne_core::SettingError;
-use ne_net::Growth;
+use ne_net::TopologyMap;
 
-/// Why nothing can be carried over.
+/// Why nothing can be transferred.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum CarryError {
+pub enum TransferError {
     /// The run or the champion cannot be read.
     #[error(transparent)]
     Folder(#[from] FolderError),
@@ -32,7 +32,7 @@ pub enum CarryError {
         /// The source.
         source_name: String,
     },
-    /// What is asked to be carried cannot be, from this source to this strategy.
+    /// What is asked to be transferred cannot be, from this source to this strategy.
     #[error("{0}")]
     Impossible(String),
     /// Something learned would be lost.
@@ -48,34 +48,34 @@ pub enum CarryError {
 }
 
 /// How losses are allowed.
-const FORGET: &str = "--forget, or \"forget\": true in the stage";
+const ALLOW_LOSS: &str = "--allow-loss, or \"allow_loss\": true in the stage";
 
-/// How it is to be carried.
+/// How it is to be transferred.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Manner {
+pub(crate) struct TransferOptions {
     /// What; `None`: as much as can be.
-    pub(crate) carried: Option<Carried>,
+    pub(crate) transferred: Option<Transferred>,
     /// Whether inputs, outputs and weights may be given up.
-    pub(crate) forget: bool,
+    pub(crate) allow_loss: bool,
 }
 
 /// A search that can begin.
-pub(crate) struct Departure {
+pub(crate) struct PreparedTransfer {
     /// The configuration, with the topology that is kept, and its [`Origin`].
     pub(crate) config: RunConfig,
     pub(crate) setup: Setup,
     /// Whether the new strategy does so itself.
     finds_topology: bool,
     source: Source,
-    carried: Carried,
-    genes: Growth,
-    inputs: Growth,
-    outputs: Growth,
-    /// The champion's weights in the new net, unless a population is carried.
+    transferred: Transferred,
+    genes: TopologyMap,
+    inputs: TopologyMap,
+    outputs: TopologyMap,
+    /// The champion's weights in the new net, unless a population is transferred.
     weights: Vec<f32>,
 }
 
-impl Departure {
+impl PreparedTransfer {
     /// Prepares a search with the new configuration. Nothing is written.
     ///
     /// # Errors
@@ -83,39 +83,40 @@ impl Departure {
     pub(crate) fn prepare(
         source: Source,
         to: &RunConfig,
-        manner: Manner,
+        how: TransferOptions,
         registry: &Registry,
-    ) -> Result<Self, CarryError> {
+    ) -> Result<Self, TransferError> {
         let from = source.strategy_entry();
         let entry = registry.strategies.of(&to.strategy).map_err(SetupError::from)?;
-        let carried = match (manner.carried, from) {
-            (Some(carried), _) => carried,
+        let transferred = match (how.transferred, from) {
+            (Some(transferred), _) => transferred,
             (None, Some(from)) => match usual(from, entry) {
-                Carried::Population if source.has_begun_anew()? => Carried::Champion,
-                carried => carried,
+                Transferred::Population if source.has_begun_anew()? => Transferred::Champion,
+                transferred => transferred,
             },
-            (None, None) => Carried::Topology,
+            (None, None) => Transferred::Topology,
         };
-        check_possible(&source.name, from, carried, entry)?;
-        if carried == Carried::Population && source.has_nothing_to_carry()? {
+        check_possible(&source.name, from, transferred, entry)?;
+        if transferred == Transferred::Population && source.has_nothing_to_transfer()? {
             let message = format!(
-                "the search of {} has just begun anew and has nothing to carry: carry the champion",
+                "the search of {} has just begun anew and has nothing to transfer: transfer the champion",
                 source.name
             );
-            return Err(CarryError::Impossible(message));
+            return Err(TransferError::Impossible(message));
         }
         let mut config = to.clone();
-        if let (Kind::Run { config: from, .. }, None, true) = (&source.kind, &to.topology, carried != Carried::Nothing)
+        if let (Kind::Run { config: from, .. }, None, true) =
+            (&source.kind, &to.topology, transferred != Transferred::Nothing)
         {
             config.topology.clone_from(&from.topology);
         }
-        let net = match carried {
-            Carried::Champion => Some(source.champion(false)?),
-            Carried::Topology => Some(source.champion(true)?),
-            Carried::Population | Carried::Nothing => None,
+        let net = match transferred {
+            Transferred::Champion => Some(source.champion(false)?),
+            Transferred::Topology => Some(source.champion(true)?),
+            Transferred::Population | Transferred::Nothing => None,
         };
         let before = source.channels();
-        if carried == Carried::Topology
+        if transferred == Transferred::Topology
             && let Some(net) = &net
         {
             let [inputs, outputs] = before.each_ref().map(|channels| names_of(channels));
@@ -125,25 +126,26 @@ impl Departure {
             // The body's channels are known once it is built; the net has to wait for them.
             let bare = Setup::new(&RunConfig { topology: None, ..config.clone() }, registry)?;
             // What is lost from the source's is refused below, by name.
-            let forget = manner.forget || to.topology.is_none();
-            config.topology = Some(frozen.grown(bare.inputs(), bare.outputs(), forget));
+            let allow_loss = how.allow_loss || to.topology.is_none();
+            config.topology = Some(frozen.remapped(bare.inputs(), bare.outputs(), allow_loss));
         }
         let setup = Setup::new(&config, registry)?;
         let after = [setup.inputs(), setup.outputs()];
         let [inputs, outputs] = [0, 1].map(|which| {
             let new: Vec<String> = after[which].iter().map(|channel| channel.name.clone()).collect();
-            Growth::by_name(&names_of(&before[which]), &new)
+            TopologyMap::by_name(&names_of(&before[which]), &new)
         });
         let genes = match (&source.kind, &net) {
-            (_, Some(net)) => Growth::by_name(&net.names, &setup.weight_names),
-            (Kind::Run { setup: old, .. }, None) => Growth::by_name(&old.weight_names, &setup.weight_names),
-            (Kind::Champion(_), None) => Growth::none(setup.topology.weight_count()),
+            (_, Some(net)) => TopologyMap::by_name(&net.names, &setup.weight_names),
+            (Kind::Run { setup: old, .. }, None) => TopologyMap::by_name(&old.weight_names, &setup.weight_names),
+            (Kind::Champion(_), None) => TopologyMap::none(setup.topology.weight_count()),
         };
-        let weights = net.as_ref().map_or_else(Vec::new, |net| genes.carry(&net.weights, 0.0));
+        let weights = net.as_ref().map_or_else(Vec::new, |net| genes.transfer(&net.weights, 0.0));
         let finds_topology = entry.finds_topology();
-        let mut departure = Self { config, setup, finds_topology, source, carried, genes, inputs, outputs, weights };
+        let mut departure =
+            Self { config, setup, finds_topology, source, transferred, genes, inputs, outputs, weights };
         let origin = departure.origin(net.as_ref())?;
-        if !manner.forget && carried != Carried::Nothing {
+        if !how.allow_loss && transferred != Transferred::Nothing {
             departure.check_lost(&origin)?;
         }
         departure.config.origin = Some(origin);
@@ -154,27 +156,27 @@ impl Departure {
     ///
     /// # Errors
     /// If it cannot go on with these settings.
-    pub(crate) fn search(&self, strategies: &StrategyCatalogue) -> Result<AnyStrategy, CarryError> {
+    pub(crate) fn search(&self, strategies: &StrategyCatalogue) -> Result<AnyStrategy, TransferError> {
         let (settings, topology) = (&self.config.strategy, &self.setup.topology);
-        let begun = match (self.carried, &self.source.kind) {
-            (Carried::Population, Kind::Run { folder, strategy, .. }) => {
+        let begun = match (self.transferred, &self.source.kind) {
+            (Transferred::Population, Kind::Run { folder, strategy, .. }) => {
                 let (genes, inputs, outputs) = (&self.genes, &self.inputs, &self.outputs);
                 let search = read_checkpoint(strategy, folder)?.strategy;
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
-            (Carried::Nothing, _) => strategies.build(settings, topology),
+            (Transferred::Nothing, _) => strategies.build(settings, topology),
             _ => strategies.begin_at(settings, topology, &self.weights),
         };
         Ok(begun.map_err(SetupError::from)?)
     }
 
-    fn origin(&self, net: Option<&ChampionNet>) -> Result<Origin, CarryError> {
+    fn origin(&self, net: Option<&ChampionNet>) -> Result<Origin, TransferError> {
         let generation = match (&self.source.kind, net) {
             (_, Some(net)) => net.generation,
             (Kind::Run { folder, .. }, None) => folder.read_standing()?.progress.generations,
             (Kind::Champion(champion), None) => champion.generation,
         };
-        let counts_weights = !self.finds_topology && self.carried != Carried::Nothing;
+        let counts_weights = !self.finds_topology && self.transferred != Transferred::Nothing;
         let counted = |count: usize| if counts_weights { count } else { 0 };
         let before = self.source.channels();
         let after = [self.setup.inputs(), self.setup.outputs()];
@@ -194,7 +196,7 @@ impl Departure {
         }
         Ok(Origin {
             source: self.source.name.clone(),
-            carried: self.carried,
+            transferred: self.transferred,
             strategy: self.source.strategy().into(),
             generation,
             weights_kept: counted(self.genes.weight_count() - self.genes.gained()),
@@ -207,38 +209,38 @@ impl Departure {
         })
     }
 
-    fn check_lost(&self, origin: &Origin) -> Result<(), CarryError> {
+    fn check_lost(&self, origin: &Origin) -> Result<(), TransferError> {
         let mut what: Vec<String> = origin.lost.iter().map(|name| format!("\"{name}\"")).collect();
         if what.is_empty() && origin.weights_lost > 0 {
             what.push(format!("{} of {} weights", origin.weights_lost, self.genes.old_weight_count()));
         }
         match what.is_empty() {
             true => Ok(()),
-            false => Err(CarryError::Lost { what, allow: FORGET }),
+            false => Err(TransferError::Lost { what, allow: ALLOW_LOSS }),
         }
     }
 }
 
-/// Checks that a stage could go on from another, before there is anything to carry.
+/// Checks that a stage could go on from another, before there is anything to transfer.
 ///
 /// # Errors
-/// If what is asked to be carried cannot be, or inputs or outputs would be lost that may not be, or that the strategy cannot
+/// If what is asked to be transferred cannot be, or inputs or outputs would be lost that may not be, or that the strategy cannot
 /// give up.
 pub(super) fn check_planned(
     (from_settings, before): (&StrategySettings, &Setup),
     (to_settings, after): (&StrategySettings, &Setup),
-    manner: Manner,
+    how: TransferOptions,
     strategies: &StrategyCatalogue,
-) -> Result<(), CarryError> {
+) -> Result<(), TransferError> {
     let from = strategies.of(from_settings).map_err(SetupError::from)?;
     let to = strategies.of(to_settings).map_err(SetupError::from)?;
-    let carried = manner.carried.unwrap_or_else(|| usual(from, to));
-    check_possible("the stage before", Some(from), carried, to)?;
+    let transferred = how.transferred.unwrap_or_else(|| usual(from, to));
+    check_possible("the stage before", Some(from), transferred, to)?;
     let channels = [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())];
-    let genes = Growth::by_name(&before.weight_names, &after.weight_names);
+    let genes = TopologyMap::by_name(&before.weight_names, &after.weight_names);
     // The genomes of a strategy that finds topologies, and the net of a champion that is taken as it is, are not the planned one.
-    let matters = carried != Carried::Topology && !from.finds_topology();
-    if !manner.forget && carried != Carried::Nothing {
+    let matters = transferred != Transferred::Topology && !from.finds_topology();
+    if !how.allow_loss && transferred != Transferred::Nothing {
         let mut what = Vec::new();
         for (before, after) in channels {
             let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
@@ -249,14 +251,14 @@ pub(super) fn check_planned(
             what.push(format!("{lost} of {} weights", genes.old_weight_count()));
         }
         if !what.is_empty() {
-            return Err(CarryError::Lost { what, allow: FORGET });
+            return Err(TransferError::Lost { what, allow: ALLOW_LOSS });
         }
     }
-    if carried != Carried::Population {
+    if transferred != Transferred::Population {
         return Ok(());
     }
     let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
-    let [inputs, outputs] = channels.map(|(before, after)| Growth::by_name(&names(before), &names(after)));
+    let [inputs, outputs] = channels.map(|(before, after)| TopologyMap::by_name(&names(before), &names(after)));
     let transfer = Transfer { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
     // A search that has not begun shows whether it could go on with the other nets.
     let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;
@@ -264,43 +266,43 @@ pub(super) fn check_planned(
     Ok(())
 }
 
-/// What is carried from a run if nobody says what.
-fn usual(from: &StrategyEntry, to: &StrategyEntry) -> Carried {
+/// What is transferred from a run if nobody says what.
+fn usual(from: &StrategyEntry, to: &StrategyEntry) -> Transferred {
     match from {
-        from if from.name() == to.name() => Carried::Population,
-        from if from.finds_topology() => Carried::Topology,
-        _ => Carried::Champion,
+        from if from.name() == to.name() => Transferred::Population,
+        from if from.finds_topology() => Transferred::Topology,
+        _ => Transferred::Champion,
     }
 }
 
-/// Checks that something can be carried; `from` is `None` for a champion file.
+/// Checks that something can be transferred; `from` is `None` for a champion file.
 fn check_possible(
     source: &str,
     from: Option<&StrategyEntry>,
-    carried: Carried,
+    transferred: Transferred,
     to: &StrategyEntry,
-) -> Result<(), CarryError> {
-    let message = match (carried, from) {
-        (Carried::Population, None) => {
+) -> Result<(), TransferError> {
+    let message = match (transferred, from) {
+        (Transferred::Population, None) => {
             format!("{source} is one champion, and no population: name the folder of its run")
         }
-        (Carried::Population, Some(from)) if from.name() != to.name() => format!(
-            "a population of {} is none of {}: carry the champion or its topology, or keep the strategy",
+        (Transferred::Population, Some(from)) if from.name() != to.name() => format!(
+            "a population of {} is none of {}: transfer the champion or its topology, or keep the strategy",
             from.name(),
             to.name()
         ),
-        (Carried::Champion | Carried::Topology, _) if to.finds_topology() => format!(
+        (Transferred::Champion | Transferred::Topology, _) if to.finds_topology() => format!(
             "{0} goes on from a population of its own, and from no single net: choose another strategy, or go on from a \
              run with {0}",
             to.name()
         ),
-        (Carried::Champion, None) => format!(
-            "{source} holds a net, and not the genes it was made from: carry its topology, or name the folder of its run"
+        (Transferred::Champion, None) => format!(
+            "{source} holds a net, and not the genes it was made from: transfer its topology, or name the folder of its run"
         ),
-        (Carried::Champion, Some(from)) if from.finds_topology() => {
-            format!("a net that {} has found is carried with its topology", from.name())
+        (Transferred::Champion, Some(from)) if from.finds_topology() => {
+            format!("a net that {} has found is transferred with its topology", from.name())
         }
         _ => return Ok(()),
     };
-    Err(CarryError::Impossible(message))
+    Err(TransferError::Impossible(message))
 }
