@@ -285,7 +285,7 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): changes.terrain: there is no terrain \"gasp\"",
         ),
         (
-            two(json!({ "name": "b", "changes": { "rehersal": 5 } })),
+            two(json!({ "name": "b", "changes": { "training_stps": 5 } })),
             "stages[1] (\"b\"): changes.rehersal: unknown field `rehersal`, expected one of `preset`, ",
         ),
         (
@@ -332,7 +332,7 @@ fn errors_name_stage_and_field() {
         assert!(error.starts_with(message), "{given}: {error}");
     }
     let misspelled =
-        stages(two(json!({ "name": "b", "changes": { "rehersal": 5 } }))).expect_err("there is no such field");
+        stages(two(json!({ "name": "b", "changes": { "training_stps": 5 } }))).expect_err("there is no such field");
     assert!(misspelled.ends_with("; did you mean `training_steps`?"), "{misspelled}");
     // A variation and a terrain can be named.
     let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));

@@ -69,7 +69,7 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "without the term haste", change: |config| drop_term(config, "haste") },
     Variant { name: "without the term rhythm", change: |config| drop_term(config, "rhythm") },
     Variant { name: "without the term vibration", change: |config| drop_term(config, "vibration") },
-    Variant { name: "without the term honest", change: |config| drop_term(config, "no-exploits") },
+    Variant { name: "without the term no-exploits", change: |config| drop_term(config, "no-exploits") },
     Variant { name: "without the term idleness", change: |config| drop_term(config, "idleness") },
     Variant { name: "without the term leap", change: |config| drop_term(config, "leap") },
     Variant { name: "without the term landing", change: |config| drop_term(config, "landing") },
