@@ -7,10 +7,10 @@ use crate::{
 use creatures::Creature;
 use tasks::MovementCatalogue;
 
-/// Everything that a configuration can name and that a program can add to: what [`program`](crate::program) is given.
+/// Everything that a configuration can name and that a program can add to: what `gambol::program` is given.
 ///
-/// ```no_run
-/// use gambol::Registry;
+/// ```
+/// use gambol_runs::Registry;
 /// # use tasks::{Movement, Snapshot, Verdict};
 /// # #[derive(Clone, Default)]
 /// # struct HighKick;
@@ -22,11 +22,11 @@ use tasks::MovementCatalogue;
 /// #     fn value(&self) -> f64 { 0.0 }
 /// # }
 ///
-/// fn main() -> std::process::ExitCode {
-///     let mut registry = Registry::default();
-///     registry.movements.add::<HighKick>(Some(150), "how high a limb gets above the ground");
-///     gambol::program(&registry)
-/// }
+/// let mut registry = Registry::default();
+/// registry.movements.add::<HighKick>(Some(150), "how high a limb gets above the ground");
+/// let config = registry.config("default", creatures::find("biped-2")?, "high-kick")?;
+/// assert!(gambol_runs::Setup::new(&config, &registry).is_ok());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Registry {

@@ -5,7 +5,7 @@ use std::{cmp::Reverse, collections::BTreeSet, fmt};
 /// Judges individuals, all of them in one and the same world.
 ///
 /// Where each generation is evaluated in a world of its own, the best fitness ever is that of the luckiest world. With a
-/// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_jury)) the best of each generation become [`Candidate`]s
+/// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_champion_selection)) the best of each generation become [`Candidate`]s
 /// instead, and at every [re-evaluation](Re-evaluations) the best of them before the champion selection takes on the champion.
 ///
 /// An implementor owes: one evaluation for each candidate, in order, and the same ones whenever it is asked again. What a

@@ -127,7 +127,7 @@ impl<S: Strategy> Evolution<S> {
         Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, strategy }, stop)
     }
 
-    /// Goes on where a checkpoint was written. A run with a champion selection needs it [again](Self::with_jury), and so does one with a
+    /// Goes on where a checkpoint was written. A run with a champion selection needs it [again](Self::with_champion_selection), and so does one with a
     /// [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
         let Checkpoint { seed, progress, champion, candidates, decision, strategy } = checkpoint;

@@ -30,7 +30,7 @@ pub struct Setup {
     rungs: Vec<RungSettings>,
     /// The same in rapier: what is shown and proved.
     pub episode: Episode<RapierEnvironment>,
-    /// Where the champion is chosen, if a [champion selection](RunConfig::has_jury) does that.
+    /// Where the champion is chosen, if a [champion selection](RunConfig::has_champion_selection) does that.
     pub reference: Option<ReferenceEpisode>,
     /// The controller without its weights. NEAT finds another one with as many inputs and outputs.
     pub topology: Topology,

@@ -15,7 +15,7 @@ use crate::{Evaluation, Genome, Phenotype, Seed, Task};
 /// An implementor owes:
 /// - one evaluation for each genome, in order, the same whatever it is spread over;
 /// - each is to the bit what [`Task::evaluate`] gives for that genome's phenotype and this seed, or, for one that
-///   [saves the whole evaluation](Rungs) for the promising, a cheaper one, which then ranks below all that are whole and
+///   [saves the whole evaluation](SuccessiveHalving) for the promising, a cheaper one, which then ranks below all that are whole and
 ///   have not failed. Whoever was evaluated whole differs from what the task gives in nothing but the steps, which are all
 ///   that were spent on it.
 pub trait Evaluator {
