@@ -12,7 +12,7 @@ use std::process::ExitCode;
 #[derive(Args)]
 #[command(after_help = "\
 Example:
-  gambol bench benchmarks --strategies neat --tasks xor
+  gambol bench strategies --strategies neat --tasks xor
   gambol bench training --creature biped-1 --generations 50
   gambol bench gaits --creatures biped-1")]
 pub(crate) struct Bench {
@@ -23,7 +23,7 @@ pub(crate) struct Bench {
 #[derive(Subcommand)]
 enum What {
     /// Lets each strategy solve XOR and pole balancing, beside what papers report
-    Benchmarks(Benchmarks),
+    Strategies(Strategies),
     /// Trains creatures and says how long it takes
     Training(Training),
     /// Trains creatures until their gaits are usable, and says how many are and how long it took
@@ -33,13 +33,13 @@ enum What {
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  gambol bench benchmarks                                           every strategy, every task but the longest: some minutes
-  gambol bench benchmarks --strategies neat --tasks xor --seeds 100
-  gambol bench benchmarks --tasks two-poles --json
+  gambol bench strategies                                           every strategy, every task but the longest: some minutes
+  gambol bench strategies --strategies neat --tasks xor --seeds 100
+  gambol bench strategies --tasks two-poles --json
 
 Evaluations are counted up to and including that of the first solution. An attempt without a solution counts with all it
 has used up. The settings and nets are named below each table.")]
-struct Benchmarks {
+struct Strategies {
     /// Which strategies [default: all]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_strategy)]
     strategies: Vec<String>,
@@ -57,14 +57,14 @@ struct Benchmarks {
 impl Bench {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         match self.what {
-            What::Benchmarks(benchmarks) => benchmarks.run(),
+            What::Strategies(strategies) => strategies.run(),
             What::Training(training) => training.run(registry),
             What::Gaits(gaits) => gaits.run(registry),
         }
     }
 }
 
-impl Benchmarks {
+impl Strategies {
     fn run(self) -> Outcome {
         let wanted = |strategy: &str, task: BenchmarkTask| {
             (self.strategies.is_empty() || self.strategies.iter().any(|wanted| wanted == strategy))

@@ -7,7 +7,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 fn bench(arguments: &[&str]) -> std::process::Command {
     let mut bench = gambol("bench");
-    bench.arg("benchmarks").args(arguments);
+    bench.arg("strategies").args(arguments);
     bench
 }
 
