@@ -17,7 +17,7 @@ use ne_core::{
 };
 use std::{path::Path, sync::Arc};
 
-/// How a run is to be transferred out; none of it changes what the run finds.
+/// How a run is to be carried out; none of it changes what the run finds.
 pub struct TrainOptions<'a> {
     /// Threads; 0: one for each core.
     pub threads: usize,

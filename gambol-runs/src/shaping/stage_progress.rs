@@ -32,7 +32,7 @@ pub enum ShapingError {
     /// What was learned cannot be transferred.
     #[error(transparent)]
     Transfer(#[from] TransferError),
-    /// A run could not be transferred out.
+    /// A run could not be carried out.
     #[error(transparent)]
     Train(#[from] TrainError),
     /// A folder cannot be used, or could not be written.

@@ -133,7 +133,7 @@ pub(super) struct Limits {
     stagnation: Option<u64>,
 }
 
-/// How a run is transferred out and shown; none of it changes what is found.
+/// How a run is carried out and shown; none of it changes what is found.
 #[derive(Args, Clone, Copy)]
 pub(super) struct Manner {
     /// Threads [default: one for each core]

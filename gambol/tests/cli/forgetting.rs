@@ -26,9 +26,9 @@ fn senses_are_given_up_if_that_is_said() -> Outcome {
         // One is missing, and the others are in another order.
         let mut goes_on = train(next, r#"["joint-angles","torso-spin","torso-rotation"]"#, &second);
         goes_on.arg("--from").arg(&first);
-        assert_says(&fail(&mut goes_on), &["what was learned with it would be lost", "--allow_loss"]);
+        assert_says(&fail(&mut goes_on), &["what was learned with it would be lost", "--allow-loss"]);
         assert!(!second.exists());
-        succeed(goes_on.arg("--allow_loss"));
+        succeed(goes_on.arg("--allow-loss"));
         let origin = json(&second.join("config.json"))["content"]["origin"].clone();
         assert_eq!(origin["lost"].as_array().map(Vec::len), Some(1), "{strategy}: {origin}");
         assert_ne!(origin["transferred"], json!("nothing"));

@@ -36,7 +36,7 @@ fn what_is_set_is_changed_in_what_was_learned_with_and_nothing_else() -> Outcome
     assert_eq!(after["origin"]["transferred"], "population");
     // With nothing set everything is as it was, and a list that is set is the whole list.
     assert_eq!(go_on("third", "first", &[])["controller"], before["controller"]);
-    let fewer = go_on("fourth", "first", &["--allow_loss", "--set", r#"sensors=["joint-angles"]"#]);
+    let fewer = go_on("fourth", "first", &["--allow-loss", "--set", r#"sensors=["joint-angles"]"#]);
     assert_eq!((&fewer["controller"], fewer["sensors"].as_array().map(Vec::len)), (&before["controller"], Some(1)));
     // Of a champion it is what a champion file has of the controller.
     let after = go_on("fifth", "first/champion.json", &["--set", "controller.input_range=2"]);
