@@ -286,7 +286,7 @@ fn errors_name_stage_and_field() {
         ),
         (
             two(json!({ "name": "b", "changes": { "training_stps": 5 } })),
-            "stages[1] (\"b\"): changes.rehersal: unknown field `rehersal`, expected one of `preset`, ",
+            "stages[1] (\"b\"): changes.training_stps: unknown field `training_stps`, expected one of `preset`, ",
         ),
         (
             two(json!({ "name": "b", "changes": { "seed": 5 } })),
