@@ -9,11 +9,11 @@ use std::collections::BTreeMap;
 /// are summed in the order they had.
 ///
 /// ```
-/// use ne_net::Growth;
+/// use ne_net::TopologyMap;
 ///
 /// // The second of three weights is new.
-/// let growth = Growth::new(vec![Some(0), None, Some(1)], 2)?;
-/// assert_eq!(growth.carry(&[0.5, -1.0], 0.0), [0.5, 0.0, -1.0]);
+/// let map = TopologyMap::new(vec![Some(0), None, Some(1)], 2)?;
+/// assert_eq!(map.transfer(&[0.5, -1.0], 0.0), [0.5, 0.0, -1.0]);
 /// # Ok::<(), ne_core::SettingError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
