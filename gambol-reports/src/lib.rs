@@ -4,10 +4,14 @@
 //! |---|---|
 //! | [`report`] | a run as an HTML page that works offline |
 //! | [`sheet`] | a gait as one image: a contact sheet with charts |
+//! | [`film`] | gaits side by side as one animated image |
 //! | [`dot`] | a champion's net as a drawing |
+//! | [`drawing`] | why a picture cannot be drawn |
 //! | [`page`] | what all pages have in common |
 
 pub mod dot;
+pub mod drawing;
+pub mod film;
 pub mod page;
 pub mod report;
 pub mod sheet;

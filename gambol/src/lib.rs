@@ -16,5 +16,5 @@ pub mod complete_run;
 
 pub use commands::program;
 pub use gambol_experiments::{benchmarks, compare, reproduce};
-pub use gambol_reports::{dot, report, sheet};
+pub use gambol_reports::{dot, drawing, film, report, sheet};
 pub use gambol_runs::*;

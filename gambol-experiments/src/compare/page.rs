@@ -1,7 +1,7 @@
 //! The page: one HTML file that works offline, in the look of the [report](gambol_reports::report) of a run.
 
 use super::Analysis;
-use gambol_reports::page::{CHART_SCRIPT, DATA_SCRIPT, STYLE, data, filled, script};
+use gambol_reports::page::{CHART_SCRIPT, DATA_SCRIPT, STYLE, data, filled, policy, script};
 
 const PAGE: &str = include_str!("assets/page.html");
 const STYLES: &[&str] = &[STYLE, include_str!("assets/style.css")];
@@ -16,7 +16,13 @@ const SCRIPTS: &[&str] = &[
 
 /// The finished page.
 pub(super) fn render(analysis: &Analysis) -> String {
-    let values = [("{{STYLE}}", STYLES.join("\n")), ("{{SCRIPT}}", script(SCRIPTS)), ("{{DATA}}", data(analysis))];
+    let (style, script) = (STYLES.join("\n"), script(SCRIPTS));
+    let values = [
+        ("{{POLICY}}", policy(&style, &script)),
+        ("{{STYLE}}", style),
+        ("{{SCRIPT}}", script),
+        ("{{DATA}}", data(analysis)),
+    ];
     filled(PAGE, &values)
 }
 

@@ -24,7 +24,7 @@ pub(super) fn warning(log: &[GenerationReport], champion_diverged: bool) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ne_core::ReEvaluationReport;
+    use ne_core::champion_selection::ReEvaluationReport;
 
     fn report(generation: u64, re_evaluation: Option<bool>) -> GenerationReport {
         let heard = |diverged| ReEvaluationReport { candidates: 32, judged: None, trained: None, diverged };

@@ -1,6 +1,6 @@
 //! Ground that is not flat, for the page.
 
-use crate::sheet::corners;
+use crate::drawing::corners::corners;
 use envs_core::Ground;
 use serde::Serialize;
 

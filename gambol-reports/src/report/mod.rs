@@ -12,7 +12,7 @@ mod page;
 mod replays;
 mod stages;
 
-use crate::sheet::{self, SheetError};
+use crate::{drawing::DrawingError, sheet};
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
 use gait::GaitData;
@@ -42,7 +42,7 @@ pub enum ReportError {
     Setup(#[from] SetupError),
     /// The contact sheet of the champion's gait cannot be drawn.
     #[error(transparent)]
-    Sheet(#[from] SheetError),
+    Sheet(#[from] DrawingError),
     /// The page cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {

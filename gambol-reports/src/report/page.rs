@@ -1,7 +1,7 @@
 //! Puts style, script and data into the page.
 
 use super::data::Report;
-use crate::page::{CHART_SCRIPT, DATA_SCRIPT, STYLE, data, escaped, filled, script};
+use crate::page::{CHART_SCRIPT, DATA_SCRIPT, STYLE, data, escaped, filled, policy, script};
 
 const PAGE: &str = include_str!("assets/page.html");
 const SCRIPTS: &[&str] = &[
@@ -25,10 +25,12 @@ const SCRIPTS: &[&str] = &[
 
 /// The finished page.
 pub(super) fn render(report: &Report) -> String {
+    let script = script(SCRIPTS);
     let values = [
+        ("{{POLICY}}", policy(STYLE, &script)),
         ("{{TITLE}}", escaped(&report.title)),
         ("{{STYLE}}", STYLE.to_owned()),
-        ("{{SCRIPT}}", script(SCRIPTS)),
+        ("{{SCRIPT}}", script),
         ("{{DATA}}", data(report)),
     ];
     filled(PAGE, &values)

@@ -14,7 +14,7 @@ use gambol_runs::{
     run_folder::{FolderError, RunFolder},
     shaping::{self, StageRun},
 };
-use ne_core::{Decision, StopReason};
+use ne_core::{StopReason, promotion::Decision};
 use serde::Serialize;
 
 /// A stage run of the way through the stages.

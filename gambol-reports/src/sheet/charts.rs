@@ -2,10 +2,12 @@
 
 use super::{
     MARGIN, Subject, WIDTH,
-    axis::{multiples, ticks},
-    canvas::{ALARM, BAND, CARD, CONTACT, CURVE, Canvas, GRID, INK, QUIET},
     footfalls::{self, Row},
     moments::{CLOSE_UP, Moments},
+};
+use crate::drawing::{
+    axis::{multiples, ticks},
+    canvas::{ALARM, BAND, CARD, CONTACT, CURVE, Canvas, GRID, INK, QUIET},
     text::{Anchor, Style},
 };
 

@@ -1,16 +1,14 @@
 //! The frames: the creature, moment by moment, all to the same scale.
 
-use super::corners::corners;
-use super::{
-    FRAMES, MARGIN, SheetError, Subject, WIDTH,
-    axis::ticks,
-    canvas::{CONTACT, CURVE, Canvas, GROUND, GROUND_LINE, INK, QUIET, SKY, WATER, lines},
+use super::{FRAMES, MARGIN, Subject, WIDTH, moments::Moments};
+use crate::drawing::{
+    DrawingError,
+    canvas::{CONTACT, CURVE, Canvas, INK, QUIET, SKY, WATER},
     creature::{Model, View},
-    moments::Moments,
+    scene,
     text::{Anchor, Style},
 };
 use tasks::Snapshot;
-use tiny_skia::Transform;
 
 const COLUMNS: usize = 6;
 /// Between two frames, px.
@@ -25,8 +23,6 @@ const FOOT: f32 = 30.0;
 const SIDE: f32 = 10.0;
 /// The line of text above the frames, px.
 const CAPTION: f32 = 28.0;
-/// A mark on the ground is numbered if there is so much room, px.
-const ROOM_FOR_NUMBER: f64 = 90.0;
 
 /// The frames of a sheet, measured and ready to be drawn.
 pub(super) struct Frames<'a> {
@@ -72,7 +68,7 @@ impl<'a> Frames<'a> {
         CAPTION + rows * self.size[1] + (rows - 1.0) * GUTTER
     }
 
-    pub(super) fn draw(&self, sheet: &mut Canvas, top: f32) -> Result<(), SheetError> {
+    pub(super) fn draw(&self, sheet: &mut Canvas, top: f32) -> Result<(), DrawingError> {
         self.draw_caption(sheet, top);
         let [width, height] = self.size;
         for (frame, &step) in self.moments.steps.iter().enumerate() {
@@ -101,62 +97,19 @@ impl<'a> Frames<'a> {
     }
 
     /// One frame, as an image of its own.
-    pub(super) fn frame(&self, frame: usize, step: usize) -> Result<Canvas, SheetError> {
+    pub(super) fn frame(&self, frame: usize, step: usize) -> Result<Canvas, DrawingError> {
         let pose = &self.subject.snapshots[step];
         let [width, height] = self.size;
         let water = self.subject.in_water();
         let mut canvas = Canvas::new(width as u32, height as u32, if water { WATER } else { SKY })?;
         let left = 0.5 * f64::from(width) - self.scale * self.model.middle(pose);
         let view = View { scale: self.scale, origin: [left, f64::from(height - FOOT) + self.scale * self.bottom] };
-        if !water {
-            self.draw_ground(&mut canvas, &view);
-        }
-        self.draw_marks(&mut canvas, &view);
+        scene::draw_ground(&mut canvas, &view, self.subject.ground);
+        scene::draw_marks(&mut canvas, &view);
         self.model.draw(&mut canvas, &view, pose);
+        self.model.draw_contacts(&mut canvas, &view, pose);
         self.draw_labels(&mut canvas, frame, step, pose);
         Ok(canvas)
-    }
-
-    /// All shapes as one: outlines first, so that what lies inside another shape is covered.
-    fn draw_ground(&self, canvas: &mut Canvas, view: &View) {
-        let (right, below) = (canvas.width() + 10.0, canvas.height() + 10.0);
-        let outline = |shape| match corners(shape) {
-            Ok(corners) => corners.into_iter().map(|corner| view.point(corner)).collect(),
-            Err(height) => {
-                let top = view.point([0.0, height])[1];
-                vec![[-10.0, top], [right, top], [right, below.max(top)], [-10.0, below.max(top)]]
-            }
-        };
-        let shapes = self.subject.ground.shapes.iter().map(outline);
-        let is_seen = |points: &Vec<[f32; 2]>| {
-            let beyond = |outside: &dyn Fn(&[f32; 2]) -> bool| points.iter().all(outside);
-            !(beyond(&|point| point[0] < -5.0)
-                || beyond(&|point| point[0] > right)
-                || beyond(&|point| point[1] > below))
-        };
-        let paths: Vec<_> = shapes.filter(is_seen).filter_map(|points| lines(&points, true)).collect();
-        for path in &paths {
-            canvas.outline(path, Transform::identity(), 3.0, GROUND_LINE, 1.0);
-        }
-        for path in &paths {
-            canvas.fill(path, Transform::identity(), GROUND, 1.0);
-        }
-    }
-
-    /// Marks along the bottom that stay where they are in the world, some with their x.
-    fn draw_marks(&self, canvas: &mut Canvas, view: &View) {
-        let (width, height) = (f64::from(canvas.width()), canvas.height());
-        let [from, to] = [-view.origin[0] / view.scale, (width - view.origin[0]) / view.scale];
-        let numbered = ticks([from, to], width / ROOM_FOR_NUMBER);
-        let x = |place: f64| (view.origin[0] + view.scale * place) as f32;
-        for &place in &numbered.places {
-            canvas.rectangle([x(place) - 0.75, height - 26.0, 1.5, 6.0], GROUND_LINE);
-            let text = format!("{} m", numbered.label(place));
-            let half = 0.5 * Style::Label.width(&text) + 2.0;
-            if (half..canvas.width() - half).contains(&x(place)) {
-                canvas.text(&text, Style::Label, [x(place), height - 21.0], Anchor::Middle, QUIET);
-            }
-        }
     }
 
     fn draw_labels(&self, canvas: &mut Canvas, frame: usize, step: usize, pose: &Snapshot) {

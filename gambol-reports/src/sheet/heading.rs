@@ -1,7 +1,7 @@
 //! The head of the sheet: whose gait it is, the verdict with its first reasons, and how fast or how high.
 
-use super::{
-    MARGIN, Subject, WIDTH,
+use super::{MARGIN, Subject, WIDTH};
+use crate::drawing::{
     canvas::{ALARM, Canvas, GOOD, INK, Ink, QUIET},
     text::{Anchor, Style},
 };

@@ -4,29 +4,24 @@
 //! jump, with the parts that touch the ground outlined; footfalls, pitch and height of the torso over the episode, and
 //! over its last seconds. The same recording gives the same bytes.
 
-mod axis;
-mod canvas;
 mod charts;
-mod corners;
-mod creature;
 mod footfalls;
 mod frames;
 mod heading;
 mod moments;
-mod palette;
 #[cfg(test)]
 mod tests;
-mod text;
 
-pub(crate) use corners::corners;
-
-use canvas::{Canvas, PAPER};
+use crate::drawing::{
+    DrawingError,
+    canvas::{Canvas, PAPER},
+    check_poses,
+};
 use charts::Charts;
 use creatures::Blueprint;
 use envs_core::Ground;
 use frames::Frames;
-use gambol_runs::Registry;
-use gambol_runs::{champion::Champion, episode_parts::SetupError, stage::Stage};
+use gambol_runs::{Registry, champion::Champion, stage::Stage};
 use heading::Heading;
 use moments::Moments;
 use tasks::{Snapshot, gait::GaitReport};
@@ -56,48 +51,12 @@ pub struct Subject<'a> {
     pub report: &'a GaitReport,
 }
 
-/// Why a sheet cannot be drawn.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SheetError {
-    /// Nothing moves in fewer than two snapshots.
-    #[error("a sheet needs at least 2 snapshots, there are {snapshots}")]
-    TooShort {
-        /// How many there are.
-        snapshots: usize,
-    },
-    /// A snapshot of another body.
-    #[error("snapshot {snapshot} has {found} parts, the creature has {expected}")]
-    Parts {
-        /// Index of the snapshot.
-        snapshot: usize,
-        /// Parts of the creature.
-        expected: usize,
-        /// Parts of the snapshot.
-        found: usize,
-    },
-    /// A NaN or an infinity.
-    #[error("snapshot {snapshot}: the place of {part} is not a finite number")]
-    NotFinite {
-        /// Index of the snapshot.
-        snapshot: usize,
-        /// Name of the part.
-        part: String,
-    },
-    /// The champion's world cannot be built.
-    #[error(transparent)]
-    Setup(#[from] SetupError),
-    /// The image cannot be made.
-    #[error("the image cannot be made: {0}")]
-    Image(String),
-}
-
 /// Draws the sheet, as the bytes of a PNG image [`WIDTH`] pixels wide.
 ///
 /// # Errors
 /// If there are fewer than 2 snapshots, one is not of this creature, or a place is not finite.
-pub fn draw(subject: &Subject<'_>) -> Result<Vec<u8>, SheetError> {
-    check(subject)?;
+pub fn draw(subject: &Subject<'_>) -> Result<Vec<u8>, DrawingError> {
+    check_poses(subject.blueprint, subject.snapshots)?;
     let moments = Moments::choose(subject);
     let heading = Heading::new(subject);
     let frames = Frames::new(subject, &moments);
@@ -115,7 +74,7 @@ pub fn draw(subject: &Subject<'_>) -> Result<Vec<u8>, SheetError> {
 ///
 /// # Errors
 /// If the champion's world cannot be built, or its episode breaks off at once.
-pub fn of_champion(champion: &Champion, report: &GaitReport, registry: &Registry) -> Result<Vec<u8>, SheetError> {
+pub fn of_champion(champion: &Champion, report: &GaitReport, registry: &Registry) -> Result<Vec<u8>, DrawingError> {
     let stage = Stage::new(champion.episode_parts(), registry)?;
     let snapshots = stage.record(&champion.network).snapshots;
     let environment = stage.environment();
@@ -158,25 +117,4 @@ impl Subject<'_> {
         let settled = f64::from(self.snapshots[0].torso().y);
         if settled > 0.0 { settled } else { f64::from(self.blueprint.start_height()) }
     }
-}
-
-fn check(subject: &Subject<'_>) -> Result<(), SheetError> {
-    let parts = subject.blueprint.parts();
-    if subject.snapshots.len() < 2 {
-        return Err(SheetError::TooShort { snapshots: subject.snapshots.len() });
-    }
-    for (index, snapshot) in subject.snapshots.iter().enumerate() {
-        let (expected, found) = (parts.len(), snapshot.parts.len());
-        if expected != found {
-            return Err(SheetError::Parts { snapshot: index, expected, found });
-        }
-        let astray = snapshot
-            .parts
-            .iter()
-            .position(|state| ![state.x, state.y, state.cos, state.sin].iter().all(|number| number.is_finite()));
-        if let Some(part) = astray {
-            return Err(SheetError::NotFinite { snapshot: index, part: parts[part].name.clone() });
-        }
-    }
-    Ok(())
 }

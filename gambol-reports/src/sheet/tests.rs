@@ -1,4 +1,5 @@
-use super::{canvas::CONTACT, *};
+use super::*;
+use crate::drawing::canvas::CONTACT;
 use tasks::PartState;
 use tasks::gait::{JumpingRules, Rules, RunningRules, Trajectory};
 
@@ -72,7 +73,7 @@ fn subject<'a>(
 }
 
 /// Every pixel of a frame.
-fn has(canvas: &Canvas, ink: canvas::Ink) -> bool {
+fn has(canvas: &Canvas, ink: crate::drawing::canvas::Ink) -> bool {
     let (width, height) = (canvas.width() as u32, canvas.height() as u32);
     (0..height).any(|y| (0..width).any(|x| canvas.pixel(x, y) == Some(ink)))
 }
@@ -133,7 +134,7 @@ fn recordings_that_are_not_of_the_creature_are_refused() {
         let subject = subject(&blueprint, &ground, snapshots, &report);
         draw(&subject).expect_err("not a recording").to_string()
     };
-    assert_eq!(refusal(&good[..1]), "a sheet needs at least 2 snapshots, there are 1");
+    assert_eq!(refusal(&good[..1]), "a picture of a gait needs at least 2 snapshots, there are 1");
     let mut snapshots = good.clone();
     snapshots[3].parts.pop();
     assert_eq!(refusal(&snapshots), "snapshot 3 has 2 parts, the creature has 3");

@@ -16,6 +16,7 @@ mod bench_gaits;
 mod bench_training;
 mod check;
 mod compare;
+mod film;
 mod gait;
 mod gait_text;
 mod list;
@@ -125,6 +126,8 @@ enum Command {
     Verify(verify::Verify),
     /// Replays a champion: as a page, as a trajectory
     Replay(replay::Replay),
+    /// Films gaits side by side, as an animated image
+    Film(film::Film),
     /// Measures a gait, says whether it is usable, and why not
     Gait(gait::Gait),
     /// Replays a champion in perturbed worlds: how often it stays usable, how much of its fitness it keeps
@@ -157,6 +160,7 @@ impl Command {
             Self::Report(report) => report.run(registry),
             Self::Verify(verify) => verify.run(registry),
             Self::Replay(replay) => replay.run(registry),
+            Self::Film(film) => film.run(registry),
             Self::Gait(gait) => gait.run(registry),
             Self::Robust(robust) => robust.run(registry),
             Self::Check(check) => check.run(registry),

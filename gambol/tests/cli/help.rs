@@ -1,11 +1,12 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 16] = [
+const COMMANDS: [&str; 17] = [
     "train",
     "resume",
     "report",
     "verify",
     "replay",
+    "film",
     "gait",
     "robust",
     "check",

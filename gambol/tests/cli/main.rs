@@ -14,6 +14,7 @@ mod companions;
 mod comparing;
 mod damage;
 mod engines;
+mod film;
 mod folder;
 mod forgetting;
 mod front;

@@ -8,15 +8,17 @@ mod figures;
 mod tables;
 
 use super::{Outcome, thesis::GENERATIONS};
-use gambol_reports::page::{STYLE, escaped, filled};
+use gambol_reports::page::{STYLE, escaped, filled, policy};
 
 const PAGE: &str = include_str!("../assets/page.html");
 const STYLES: &[&str] = &[STYLE, include_str!("../../compare/assets/style.css"), include_str!("../assets/style.css")];
 
 /// The finished page.
 pub(super) fn render(outcome: &Outcome) -> String {
+    let style = STYLES.join("\n");
     let values = [
-        ("{{STYLE}}", STYLES.join("\n")),
+        ("{{POLICY}}", policy(&style, "")),
+        ("{{STYLE}}", style),
         ("{{LEAD}}", lead(outcome)),
         ("{{REMARKS}}", shorter(outcome) + &missing(outcome)),
         ("{{GENERATIONS}}", outcome.generations.to_string()),

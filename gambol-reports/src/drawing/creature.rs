@@ -19,16 +19,16 @@ const QUARTER: f32 = 0.552_284_8;
 
 /// From the world to an image.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct View {
+pub(crate) struct View {
     /// Pixels a metre.
-    pub(super) scale: f64,
+    pub(crate) scale: f64,
     /// Where the world's origin is on the image, px from the left and from the top.
-    pub(super) origin: [f64; 2],
+    pub(crate) origin: [f64; 2],
 }
 
 impl View {
     /// A place of the world, m, on the image, px.
-    pub(super) fn point(&self, [x, y]: [f32; 2]) -> [f32; 2] {
+    pub(crate) fn point(&self, [x, y]: [f32; 2]) -> [f32; 2] {
         let [left, top] = self.origin;
         [(left + self.scale * f64::from(x)) as f32, (top - self.scale * f64::from(y)) as f32]
     }
@@ -43,7 +43,7 @@ impl View {
 }
 
 /// A creature ready to be drawn in any pose.
-pub(super) struct Model {
+pub(crate) struct Model {
     /// In the order they are drawn.
     parts: Vec<Figure>,
 }
@@ -69,7 +69,7 @@ struct Painted {
 }
 
 impl Model {
-    pub(super) fn new(blueprint: &Blueprint) -> Self {
+    pub(crate) fn new(blueprint: &Blueprint) -> Self {
         let creature = blueprint.creature();
         let figure = |part: usize| {
             let drawn = &creature.parts[part];
@@ -90,7 +90,7 @@ impl Model {
     }
 
     /// The box around a pose, m: left, bottom, right, top.
-    pub(super) fn bounds(&self, pose: &Snapshot) -> [f32; 4] {
+    pub(crate) fn bounds(&self, pose: &Snapshot) -> [f32; 4] {
         let mut bounds = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
         for figure in &self.parts {
             let state = &pose.parts[figure.part];
@@ -103,17 +103,21 @@ impl Model {
     }
 
     /// The middle of a pose, m: the mean of its parts by area, which hardly wavers as legs swing.
-    pub(super) fn middle(&self, pose: &Snapshot) -> f64 {
+    pub(crate) fn middle(&self, pose: &Snapshot) -> f64 {
         let area = |figure: &Figure| f64::from(figure.shape.area());
         let sum: f64 = self.parts.iter().map(|figure| area(figure) * f64::from(pose.parts[figure.part].x)).sum();
         sum / self.parts.iter().map(area).sum::<f64>()
     }
 
-    /// Draws a pose; parts that touch the ground are outlined on top of all others, with a bar below.
-    pub(super) fn draw(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
+    /// Draws a pose.
+    pub(crate) fn draw(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
         for figure in &self.parts {
             figure.draw(canvas, view.of_part(&pose.parts[figure.part]));
         }
+    }
+
+    /// Outlines the parts of a pose that touch the ground, with a bar below each.
+    pub(crate) fn draw_contacts(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
         for figure in &self.parts {
             let state = &pose.parts[figure.part];
             if let (true, Some(outline)) = (state.touching, &figure.outline) {

@@ -5,7 +5,7 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight, get_raster, get_raster_wid
 
 /// How text looks.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Style {
+pub(crate) enum Style {
     /// For labels, 20 px high.
     Label,
     /// For titles, 24 px high and bold.
@@ -14,7 +14,7 @@ pub(super) enum Style {
 
 /// Which point of a text is where it is put.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Left,
     Middle,
     Right,
@@ -32,18 +32,18 @@ impl Style {
     }
 
     /// The height of a line, px.
-    pub(super) fn height(self) -> f32 {
+    pub(crate) fn height(self) -> f32 {
         self.font().1.val() as f32
     }
 
     /// How wide a text is, px.
-    pub(super) fn width(self, text: &str) -> f32 {
+    pub(crate) fn width(self, text: &str) -> f32 {
         let (weight, height) = self.font();
         (text.chars().count() * get_raster_width(weight, height)) as f32
     }
 
     /// The text, its end left out if it is wider than `room` px.
-    pub(super) fn cut(self, text: &str, room: f32) -> String {
+    pub(crate) fn cut(self, text: &str, room: f32) -> String {
         if self.width(text) <= room {
             return text.to_owned();
         }
@@ -55,7 +55,7 @@ impl Style {
 
 impl Canvas {
     /// Writes a line of text; `y`: its top.
-    pub(super) fn text(&mut self, text: &str, style: Style, [x, y]: [f32; 2], anchor: Anchor, ink: Ink) {
+    pub(crate) fn text(&mut self, text: &str, style: Style, [x, y]: [f32; 2], anchor: Anchor, ink: Ink) {
         let share = match anchor {
             Anchor::Left => 0.0,
             Anchor::Middle => 0.5,

@@ -1,23 +1,23 @@
 //! Round numbers along an axis.
 
 /// Numbers to mark on an axis.
-pub(super) struct Ticks {
+pub(crate) struct Ticks {
     /// In ascending order.
-    pub(super) places: Vec<f64>,
+    pub(crate) places: Vec<f64>,
     /// Digits after the point.
     digits: usize,
 }
 
 impl Ticks {
     /// A number as it is written.
-    pub(super) fn label(&self, place: f64) -> String {
+    pub(crate) fn label(&self, place: f64) -> String {
         // Never -0.
         format!("{:.*}", self.digits, place + 0.0)
     }
 }
 
 /// About `count` round numbers in a range: multiples of 1, 2 or 5 times a power of ten.
-pub(super) fn ticks([from, to]: [f64; 2], count: f64) -> Ticks {
+pub(crate) fn ticks([from, to]: [f64; 2], count: f64) -> Ticks {
     let coarse = (to - from) / count.max(1.0);
     if !(coarse.is_normal() && coarse > 0.0) {
         return Ticks { places: Vec::new(), digits: 0 };
@@ -32,7 +32,7 @@ pub(super) fn ticks([from, to]: [f64; 2], count: f64) -> Ticks {
 }
 
 /// The multiples of a step in a range, at most 100.
-pub(super) fn multiples([from, to]: [f64; 2], step: f64) -> Vec<f64> {
+pub(crate) fn multiples([from, to]: [f64; 2], step: f64) -> Vec<f64> {
     let first = libm::ceil(from / step - 1e-9);
     (0..100_u8).map(|index| (first + f64::from(index)) * step).take_while(|&place| place <= to + 1e-9 * step).collect()
 }

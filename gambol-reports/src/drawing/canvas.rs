@@ -1,77 +1,81 @@
 //! An opaque image to draw on.
 
-use super::{SheetError, palette};
+use super::{DrawingError, palette};
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, PremultipliedColorU8, Rect,
     Stroke, StrokeDash, Transform,
 };
 
 /// Red, green, blue.
-pub(super) type Ink = [u8; 3];
+pub(crate) type Ink = [u8; 3];
 
-pub(super) const PAPER: Ink = [0xfa, 0xf8, 0xf4];
-pub(super) const CARD: Ink = [0xff, 0xff, 0xff];
-pub(super) const INK: Ink = [0x23, 0x27, 0x2e];
-pub(super) const QUIET: Ink = [0x5d, 0x63, 0x6c];
-pub(super) const GRID: Ink = [0xe2, 0xdd, 0xd3];
-pub(super) const SKY: Ink = [0xee, 0xf3, 0xf5];
-pub(super) const WATER: Ink = [0xd3, 0xe4, 0xee];
-pub(super) const GROUND: Ink = [0xd8, 0xcf, 0xbb];
-pub(super) const GROUND_LINE: Ink = [0x8d, 0x82, 0x68];
+pub(crate) const PAPER: Ink = [0xfa, 0xf8, 0xf4];
+pub(crate) const CARD: Ink = [0xff, 0xff, 0xff];
+pub(crate) const INK: Ink = [0x23, 0x27, 0x2e];
+pub(crate) const QUIET: Ink = [0x5d, 0x63, 0x6c];
+pub(crate) const GRID: Ink = [0xe2, 0xdd, 0xd3];
+pub(crate) const SKY: Ink = [0xee, 0xf3, 0xf5];
+pub(crate) const WATER: Ink = [0xd3, 0xe4, 0xee];
+pub(crate) const GROUND: Ink = [0xd8, 0xcf, 0xbb];
+pub(crate) const GROUND_LINE: Ink = [0x8d, 0x82, 0x68];
 /// What touches the ground.
-pub(super) const CONTACT: Ink = [0xff, 0x6a, 0x00];
+pub(crate) const CONTACT: Ink = [0xff, 0x6a, 0x00];
 /// What should not touch the ground, and limits.
-pub(super) const ALARM: Ink = [0xb0, 0x2a, 0x2a];
-pub(super) const GOOD: Ink = [0x2e, 0x7a, 0x45];
+pub(crate) const ALARM: Ink = [0xb0, 0x2a, 0x2a];
+pub(crate) const GOOD: Ink = [0x2e, 0x7a, 0x45];
 /// Curves, and what is in the air.
-pub(super) const CURVE: Ink = [0x2f, 0x6f, 0x9e];
+pub(crate) const CURVE: Ink = [0x2f, 0x6f, 0x9e];
 /// The time of the frames, in charts.
-pub(super) const BAND: Ink = [0xff, 0xe6, 0xcf];
+pub(crate) const BAND: Ink = [0xff, 0xe6, 0xcf];
 
 /// An image without transparency.
-pub(super) struct Canvas {
+pub(crate) struct Canvas {
     pixmap: Pixmap,
 }
 
 impl Canvas {
     /// An empty image, width and height in pixels.
-    pub(super) fn new(width: u32, height: u32, background: Ink) -> Result<Self, SheetError> {
-        let too_large = || SheetError::Image(format!("{width} × {height} pixels"));
+    pub(crate) fn new(width: u32, height: u32, background: Ink) -> Result<Self, DrawingError> {
+        let too_large = || DrawingError::Image(format!("{width} × {height} pixels"));
         let mut pixmap = Pixmap::new(width, height).ok_or_else(too_large)?;
         pixmap.fill(colour(background));
         Ok(Self { pixmap })
     }
 
-    pub(super) fn width(&self) -> f32 {
+    pub(crate) fn width(&self) -> f32 {
         self.pixmap.width() as f32
     }
 
-    pub(super) fn height(&self) -> f32 {
+    pub(crate) fn height(&self) -> f32 {
         self.pixmap.height() as f32
     }
 
-    pub(super) fn into_png(self) -> Result<Vec<u8>, SheetError> {
-        let pixels = self.pixmap.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]);
-        palette::encode(self.pixmap.width(), &pixels.collect::<Vec<Ink>>())
+    pub(crate) fn into_png(self) -> Result<Vec<u8>, DrawingError> {
+        palette::encode(self.pixmap.width(), &self.pixels())
+    }
+
+    /// Row by row.
+    pub(crate) fn pixels(&self) -> Vec<Ink> {
+        self.pixmap.pixels().iter().map(|pixel| [pixel.red(), pixel.green(), pixel.blue()]).collect()
     }
 
     /// Puts another image on this one.
-    pub(super) fn place(&mut self, other: &Self, x: f32, y: f32) {
+    pub(crate) fn place(&mut self, other: &Self, x: f32, y: f32) {
         let (x, y) = (x as i32, y as i32);
         self.pixmap.draw_pixmap(x, y, other.pixmap.as_ref(), &PixmapPaint::default(), Transform::identity(), None);
     }
 
-    pub(super) fn rectangle(&mut self, [x, y, width, height]: [f32; 4], ink: Ink) {
+    pub(crate) fn rectangle(&mut self, [x, y, width, height]: [f32; 4], ink: Ink) {
         if let Some(rectangle) = Rect::from_xywh(x, y, width, height) {
             self.pixmap.fill_rect(rectangle, &paint(ink, 1.0), Transform::identity(), None);
         }
     }
 
-    pub(super) fn line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
+    pub(crate) fn line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
         self.stroke_line(points, &stroke(width), ink);
     }
 
-    pub(super) fn dashed_line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
+    pub(crate) fn dashed_line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
         let stroke = Stroke { dash: StrokeDash::new(vec![6.0, 5.0], 0.0), line_cap: LineCap::Butt, ..stroke(width) };
         self.stroke_line(points, &stroke, ink);
     }
@@ -83,17 +87,17 @@ impl Canvas {
     }
 
     /// Fills by the non-zero rule. `opacity`: 0 to 1.
-    pub(super) fn fill(&mut self, path: &Path, transform: Transform, ink: Ink, opacity: f32) {
+    pub(crate) fn fill(&mut self, path: &Path, transform: Transform, ink: Ink, opacity: f32) {
         self.pixmap.fill_path(path, &paint(ink, opacity), FillRule::Winding, transform, None);
     }
 
     /// Draws a line along a path, with round ends and corners; `width` in the path's own unit.
-    pub(super) fn outline(&mut self, path: &Path, transform: Transform, width: f32, ink: Ink, opacity: f32) {
+    pub(crate) fn outline(&mut self, path: &Path, transform: Transform, width: f32, ink: Ink, opacity: f32) {
         self.pixmap.stroke_path(path, &paint(ink, opacity), &stroke(width), transform, None);
     }
 
     /// Lays ink on a pixel, as much as `cover` says: 0 to 255.
-    pub(super) fn dab(&mut self, x: i32, y: i32, ink: Ink, cover: u8) {
+    pub(crate) fn dab(&mut self, x: i32, y: i32, ink: Ink, cover: u8) {
         let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else { return };
         if x >= self.pixmap.width() || y >= self.pixmap.height() {
             return;
@@ -116,13 +120,13 @@ impl Canvas {
 
     /// The colour of a pixel.
     #[cfg(test)]
-    pub(super) fn pixel(&self, x: u32, y: u32) -> Option<Ink> {
+    pub(crate) fn pixel(&self, x: u32, y: u32) -> Option<Ink> {
         self.pixmap.pixel(x, y).map(|pixel| [pixel.red(), pixel.green(), pixel.blue()])
     }
 }
 
 /// A path along points; `None` if there is nothing to see.
-pub(super) fn lines(points: &[[f32; 2]], closed: bool) -> Option<Path> {
+pub(crate) fn lines(points: &[[f32; 2]], closed: bool) -> Option<Path> {
     let (first, rest) = points.split_first()?;
     let mut path = PathBuilder::new();
     path.move_to(first[0], first[1]);
