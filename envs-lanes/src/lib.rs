@@ -16,8 +16,9 @@
 //!   velocity to the bit. Another version of rapier can break this; the tests say so.
 //! - **A lane knows nothing of its neighbours.** No operation mixes lanes, and none is fused or reordered. Therefore a
 //!   creature's result is its result alone: on any lane, with any number of lanes, on any instruction set and thread.
-//! - **Refuse what is not the same.** Parts of one creature that collide with each other, continuous collision detection,
-//!   capsules on ground with boxes and more than 100 parts that hang on one are rapier's; asking for them here is an error that says so.
+//! - **Refuse what is not the same.** Water, parts of one creature that collide with each other, continuous collision
+//!   detection, capsules on ground with boxes and more than 100 parts that hang on one are rapier's; asking for them here is
+//!   an error that says so.
 //!
 //! ```
 //! use creatures::{Blueprint, find};

@@ -9,7 +9,7 @@ use gambol::{
     shaping::{Curriculum, PlannedStage, StageProgress, StageRun, stage_runs, train_curriculum},
     training::TrainOptions,
 };
-use ne_core::{Decision, Moment, Promotion};
+use ne_core::promotion::{Decision, Promotion, StageState};
 use std::sync::Arc;
 
 /// Gaps of a width that follows from how often stages were passed.
@@ -44,7 +44,7 @@ impl Curriculum for WiderAndWider {
 struct KeepsUp;
 
 impl Promotion for KeepsUp {
-    fn decide(&self, moment: &Moment<'_>) -> Decision {
+    fn decide(&self, moment: &StageState<'_>) -> Decision {
         let seconds = moment.evaluations.iter().filter_map(|evaluation| evaluation.measurements.get("duration"));
         let mean = seconds.sum::<f64>() / moment.evaluations.len() as f64;
         match moment.progress.generations {

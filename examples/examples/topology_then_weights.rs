@@ -21,7 +21,7 @@ use gambol::{
     shaping::{StageProgress, train_stages},
     training::{TrainOptions, train},
 };
-use ne_core::{Rule, Seed, StopConditions, Task};
+use ne_core::{Seed, StopConditions, Task, promotion::PromotionRule};
 use ne_statistics::{Bootstrap, Comparison, Scores, mean, quantile};
 use std::{error::Error, fs, path::Path};
 use tasks::MovementSpec;
@@ -105,7 +105,7 @@ fn config(arm: &str, seed: u64, steps: u64, experiment: &Experiment) -> Result<R
     let limit = if is_stranger { steps / 2 } else { steps };
     config.stop = StopConditions { steps: Some(limit), ..StopConditions::default() };
     if let Some(first) = config.stages.first_mut() {
-        first.promotion = Some(Rule::Steps(steps / 2));
+        first.promotion = Some(PromotionRule::Steps(steps / 2));
     }
     let found = |arm: &str| -> Result<FrozenTopology, Box<dyn Error>> {
         let champion = folder.join(format!("{arm}-{seed}/stages/01-topology/champion.json"));

@@ -3,7 +3,8 @@
 
 use crate::{config::EngineChoice, reference::ReferenceEpisode, robustness_check::Trial, stage::USABLE};
 use ne_core::{
-    ChampionSelection, Evaluation, Evaluator, Fitness, Genome, Judgement, Parallel, Phenotype, Seed, Standing, Task,
+    Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,
+    champion_selection::{ChampionSelection, ReEvaluation},
 };
 use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
@@ -119,11 +120,16 @@ impl ReferenceSelection {
     /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
     /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; who
     /// would not become champion whatever came of it is not looked at.
-    fn tiers<G: Genome>(&self, candidates: &[G], evaluations: &[Evaluation], standing: Option<Standing>) -> Vec<u8> {
+    fn tiers<G: Genome>(
+        &self,
+        candidates: &[G],
+        evaluations: &[Evaluation],
+        standing: Option<TieredFitness>,
+    ) -> Vec<u8> {
         let mut tiers = vec![0; candidates.len()];
         let Some(usable) = &self.usable else { return tiers };
         let kept = self.kept(candidates, evaluations);
-        let place = |index: usize, tier: u8| Some(Standing { tier, fitness: evaluations[index].fitness()? });
+        let place = |index: usize, tier: u8| Some(TieredFitness { tier, fitness: evaluations[index].fitness()? });
         let hoped = |index: usize| place(index, self.hoped(kept[index], standing));
         let mut able: Vec<usize> = (0..candidates.len()).filter(|&index| hoped(index) > standing).collect();
         able.sort_by_key(|&index| Reverse((kept[index], evaluations[index].fitness())));
@@ -146,7 +152,7 @@ impl ReferenceSelection {
 
     /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
     /// wanted at once.
-    fn hoped(&self, kept: Kept, standing: Option<Standing>) -> u8 {
+    fn hoped(&self, kept: Kept, standing: Option<TieredFitness>) -> u8 {
         let first = standing.is_none_or(|standing| standing.tier < USABLE);
         match kept {
             _ if first || self.steadiness.is_none() => USABLE,
@@ -201,9 +207,9 @@ impl ReferenceSelection {
         candidates: &[G],
         evaluations: &[Evaluation],
         tiers: &[u8],
-        standing: Option<Standing>,
+        standing: Option<TieredFitness>,
     ) -> bool {
-        let place = |index: usize| Some(Standing { tier: tiers[index], fitness: evaluations[index].fitness()? });
+        let place = |index: usize| Some(TieredFitness { tier: tiers[index], fitness: evaluations[index].fitness()? });
         let able = (0..candidates.len()).filter(|&index| place(index) > standing);
         let Some(best) = able.min_by_key(|&index| Reverse(place(index))) else { return true };
         let again = reference.evaluate(&mut candidates[best].express(), self.seed);
@@ -221,16 +227,16 @@ impl<G: Genome> ChampionSelection<G> for ReferenceSelection {
         self.seed
     }
 
-    fn judge(&self, candidates: &[G], standing: Option<Standing>) -> Judgement {
+    fn judge(&self, candidates: &[G], standing: Option<TieredFitness>) -> ReEvaluation {
         let evaluations = self.evaluator.evaluate(&*self.task, candidates, self.seed);
         let tiers = self.tiers(candidates, &evaluations, standing);
         match &self.reference {
             Some(reference) if !self.confirmed(&**reference, candidates, &evaluations, &tiers, standing) => {
                 let evaluations = self.evaluator.evaluate(&**reference, candidates, self.seed);
                 let tiers = self.tiers(candidates, &evaluations, standing);
-                Judgement { evaluations, tiers, diverged: true }
+                ReEvaluation { evaluations, tiers, diverged: true }
             }
-            _ => Judgement { evaluations, tiers, diverged: false },
+            _ => ReEvaluation { evaluations, tiers, diverged: false },
         }
     }
 }

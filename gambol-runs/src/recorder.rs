@@ -11,7 +11,8 @@ use crate::{
     setup::Setup,
 };
 use ne_core::{
-    Decision, Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Standing, Strategy,
+    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy, TieredFitness,
+    promotion::Decision,
 };
 use ne_net::Network;
 use std::time::Instant;
@@ -49,7 +50,7 @@ impl EarlierLines {
         let mut best = None;
         let mut entries = 0;
         for report in &reports {
-            let champion = report.best_so_far.map(|fitness| Standing { tier: report.tier, fitness });
+            let champion = report.best_so_far.map(|fitness| TieredFitness { tier: report.tier, fitness });
             entries += usize::from(champion > best);
             entries += usize::from(config.record.populations_at.contains(&report.generation));
             best = champion;
@@ -76,15 +77,18 @@ impl<'a> Recorder<'a> {
 
     /// Brings everything to the disk: lines first, then champion and front, then checkpoint.
     ///
-    /// Between two re-evaluations of a champion selection the champion file has whoever would be champion now. The checkpoint does not know of
-    /// it, so that the run goes on as if nobody had asked.
-    pub(crate) fn save<S: Strategy>(&mut self, evolution: &Evolution<S>) -> Result<(), FolderError>
+    /// `champion`: what the champion file is to have, which may be one that the checkpoint does not know of.
+    pub(crate) fn save<S: Strategy>(
+        &mut self,
+        evolution: &Evolution<S>,
+        champion: Option<&ne_core::Champion<S::Genome>>,
+    ) -> Result<(), FolderError>
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
         let _span = tracing::debug_span!("checkpoint").entered();
         self.sync()?;
-        self.write_champion(evolution.strategy().name(), evolution.champion_if_re_evaluated().as_ref())?;
+        self.write_champion(evolution.strategy().name(), champion)?;
         self.write_front(evolution.strategy(), evolution.progress().generations)?;
         Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
     }

@@ -12,8 +12,10 @@ use crate::{
     strategies::AnyStrategy,
 };
 use ne_core::{
-    Decision, Evolution, EvolutionError, GenerationReport, Genome, Moment, Observer, Parallel, Progress, Promotion,
-    Seed, SettingError, StopConditions, StopReason, StopSignal, SuccessiveHalving, Task, ThreadsError,
+    Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
+    StopConditions, StopReason, StopSignal, Task, ThreadsError,
+    promotion::{Decision, Promotion, StageState},
+    successive_halving::SuccessiveHalving,
 };
 use std::{path::Path, sync::Arc};
 
@@ -171,7 +173,7 @@ pub(crate) fn resume_stage_run(
 struct Shared(Arc<dyn Promotion>);
 
 impl Promotion for Shared {
-    fn decide(&self, moment: &Moment<'_>) -> Decision {
+    fn decide(&self, moment: &StageState<'_>) -> Decision {
         self.0.decide(moment)
     }
 }
@@ -247,7 +249,7 @@ fn drive(
     let mut recorder = Recorder::new(&folder, config, setup, earlier, options.on_generation)?;
     if generations == 0 {
         // So that a run killed in its first generations can be resumed too.
-        recorder.save(&evolution)?;
+        recorder.save(&evolution, None)?;
     }
     let ended = {
         let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(&mut recorder)];
@@ -255,12 +257,12 @@ fn drive(
         evolution.run(&setup.task, &SuccessiveHalving::new(&*evaluator, setup.rungs()), &mut observers)
     };
     let progress = evolution.progress();
-    let reason = ended.map_err(|source| TrainError::BrokeOff {
-        generation: progress.generations,
-        folder: folder.clone(),
-        source,
-    })?;
-    recorder.save(&evolution)?;
+    let broke_off = |source| TrainError::BrokeOff { generation: progress.generations, folder: folder.clone(), source };
+    let reason = ended.map_err(broke_off)?;
+    // Between two re-evaluations the champion file has the one that would be champion now. The checkpoint does not know of it,
+    // so that the run goes on as if it had not been asked for.
+    let champion = evolution.champion_if_re_evaluated().map_err(broke_off)?;
+    recorder.save(&evolution, champion.as_ref())?;
     let champion = match recorder.has_champion() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,

@@ -1,12 +1,14 @@
-use crate::{Champion, Evaluation, Fitness, Genome, Seed, SettingError};
+//! Choosing a run's champion by a second evaluation, where the worlds of the search vary.
+
+use crate::{Candidate, Champion, Evaluation, Fitness, Genome, Seed, SettingError, TieredFitness, champion::ranking};
 use serde::{Deserialize, Serialize};
 use std::{cmp::Reverse, collections::BTreeSet, fmt};
 
 /// Judges individuals, all of them in one and the same world.
 ///
 /// Where each generation is evaluated in a world of its own, the best fitness ever is that of the luckiest world. With a
-/// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_champion_selection)) the best of each generation become [`Candidate`]s
-/// instead, and at every [re-evaluation](Re-evaluations) the best of them before the champion selection takes on the champion.
+/// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_champion_selection)) the best of each
+/// generation become [`Candidate`]s. A [re-evaluation](ReEvaluations) compares them with each other and with the champion.
 ///
 /// An implementor owes: one evaluation for each candidate, in order, and the same ones whenever it is asked again. What a
 /// champion selection spends counts towards no budget: it changes nothing in what is searched.
@@ -14,33 +16,24 @@ pub trait ChampionSelection<G: Genome>: Send + Sync {
     /// The seed of the champion selection's world: with it a champion's fitness can be had again.
     fn seed(&self) -> Seed;
 
-    /// Evaluates the candidates. Only one that stands above the `standing` champion can become champion.
-    fn judge(&self, candidates: &[G], standing: Option<Standing>) -> Judgement;
-}
-
-/// Where an individual stands before a champion selection: by its tier, and among those of one tier by its fitness.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Standing {
-    /// See [`Judgement::tiers`].
-    pub tier: u8,
-    /// The fitness before the champion selection.
-    pub fitness: Fitness,
+    /// Evaluates the candidates. Only one that is better than the present champion, whose fitness is given, can take its place.
+    fn judge(&self, candidates: &[G], champion: Option<TieredFitness>) -> ReEvaluation;
 }
 
 /// What a champion selection found.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judgement {
+pub struct ReEvaluation {
     /// An evaluation for each candidate, in order.
     pub evaluations: Vec<Evaluation>,
-    /// For each candidate a tier, for a champion selection that asks for more than fitness: whoever has the higher tier stands above
-    /// all with a lower one, whatever their fitness. Empty: all have tier 0.
+    /// For each candidate a tier, for a champion selection that asks for more than fitness: a candidate with a higher tier is
+    /// better than any with a lower one, whatever their fitness. Empty: all have tier 0.
     pub tiers: Vec<u8>,
-    /// Whether two ways of evaluating that should agree did not, for a champion selection that has two. The evaluations are then those
-    /// of the one that is to be trusted.
+    /// Whether two ways of evaluating that should agree did not, for a champion selection that has two. The evaluations are
+    /// then those of the one that is to be trusted.
     pub diverged: bool,
 }
 
-/// How often a champion selection sits, and how many it hears.
+/// How often candidates are re-evaluated, and how many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReEvaluations {
     /// After every so many generations at first; at least 1. From 8 times as many on half as often, from 16 times on a
@@ -48,8 +41,8 @@ pub struct ReEvaluations {
     /// the less changes from one generation to the next; but re-evaluations do not die out, lest an old run keep the champion of
     /// its youth.
     pub every: u64,
-    /// So many of the best of the generation just evaluated are heard, with the best of each generation since the last
-    /// re-evaluation; at least 1.
+    /// So many of the best of the generation just evaluated, with the best of each generation since the last re-evaluation;
+    /// at least 1.
     pub candidates: usize,
 }
 
@@ -79,40 +72,27 @@ impl ReEvaluations {
     }
 }
 
-/// An individual that waits for the next re-evaluation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Candidate<G> {
-    /// The genome.
-    pub genome: G,
-    /// The fitness it had in its generation.
-    pub fitness: Fitness,
-    /// The generation it was evaluated in, from 1.
-    pub generation: u64,
-}
-
-impl<G> Candidate<G> {
-    /// The same candidate with its genome as another type.
-    pub fn map<H>(self, convert: impl FnOnce(G) -> H) -> Candidate<H> {
-        let Self { genome, fitness, generation } = self;
-        Candidate { genome: convert(genome), fitness, generation }
-    }
-}
-
 /// What came of a re-evaluation.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReEvaluationReport {
     /// How many were judged; an individual that was a candidate twice counts once.
     pub candidates: u64,
-    /// The fitness before the champion selection of the one who stood highest; `None` if all failed. If it stands above the champion, it
-    /// is champion.
+    /// The fitness, at the re-evaluation, of the best candidate; `None` if all failed. If it is better than the champion, it
+    /// becomes champion.
     pub judged: Option<Fitness>,
     /// The fitness that the same individual had in its generation.
     pub trained: Option<Fitness>,
-    /// Whether the champion selection's two ways of evaluating [diverged](Judgement::diverged).
+    /// Whether the champion selection's two ways of evaluating [diverged](ReEvaluation::diverged).
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub diverged: bool,
+}
+
+/// A champion selection gave too many or too few evaluations, so that none can be told whose it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct WrongCount {
+    pub(crate) found: usize,
+    pub(crate) expected: usize,
 }
 
 /// A champion selection with its rules.
@@ -128,28 +108,22 @@ impl<G> fmt::Debug for ScheduledSelection<G> {
 }
 
 impl<G: Genome> ScheduledSelection<G> {
-    /// Hears each candidate once; gives the best as the champion it would make, if it beats the standing one.
-    pub(crate) fn hear(
+    /// Evaluates each candidate once; gives the best as the champion it would make.
+    pub(crate) fn re_evaluate(
         &self,
         candidates: &[Candidate<G>],
-        standing: Option<Standing>,
-    ) -> (ReEvaluationReport, Option<Champion<G>>) {
+        champion: Option<TieredFitness>,
+    ) -> Result<(ReEvaluationReport, Option<Champion<G>>), WrongCount> {
         let _span = tracing::debug_span!("re-evaluation", candidates = candidates.len()).entered();
         let candidates = distinct(candidates);
         let genomes: Vec<G> = candidates.iter().map(|candidate| candidate.genome.clone()).collect();
-        let Judgement { evaluations, tiers, diverged } = self.champion_selection.judge(&genomes, standing);
+        let ReEvaluation { evaluations, tiers, diverged } = self.champion_selection.judge(&genomes, champion);
         if evaluations.len() != genomes.len() {
-            // Nobody can say which belongs to whom.
-            tracing::error!(
-                "the champion selection gave {} evaluations for {} candidates",
-                evaluations.len(),
-                genomes.len()
-            );
+            return Err(WrongCount { found: evaluations.len(), expected: genomes.len() });
         }
         let tier_of = |index: usize| tiers.get(index).copied().unwrap_or(0);
         // Of equals the first: the ranking has them in their order, and only a higher tier comes before it.
         let best = ranking(&evaluations).into_iter().min_by_key(|&(index, _)| Reverse(tier_of(index)));
-        let best = best.filter(|_| evaluations.len() == genomes.len());
         let champion = best.map(|(index, fitness)| Champion {
             genome: candidates[index].genome.clone(),
             fitness,
@@ -160,7 +134,7 @@ impl<G: Genome> ScheduledSelection<G> {
             diverged,
         });
         let (judged, trained) = (best.map(|(_, fitness)| fitness), champion.as_ref().and_then(|best| best.trained));
-        (ReEvaluationReport { candidates: genomes.len() as u64, judged, trained, diverged }, champion)
+        Ok((ReEvaluationReport { candidates: genomes.len() as u64, judged, trained, diverged }, champion))
     }
 }
 
@@ -172,29 +146,19 @@ fn distinct<G: Genome>(candidates: &[Candidate<G>]) -> Vec<&Candidate<G>> {
     candidates.iter().filter(is_new).collect()
 }
 
-/// Index and fitness of those that did not fail, the best first, of equals the first.
-pub(crate) fn ranking(evaluations: &[Evaluation]) -> Vec<(usize, Fitness)> {
-    let fitnesses = evaluations.iter().enumerate();
-    let mut ranking: Vec<_> =
-        fitnesses.filter_map(|(index, evaluation)| Some((index, evaluation.fitness()?))).collect();
-    // A stable sort leaves equals in their order.
-    ranking.sort_by_key(|&(_, fitness)| std::cmp::Reverse(fitness));
-    ranking
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn re_evaluations_become_rarer_as_the_run_gets_older() {
-        let heard = |every, generations| {
+        let re_evaluated = |every, generations| {
             let re_evaluations = ReEvaluations { every, candidates: 1 };
             (1..=generations).filter(|&generation| re_evaluations.span(generation).is_some()).collect::<Vec<_>>()
         };
         let first = [10, 20, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 200, 240, 280, 320, 400, 480, 560, 640];
-        assert_eq!(heard(10, 719), first);
-        assert_eq!(heard(1, 24), [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24]);
+        assert_eq!(re_evaluated(10, 719), first);
+        assert_eq!(re_evaluated(1, 24), [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24]);
         // Every generation lies in one span, and in no two.
         let spans = |generation| ReEvaluations { every: 3, candidates: 1 }.span(generation);
         assert_eq!((1..=3 * 64).filter_map(spans).sum::<u64>(), 3 * 64);

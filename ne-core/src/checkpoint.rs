@@ -1,4 +1,4 @@
-use crate::{Candidate, Champion, Decision, Progress, Seed, Strategy, archive, archive::ArchiveError};
+use crate::{Candidate, Champion, Progress, Seed, Strategy, archive, archive::ArchiveError, promotion::Decision};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub struct Checkpoint<S: Strategy> {
     /// Those who wait for the next re-evaluation, if a champion selection chooses the champion.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub candidates: Vec<Candidate<S::Genome>>,
-    /// What a [`Promotion`](crate::Promotion) has decided after the last generation.
+    /// What a [`Promotion`](crate::promotion::Promotion) has decided after the last generation.
     #[serde(default, skip_serializing_if = "Decision::is_stay")]
     pub decision: Decision,
     /// The strategy with all its state.

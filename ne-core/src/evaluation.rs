@@ -13,9 +13,6 @@ pub struct Evaluation {
     /// Several objectives, all to be maximised; empty if the task has only the fitness.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objectives: Vec<f64>,
-    /// What the phenotype did, as a point in a space where near means alike (for novelty search); often empty.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub behaviour: Vec<f64>,
     /// Named measurements, for reports; the task documents names and units.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub measurements: BTreeMap<String, f64>,
@@ -25,7 +22,7 @@ impl Evaluation {
     /// An evaluation with this fitness and no recorded work; NaN and infinities become [`Failure::NonFinite`].
     pub fn new(fitness: f64) -> Self {
         let outcome = Fitness::new(fitness).map_err(|_| Failure::NonFinite { what: "fitness".into() });
-        Self { outcome, steps: 0, objectives: Vec::new(), behaviour: Vec::new(), measurements: BTreeMap::new() }
+        Self { outcome, steps: 0, objectives: Vec::new(), measurements: BTreeMap::new() }
     }
 
     /// An evaluation that failed.
@@ -57,6 +54,13 @@ impl Evaluation {
     }
 }
 
+impl From<f64> for Evaluation {
+    /// As [`Evaluation::new`].
+    fn from(fitness: f64) -> Self {
+        Self::new(fitness)
+    }
+}
+
 /// Why an evaluation has no fitness.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize, thiserror::Error)]
 #[serde(rename_all = "kebab-case")]
@@ -73,12 +77,6 @@ pub enum Failure {
     Unstable {
         /// What was seen.
         what: String,
-    },
-    /// The task's own limit of time or work was reached.
-    #[error("timed out after {steps} steps")]
-    TimedOut {
-        /// Steps done by then.
-        steps: u64,
     },
     /// The phenotype does not fit the task.
     #[error(
@@ -128,7 +126,7 @@ mod tests {
     fn survives_serialisation() {
         let mut evaluation = Evaluation::new(0.1).with_steps(2000);
         evaluation.measurements.insert("energy_j".into(), 3.5);
-        for evaluation in [evaluation, Evaluation::failed(Failure::TimedOut { steps: 3 })] {
+        for evaluation in [evaluation, Evaluation::failed(Failure::Unstable { what: "speed".into() })] {
             let text = serde_json::to_string(&evaluation).expect("serialises");
             assert_eq!(serde_json::from_str::<Evaluation>(&text).expect("deserialises"), evaluation);
         }

@@ -1,12 +1,12 @@
 use crate::{
-    Candidate, ChampionSelection, Checkpoint, Decision, Evaluation, Evaluator, Fitness, Generation, GenerationReport,
-    Moment, Observer, ObserverError, Promotion, Quantiles, ReEvaluationReport, ReEvaluations, Seed, Standing,
-    StopConditions, StopReason, StopSignal, Strategy, Task,
+    Candidate, Champion, Checkpoint, Evaluation, Evaluator, Generation, GenerationReport, Observer, ObserverError,
+    Progress, Quantiles, Seed, StopConditions, StopReason, StopSignal, Strategy, Task,
     archive::ArchiveError,
-    champion_selection::{ScheduledSelection, ranking},
+    champion::ranking,
+    champion_selection::{ChampionSelection, ReEvaluationReport, ReEvaluations, ScheduledSelection, WrongCount},
     checkpoint,
+    promotion::{Decision, Promotion, StageState},
 };
-use serde::{Deserialize, Serialize};
 use std::{fmt, path::Path, time::Instant};
 
 /// The loop: asks the strategy, has its genomes evaluated, tells it the results, keeps the best, until it is time to
@@ -37,62 +37,6 @@ impl fmt::Debug for Rules {
     }
 }
 
-/// What a run has used up.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Progress {
-    /// Generations done.
-    pub generations: u64,
-    /// Evaluations done.
-    pub evaluations: u64,
-    /// Steps of work done.
-    pub steps: u64,
-    /// Generations since the champion was found; with a [`ChampionSelection`], as of the last re-evaluation.
-    pub stagnation: u64,
-}
-
-/// The best individual of a run: the one with the highest fitness, of equals the first. With a [`ChampionSelection`] the fitness that
-/// counts is the one before the champion selection.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Champion<G> {
-    /// The genome.
-    pub genome: G,
-    /// Its fitness.
-    pub fitness: Fitness,
-    /// The generation it was evaluated in, from 1.
-    pub generation: u64,
-    /// The seed it was evaluated with: with it the task, or the champion selection, gives the fitness again.
-    pub seed: Seed,
-    /// The fitness it had in its generation, if a champion selection has judged it since.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub trained: Option<Fitness>,
-    /// Whether the champion selection's two ways of evaluating [diverged](crate::Judgement::diverged) at its re-evaluation.
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub diverged: bool,
-    /// The [tier](crate::Judgement::tiers) the champion selection gave it; 0 without a champion selection.
-    #[serde(default, skip_serializing_if = "is_zero")]
-    pub tier: u8,
-}
-
-impl<G> Champion<G> {
-    /// Where it stands.
-    pub fn standing(&self) -> Standing {
-        Standing { tier: self.tier, fitness: self.fitness }
-    }
-
-    /// The same champion with its genome as another type.
-    pub fn map<H>(self, convert: impl FnOnce(G) -> H) -> Champion<H> {
-        let Self { genome, fitness, generation, seed, trained, diverged, tier } = self;
-        Champion { genome: convert(genome), fitness, generation, seed, trained, diverged, tier }
-    }
-}
-
-#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde asks with a reference")]
-fn is_zero(tier: &u8) -> bool {
-    *tier == 0
-}
-
 /// Why a run could not go on.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -118,6 +62,16 @@ pub enum EvolutionError {
         /// The generation, from 1.
         generation: u64,
     },
+    /// The champion selection lost or invented evaluations.
+    #[error("the champion selection gave {found} evaluations for {expected} candidates in generation {generation}")]
+    ReEvaluationCount {
+        /// Evaluations given.
+        found: usize,
+        /// Candidates handed over.
+        expected: usize,
+        /// The generation, from 1.
+        generation: u64,
+    },
 }
 
 impl<S: Strategy> Evolution<S> {
@@ -127,17 +81,17 @@ impl<S: Strategy> Evolution<S> {
         Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, strategy }, stop)
     }
 
-    /// Goes on where a checkpoint was written. A run with a champion selection needs it [again](Self::with_champion_selection), and so does one with a
-    /// [promotion](Self::with_promotion).
+    /// Goes on where a checkpoint was written. A run with a champion selection needs it
+    /// [again](Self::with_champion_selection), and so does one with a [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
         let Checkpoint { seed, progress, champion, candidates, decision, strategy } = checkpoint;
         let (signal, selection, promotion) = (StopSignal::default(), None, None);
         Self { strategy, seed, stop, signal, progress, champion, candidates, selection, promotion, decision }
     }
 
-    /// Lets a champion selection choose the champion. The best of each generation becomes a candidate; at every re-evaluation
-    /// the champion selection judges them and the best of that generation, and the best of them becomes champion if its fitness before
-    /// the champion selection is above the champion's. Re-evaluations are used as they are; see [`ReEvaluations::validate`].
+    /// Lets a champion selection choose the champion. The best of each generation becomes a candidate. At every re-evaluation the
+    /// champion selection judges all candidates; the best becomes champion if it is better than the present one.
+    /// `re_evaluations` is used as it is; see [`ReEvaluations::validate`].
     #[must_use]
     pub fn with_champion_selection(
         self,
@@ -165,8 +119,8 @@ impl<S: Strategy> Evolution<S> {
     /// Runs until a stop condition is met.
     ///
     /// # Errors
-    /// If an observer fails, the strategy asks for nothing, or the evaluator does not give one evaluation for each
-    /// genome. The evolution stays whole: it can be saved or run again.
+    /// If an observer fails, the strategy asks for nothing, or evaluator or champion selection do not give one evaluation for
+    /// each genome. The evolution stays whole: it can be saved or run again.
     pub fn run(
         &mut self,
         task: &dyn Task,
@@ -223,7 +177,7 @@ impl<S: Strategy> Evolution<S> {
             Some(selection) => {
                 let outcome = self.nominate(&selection, &genomes, &evaluations);
                 self.selection = Some(selection);
-                outcome
+                outcome.map_err(|wrong| wrong.into_error(generation))?
             }
         };
         let report = GenerationReport {
@@ -241,8 +195,8 @@ impl<S: Strategy> Evolution<S> {
         };
         if let Some(Rules(promotion)) = &self.promotion {
             let champion = self.champion.as_ref().map(Champion::standing);
-            let moment = Moment { report: &report, evaluations: &evaluations, champion, progress: self.progress };
-            self.decision = promotion.decide(&moment);
+            let state = StageState { report: &report, evaluations: &evaluations, champion, progress: self.progress };
+            self.decision = promotion.decide(&state);
         }
         tracing::debug!(generation, best = ?report.best_so_far, failures = report.failures, "generation done");
         let event = Generation {
@@ -277,13 +231,13 @@ impl<S: Strategy> Evolution<S> {
         improved
     }
 
-    /// Makes the best of this generation a candidate; if it is time for a re-evaluation, holds it.
+    /// Makes the best of this generation a candidate; if it is time for a re-evaluation, does it.
     fn nominate(
         &mut self,
         selection: &ScheduledSelection<S::Genome>,
         genomes: &[S::Genome],
         evaluations: &[Evaluation],
-    ) -> (bool, Option<ReEvaluationReport>) {
+    ) -> Result<(bool, Option<ReEvaluationReport>), WrongCount> {
         let generation = self.progress.generations;
         let span = selection.re_evaluations.span(generation);
         let count = if span.is_some() { selection.re_evaluations.candidates.max(1) } else { 1 };
@@ -293,10 +247,10 @@ impl<S: Strategy> Evolution<S> {
             fitness,
             generation,
         }));
-        let Some(span) = span else { return (false, None) };
-        let (report, best) =
-            selection.hear(&std::mem::take(&mut self.candidates), self.champion.as_ref().map(Champion::standing));
-        (self.make_champion(best, span), Some(report))
+        let Some(span) = span else { return Ok((false, None)) };
+        let (report, best) = selection.re_evaluate(&self.candidates, self.champion.as_ref().map(Champion::standing))?;
+        self.candidates.clear();
+        Ok((self.make_champion(best, span), Some(report)))
     }
 
     /// The best so far, if any evaluation succeeded.
@@ -304,17 +258,23 @@ impl<S: Strategy> Evolution<S> {
         self.champion.as_ref()
     }
 
-    /// The champion there would be if a re-evaluation were held now: the best so far, and of those who wait for one. Changes
-    /// nothing. Without a champion selection, or with nobody waiting, the [champion](Self::champion).
-    pub fn champion_if_re_evaluated(&self) -> Option<Champion<S::Genome>> {
-        let standing = self.champion.clone();
-        let Some(selection) = self.selection.as_ref().filter(|_| !self.candidates.is_empty()) else { return standing };
-        let (_, best) = selection.hear(&self.candidates, self.champion.as_ref().map(Champion::standing));
-        let place = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
-        if place(&best) > place(&standing) { best } else { standing }
+    /// The champion there would be if a re-evaluation were done now: the best of the present one and all candidates. Changes
+    /// nothing. Without a champion selection, or without candidates, the [champion](Self::champion).
+    ///
+    /// # Errors
+    /// If the champion selection does not give one evaluation for each candidate.
+    pub fn champion_if_re_evaluated(&self) -> Result<Option<Champion<S::Genome>>, EvolutionError> {
+        let present = self.champion.clone();
+        let Some(selection) = self.selection.as_ref().filter(|_| !self.candidates.is_empty()) else {
+            return Ok(present);
+        };
+        let standing = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
+        let re_evaluated = selection.re_evaluate(&self.candidates, standing(&present));
+        let (_, best) = re_evaluated.map_err(|wrong| wrong.into_error(self.progress.generations))?;
+        Ok(if standing(&best) > standing(&present) { best } else { present })
     }
 
-    /// Those who wait for the next re-evaluation, in the order in which they were evaluated.
+    /// Those that wait for the next re-evaluation, in the order in which they were evaluated.
     pub fn candidates(&self) -> &[Candidate<S::Genome>] {
         &self.candidates
     }
@@ -360,6 +320,12 @@ impl<S: Strategy> Generation<'_, S> {
         let Self { seed, progress, champion, candidates, decision, strategy, .. } = *self;
         let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, strategy };
         checkpoint::write_parts(path, &parts)
+    }
+}
+
+impl WrongCount {
+    fn into_error(self, generation: u64) -> EvolutionError {
+        EvolutionError::ReEvaluationCount { found: self.found, expected: self.expected, generation }
     }
 }
 

@@ -6,15 +6,18 @@
 //! |---|---|
 //! | [`Genome`] | heritable data that builds a phenotype |
 //! | [`Phenotype`] | a controller: numbers in, numbers out |
-//! | [`Task`] | scores a phenotype |
+//! | [`Task`] | scores a phenotype; a [function](TaskFn) will do |
 //! | [`Selector`] | picks parents by their scores |
 //! | [`Strategy`] | asks for evaluations of genomes, is told their results |
-//! | `Evaluator` | spreads evaluations over threads, or saves them for the promising |
 //! | `Observer` | is told of each generation |
-//! | `ChampionSelection` | judges the best of all generations in one world |
+//!
+//! `Evolution` is the loop between them. Evaluations run on this thread (`Serial`), on several (`Parallel`), or wherever an
+//! `Evaluator` takes them. What most runs do without are modules of their own: `champion_selection` chooses the champion of a
+//! run in varied worlds, `promotion` says when a population goes on to its next stage, `successive_halving` saves evaluations
+//! for the promising.
 //!
 //! The one decision behind all of them: **a run is a function of its settings and one seed.** No contract hands out a
-//! shared random generator. Whoever needs chance derives a [`RandomStream`] of its own from a [`Seed`], which says where
+//! shared random generator. Code that needs chance derives a [`RandomStream`] of its own from a [`Seed`], which says where
 //! in the run it stands (run, generation, individual, trial) and, with a [`Purpose`], what the numbers are for. Threads,
 //! observers and the moment of a restart cannot reach those streams, so they cannot change a result, and a strategy has
 //! no generator to save.
@@ -29,7 +32,7 @@
 //!
 //! ```
 //! # #[cfg(feature = "evolution")] {
-//! use ne_core::{Evaluation, Evolution, Genome, Phenotype, Seed, Strategy, Serial, StopConditions, Task};
+//! use ne_core::{Evaluation, Evolution, Genome, Phenotype, Seed, Serial, StopConditions, Strategy, TaskFn};
 //! use serde::{Deserialize, Serialize};
 //!
 //! /// A genome of one number, expressed as a controller that always answers it.
@@ -44,18 +47,6 @@
 //! impl Genome for Constant {
 //!     type Phenotype = Self;
 //!     fn express(&self) -> Self { self.clone() }
-//! }
-//!
-//! /// Find the number 7.
-//! struct Seven;
-//! impl Task for Seven {
-//!     fn inputs(&self) -> usize { 0 }
-//!     fn outputs(&self) -> usize { 1 }
-//!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
-//!         let mut answer = [0.0];
-//!         phenotype.activate(&[], &mut answer);
-//!         Evaluation::new(-f64::from((answer[0] - 7.0).abs()))
-//!     }
 //! }
 //!
 //! /// Ten candidates on a grid around the best so far; the grid shrinks.
@@ -75,10 +66,15 @@
 //!     }
 //! }
 //!
+//! // Find the number 7.
+//! let task = TaskFn::new(0, 1, |phenotype: &mut dyn Phenotype, _: Seed| {
+//!     let mut answer = [0.0];
+//!     phenotype.activate(&[], &mut answer);
+//!     -f64::from((answer[0] - 7.0).abs())
+//! });
 //! let strategy = Grid { centre: 0.0, width: 4.0, candidates: Vec::new() };
-//! let stop = StopConditions { generations: Some(20), ..Default::default() };
-//! let mut evolution = Evolution::new(strategy, Seed::of_run(1), stop);
-//! evolution.run(&Seven, &Serial, &mut [])?;
+//! let mut evolution = Evolution::new(strategy, Seed::of_run(1), StopConditions::generations(20));
+//! evolution.run(&task, &Serial, &mut [])?;
 //! let champion = evolution.champion().expect("twenty generations have a best");
 //! assert!((champion.genome.0 - 7.0).abs() < 1e-3);
 //! # }
@@ -102,7 +98,9 @@ mod threads;
 #[cfg(feature = "evolution")]
 pub mod archive;
 #[cfg(feature = "evolution")]
-mod champion_selection;
+mod champion;
+#[cfg(feature = "evolution")]
+pub mod champion_selection;
 #[cfg(feature = "evolution")]
 mod checkpoint;
 #[cfg(feature = "evolution")]
@@ -114,11 +112,15 @@ mod evolution;
 #[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
-mod promotion;
+mod progress;
+#[cfg(feature = "evolution")]
+pub mod promotion;
 #[cfg(feature = "evolution")]
 mod statistics;
 #[cfg(feature = "evolution")]
 mod stop;
+#[cfg(feature = "evolution")]
+pub mod successive_halving;
 
 pub use evaluation::{Evaluation, Failure};
 pub use fitness::{Fitness, NotFinite};
@@ -130,23 +132,23 @@ pub use selector::Selector;
 pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
 pub use setting::SettingError;
 pub use strategy::{FrontPoint, SpeciesReport, Statistic, Strategy};
-pub use task::Task;
+pub use task::{Task, TaskFn};
 pub use threads::Threads;
 
 #[cfg(feature = "evolution")]
-pub use champion_selection::{Candidate, ChampionSelection, Judgement, ReEvaluationReport, ReEvaluations, Standing};
+pub use champion::{Candidate, Champion, TieredFitness};
 #[cfg(feature = "evolution")]
 pub use checkpoint::{CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Checkpoint};
 #[cfg(feature = "evolution")]
-pub use evaluator::{Evaluator, Rung, Serial, SuccessiveHalving};
+pub use evaluator::{Evaluator, Serial, evaluate_phenotypes};
 #[cfg(feature = "parallel")]
 pub use evaluator::{Parallel, ThreadsError};
 #[cfg(feature = "evolution")]
-pub use evolution::{Champion, Evolution, EvolutionError, Progress};
+pub use evolution::{Evolution, EvolutionError};
 #[cfg(feature = "evolution")]
 pub use observer::{Generation, Observer, ObserverError};
 #[cfg(feature = "evolution")]
-pub use promotion::{Decision, Moment, PopulationShare, Promotion, Reached, Rule};
+pub use progress::Progress;
 #[cfg(feature = "evolution")]
 pub use statistics::{GenerationReport, Quantiles};
 #[cfg(feature = "evolution")]

@@ -1,4 +1,6 @@
-use crate::{Candidate, Champion, Decision, Evaluation, GenerationReport, Progress, Seed, StopConditions, Strategy};
+use crate::{
+    Candidate, Champion, Evaluation, GenerationReport, Progress, Seed, StopConditions, Strategy, promotion::Decision,
+};
 
 /// What an observer reports when it cannot do its work (a disk is full): the run ends with this error, nothing lost.
 pub type ObserverError = Box<dyn std::error::Error + Send + Sync>;
@@ -36,7 +38,7 @@ pub struct Generation<'a, S: Strategy> {
     pub progress: Progress,
     /// The run's seed.
     pub seed: Seed,
-    /// What a [`Promotion`](crate::Promotion) says; without one always to stay.
+    /// What a [`Promotion`](crate::promotion::Promotion) says; without one always to stay.
     pub decision: Decision,
     /// When the run will end.
     pub stop: &'a StopConditions,

@@ -1,4 +1,4 @@
-use crate::{Evaluation, Fitness, ReEvaluationReport, SpeciesReport, Statistic};
+use crate::{Evaluation, Fitness, SpeciesReport, Statistic, champion_selection::ReEvaluationReport};
 use serde::{Deserialize, Serialize};
 
 /// What happened in one generation: plain data, a line of a log.
@@ -13,7 +13,7 @@ pub struct GenerationReport {
     pub steps: u64,
     /// The best fitness since the run began, with a champion selection the best at a re-evaluation; `None` while there was none.
     pub best_so_far: Option<Fitness>,
-    /// The champion's [tier](crate::Judgement::tiers).
+    /// The champion's [tier](crate::champion_selection::ReEvaluation::tiers).
     #[serde(default, skip_serializing_if = "is_zero")]
     pub tier: u8,
     /// The fitnesses of this generation; `None` if all failed.

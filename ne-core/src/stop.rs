@@ -1,4 +1,4 @@
-use crate::{Progress, SettingError, Standing};
+use crate::{Progress, SettingError, TieredFitness};
 use serde::{Deserialize, Serialize};
 use std::{
     fmt,
@@ -27,7 +27,7 @@ pub struct StopConditions {
     pub minutes: Option<f64>,
     /// A fitness that is good enough.
     pub target: Option<f64>,
-    /// A [tier](crate::Judgement::tiers) of the champion that is good enough.
+    /// A [tier](crate::champion_selection::ReEvaluation::tiers) of the champion that is good enough.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tier: Option<u8>,
     /// Generations without a better champion, at least 1.
@@ -52,11 +52,11 @@ pub enum StopReason {
     Tier,
     /// No better champion for too long.
     Stagnation,
-    /// Somebody asked it to stop (Ctrl-C).
+    /// It was asked to stop (Ctrl-C).
     Interrupted,
-    /// A [`Promotion`](crate::Promotion) promoted the population.
+    /// A [`Promotion`](crate::promotion::Promotion) promoted the population.
     Promoted,
-    /// A [`Promotion`](crate::Promotion) demoted the population.
+    /// A [`Promotion`](crate::promotion::Promotion) demoted the population.
     Demoted,
 }
 
@@ -94,6 +94,11 @@ impl StopSignal {
 }
 
 impl StopConditions {
+    /// After so many generations, and nothing else; at least 1.
+    pub fn generations(generations: u64) -> Self {
+        Self { generations: Some(generations), ..Self::default() }
+    }
+
     /// Checks the ranges, and that the run will end at all.
     ///
     /// # Errors
@@ -141,7 +146,7 @@ impl StopConditions {
     }
 
     /// The first condition that is met, if any.
-    pub fn reached(&self, progress: &Progress, best: Option<Standing>, elapsed: Duration) -> Option<StopReason> {
+    pub fn reached(&self, progress: &Progress, best: Option<TieredFitness>, elapsed: Duration) -> Option<StopReason> {
         let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);
         if self.target.zip(best).is_some_and(|(target, best)| best.fitness.get() >= target) {
             Some(StopReason::Target)

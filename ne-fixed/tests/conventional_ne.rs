@@ -22,7 +22,7 @@ fn shape() -> DenseShape {
 fn score(population: &[WeightVector]) -> Vec<Evaluation> {
     let evaluate = |(index, genome): (usize, &WeightVector)| {
         if index % 7 == 6 {
-            return Evaluation::failed(Failure::TimedOut { steps: 3 });
+            return Evaluation::failed(Failure::Unstable { what: "speed".into() });
         }
         Evaluation::new(-genome.weights().iter().map(|&weight| f64::from(weight - 1.0).powi(2)).sum::<f64>())
     };

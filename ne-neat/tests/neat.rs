@@ -18,7 +18,7 @@ use std::collections::BTreeMap;
 fn score(population: &[NeatGenome]) -> Vec<Evaluation> {
     let evaluate = |(index, genome): (usize, &NeatGenome)| {
         if index % 7 == 6 {
-            return Evaluation::failed(Failure::TimedOut { steps: 3 });
+            return Evaluation::failed(Failure::Unstable { what: "speed".into() });
         }
         let mut net = genome.express();
         let (mut low, mut high) = ([0.0; 2], [0.0; 2]);

@@ -49,13 +49,12 @@ fn every_command_knows_the_movement_and_its_verdict() {
     // Killed, and resumed.
     let broken = [&train[..], &["--out", "broken", "--quiet"]].concat();
     let mut child = program(here, &broken).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
-    while !here.join("broken/checkpoint.json").exists() && child.try_wait().expect("a process").is_none() {
+    while !here.join("broken/checkpoint").exists() && child.try_wait().expect("a process").is_none() {
         thread::sleep(Duration::from_millis(2));
     }
     child.kill().and_then(|()| child.wait()).expect("it can be killed");
-    if !here.join("broken/report.html").exists() {
-        said(here, 0, &["resume", "broken", "--quiet"]);
-    }
+    assert!(!here.join("broken/report.html").exists(), "it was killed before its end");
+    said(here, 0, &["resume", "broken", "--quiet"]);
     let bytes = |name: &str| fs::read(here.join(name)).unwrap_or_else(|error| panic!("{name}: {error}"));
     assert_eq!(bytes("whole/champion.json"), bytes("broken/champion.json"));
     assert_eq!(bytes("whole/log.jsonl"), bytes("broken/log.jsonl"));

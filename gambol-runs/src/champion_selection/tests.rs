@@ -101,8 +101,8 @@ impl ScheduledSelection {
     }
 
     /// The tiers, and the fitness of those whose gait was looked at, in this order.
-    fn tiers(&self, candidates: &[Candidate], standing: Option<Standing>) -> (Vec<u8>, Vec<f64>) {
-        let Judgement { tiers, .. } = self.champion_selection.judge(candidates, standing);
+    fn tiers(&self, candidates: &[Candidate], standing: Option<TieredFitness>) -> (Vec<u8>, Vec<f64>) {
+        let ReEvaluation { tiers, .. } = self.champion_selection.judge(candidates, standing);
         let seen = std::mem::take(&mut *self.seen.lock().expect("no test panics here"));
         (tiers, seen.iter().map(|candidate| candidate.reference).collect())
     }
@@ -129,8 +129,8 @@ fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
         .collect()
 }
 
-fn standing(tier: u8, fitness: f64) -> Option<Standing> {
-    Some(Standing { tier, fitness: Fitness::new(fitness).expect("finite") })
+fn standing(tier: u8, fitness: f64) -> Option<TieredFitness> {
+    Some(TieredFitness { tier, fitness: Fitness::new(fitness).expect("finite") })
 }
 
 #[test]
@@ -154,7 +154,7 @@ fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
         let alone = judge(rapier, None);
         assert_eq!(
             judge(reference, Some(rapier)),
-            Judgement { diverged: true, ..alone },
+            ReEvaluation { diverged: true, ..alone },
             "tiers are those of rapier too"
         );
     }
@@ -163,7 +163,7 @@ fn where_lanes_and_rapier_part_all_are_judged_in_rapier() {
 /// A slow champion that is usable, and no more.
 const SLOW: f64 = 0.1;
 
-fn slow() -> Option<Standing> {
+fn slow() -> Option<TieredFitness> {
     standing(USABLE, SLOW)
 }
 

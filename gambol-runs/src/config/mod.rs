@@ -16,7 +16,7 @@ pub use variations::{VARIATIONS, variation};
 
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
-use ne_core::{ReEvaluations, SettingError, StopConditions};
+use ne_core::{SettingError, StopConditions, champion_selection::ReEvaluations};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{MovementSpec, Trials};

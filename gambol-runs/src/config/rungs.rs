@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 const MOST_RUNGS: usize = 8;
 
 /// A rung: a cheaper evaluation, after which only the best share of a generation goes on, to the next rung and in the end
-/// to the evaluation of training. See [`ne_core::SuccessiveHalving`] for what those left behind are worth.
+/// to the evaluation of training. See [`ne_core::successive_halving::SuccessiveHalving`] for what those left behind are worth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RungSettings {

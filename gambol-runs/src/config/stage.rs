@@ -1,6 +1,6 @@
 use super::Transferred;
 use creatures::Sensor;
-use ne_core::Rule;
+use ne_core::promotion::PromotionRule;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 
@@ -21,11 +21,11 @@ pub struct StageSettings {
     pub add_sensors: Vec<Sensor>,
     /// When the stage is passed. Only the last may have none: it goes on until the run ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub promotion: Option<Rule>,
+    pub promotion: Option<PromotionRule>,
     /// When the population goes back to the stage before; looked at after `promotion`. The first stage has none. What goes
     /// back is as much as can be, whatever `transfer` says; inputs and weights that this stage added are given up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub demotion: Option<Rule>,
+    pub demotion: Option<PromotionRule>,
     /// What it takes from the stage before; by default as much as it can: the population if the strategy is the same, else the
     /// champion, or from NEAT the champion's topology.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -7,8 +7,9 @@ use crate::{
     run_folder::lines::read_lines,
 };
 use ne_core::{
-    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Decision, Fitness, GenerationReport, Progress,
+    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Fitness, GenerationReport, Progress,
     archive::{self, ArchiveError, Layout},
+    promotion::Decision,
 };
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
@@ -115,7 +116,7 @@ pub struct RunStanding {
 pub struct ChampionStanding {
     /// Its fitness.
     pub fitness: Fitness,
-    /// Its [tier](ne_core::Judgement::tiers).
+    /// Its [tier](ne_core::champion_selection::ReEvaluation::tiers).
     #[serde(default)]
     pub tier: u8,
     /// The generation it was found in.

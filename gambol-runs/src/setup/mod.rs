@@ -16,7 +16,7 @@ use crate::{
 };
 use creatures::{Actuation, Channel};
 use envs_rapier::RapierEnvironment;
-use ne_core::{Rung, Seed, SettingError};
+use ne_core::{Seed, SettingError, successive_halving::Rung};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{Episode, Medium, MovementSpec, TermSpec};

@@ -1,6 +1,6 @@
 use super::StageRun;
 use crate::config::{RunConfig, Transferred};
-use ne_core::Promotion;
+use ne_core::promotion::Promotion;
 use std::sync::Arc;
 
 /// Says which stage comes next.

@@ -9,7 +9,7 @@
 //! |---|---|
 //! | [`StageSettings`](crate::config::StageSettings) | a stage in a configuration: what changes, when it is passed |
 //! | [`Curriculum`] | says which stage comes next; [`Stages`] follows the list in a configuration, yours does what it likes |
-//! | [`Promotion`](ne_core::Promotion) | says when a stage is passed; [`Rule`](ne_core::Rule) has the usual conditions |
+//! | [`Promotion`](ne_core::promotion::Promotion) | says when a stage is passed; [`PromotionRule`](ne_core::promotion::PromotionRule) has the usual conditions |
 //! | [`Transferred`](crate::config::Transferred), [`Origin`](crate::config::Origin) | what goes from one stage to the next, and what went |
 //! | [`train_stages`], [`resume_stages`] | the way through the stages |
 

@@ -13,7 +13,7 @@ use crate::{
     setup::Setup,
     training::{self, Outcome, TrainError, TrainOptions},
 };
-use ne_core::{Decision, Progress, StopConditions, StopReason};
+use ne_core::{Progress, StopConditions, StopReason, promotion::Decision};
 use std::{fs, path::Path, time::Instant};
 
 /// How a run with stages is watched.

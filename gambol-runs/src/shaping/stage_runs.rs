@@ -4,7 +4,7 @@ use crate::{
     champion::Champion,
     run_folder::{FolderError, RunFolder},
 };
-use ne_core::{Decision, Progress, Standing};
+use ne_core::{Progress, TieredFitness, promotion::Decision};
 use std::{fs, path::Path, path::PathBuf};
 
 /// A stretch of the way: a stage from its beginning until it was passed, left, or broken off.
@@ -23,7 +23,7 @@ pub struct StageRun {
     /// What it used.
     pub progress: Progress,
     /// Where its champion stands.
-    pub champion: Option<Standing>,
+    pub champion: Option<TieredFitness>,
 }
 
 /// The stage runs of a run with stages so far, in order; the last may be under way.
@@ -62,7 +62,7 @@ pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
 
 pub(super) fn stage_run(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<StageRun, FolderError> {
     let standing = folder.read_standing()?;
-    let champion = standing.champion.map(|champion| Standing { tier: champion.tier, fitness: champion.fitness });
+    let champion = standing.champion.map(|champion| TieredFitness { tier: champion.tier, fitness: champion.fitness });
     let (decision, progress) = (standing.decision, standing.progress);
     Ok(StageRun { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
 }

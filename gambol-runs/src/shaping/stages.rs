@@ -10,7 +10,10 @@ use crate::{
     setup::Setup,
 };
 use creatures::Sensor;
-use ne_core::{Decision, Moment, Promotion, Rule, SettingError};
+use ne_core::{
+    SettingError,
+    promotion::{Decision, Promotion, PromotionRule, StageState},
+};
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -125,13 +128,13 @@ impl Curriculum for Stages {
 
 /// The rules of a stage.
 struct Rules {
-    promotion: Option<Rule>,
-    demotion: Option<Rule>,
+    promotion: Option<PromotionRule>,
+    demotion: Option<PromotionRule>,
 }
 
 impl Promotion for Rules {
-    fn decide(&self, moment: &Moment<'_>) -> Decision {
-        let is_met = |rule: &Option<Rule>| rule.as_ref().is_some_and(|rule| rule.is_met(moment));
+    fn decide(&self, moment: &StageState<'_>) -> Decision {
+        let is_met = |rule: &Option<PromotionRule>| rule.as_ref().is_some_and(|rule| rule.is_met(moment));
         if is_met(&self.promotion) {
             Decision::Promote
         } else if is_met(&self.demotion) {

@@ -9,7 +9,7 @@ use crate::{
 };
 use creatures::Sensor;
 use envs_rapier::Variation;
-use ne_core::{Decision, EvolutionError, Phenotype, Progress, StopReason};
+use ne_core::{EvolutionError, Phenotype, Progress, StopReason, promotion::Decision};
 use ne_net::{Activation, GraphNeuron, GraphShape, TopologyMap};
 use serde_json::json;
 

@@ -37,8 +37,8 @@ pub struct Stage {
     near: Arc<OnceLock<Worlds>>,
 }
 
-/// The least [tier](ne_core::Judgement::tiers) of a champion whose gait is usable. Those whose gait is usable in perturbed
-/// worlds too have up to 4 more; a champion that is not usable has 0.
+/// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
+/// perturbed worlds too has up to 8 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 /// A movement that is not judged is watched for so long, s.

@@ -31,7 +31,7 @@ pub const WRONG_SHAPE_FAILS: Promise =
 /// No success without numbers.
 pub const NAN_FAILS: Promise = Promise::new("task", "a phenotype whose outputs are NaN gets a failure");
 /// Every number can be written down.
-pub const FINITE: Promise = Promise::new("task", "objectives, behaviour and measurements are finite");
+pub const FINITE: Promise = Promise::new("task", "objectives and measurements are finite");
 
 /// All of them.
 pub const PROMISES: &[Promise] =
@@ -228,7 +228,6 @@ fn finite(evaluation: &Evaluation) -> Result<(), String> {
         None => Ok(()),
     };
     numbered("objective", &evaluation.objectives)?;
-    numbered("behaviour", &evaluation.behaviour)?;
     match evaluation.measurements.iter().find(|(_, value)| !value.is_finite()) {
         Some((name, value)) => Err(format!("measurement \"{name}\" is {value}")),
         None => Ok(()),
@@ -247,7 +246,6 @@ fn same(found: &Evaluation, expected: &Evaluation, what: &str) -> Result<(), Str
             outcome,
             format!("{} steps", of.steps),
             format!("objectives {:?}", of.objectives),
-            format!("behaviour {:?}", of.behaviour),
             format!("measurements {:?}", of.measurements),
         ]
     };

@@ -1,5 +1,5 @@
-use super::{Evaluator, as_batch};
-use crate::{Evaluation, Genome, Seed, Task, Threads, threads::complete};
+use super::{Evaluator, evaluate_phenotypes};
+use crate::{Evaluation, Genome, Seed, Task, Threads};
 use rayon::prelude::*;
 
 /// Evaluates a generation on a pool of threads of its own.
@@ -54,6 +54,6 @@ impl Threads for Parallel {
 impl Evaluator for Parallel {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
         let mut phenotypes: Vec<G::Phenotype> = self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
-        complete(task.evaluate_spread(&mut as_batch(&mut phenotypes), seed, self), genomes.len())
+        evaluate_phenotypes(task, &mut phenotypes, seed, self)
     }
 }

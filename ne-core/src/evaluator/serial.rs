@@ -1,5 +1,5 @@
-use super::{Evaluator, as_batch};
-use crate::{Evaluation, Genome, Seed, Task, threads::complete};
+use super::{Evaluator, evaluate_phenotypes};
+use crate::{Evaluation, Genome, Seed, Task};
 
 /// Evaluates one batch after the other on the calling thread.
 #[derive(Clone, Copy, Debug, Default)]
@@ -8,6 +8,6 @@ pub struct Serial;
 impl Evaluator for Serial {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
         let mut phenotypes: Vec<G::Phenotype> = genomes.iter().map(Genome::express).collect();
-        complete(task.evaluate_spread(&mut as_batch(&mut phenotypes), seed, &()), genomes.len())
+        evaluate_phenotypes(task, &mut phenotypes, seed, &())
     }
 }

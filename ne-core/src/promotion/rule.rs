@@ -1,4 +1,4 @@
-use super::{Decision, Moment, Promotion};
+use super::{Decision, Promotion, StageState};
 use crate::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -9,16 +9,16 @@ use serde::{Deserialize, Serialize};
 /// `{"any": [...]}`, `{"all": [...]}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Rule {
+pub enum PromotionRule {
     /// The champion's fitness is at least this.
     Fitness(f64),
-    /// The champion selection gives the champion a [tier](crate::Judgement::tiers) of at least 1: of creatures, its gait is usable.
+    /// The champion selection gives the champion a [tier](crate::champion_selection::ReEvaluation::tiers) of at least 1: of creatures, its gait is usable.
     Usable,
     /// So large a share of the generation has at least this fitness.
     Share(PopulationShare),
     /// The mean of a [measurement](crate::Evaluation::measurements) over those of the generation that did not fail reaches a
     /// bound.
-    Measurement(Reached),
+    Measurement(MeasurementBound),
     /// So many generations have passed without a better champion; at least 1.
     Stagnation(u64),
     /// So many generations were spent in the stage; at least 1.
@@ -28,9 +28,9 @@ pub enum Rule {
     /// So many steps of work were spent in the stage; at least 1.
     Steps(u64),
     /// One of these is met; at least one.
-    Any(Vec<Rule>),
+    Any(Vec<PromotionRule>),
     /// All of these are met; at least one.
-    All(Vec<Rule>),
+    All(Vec<PromotionRule>),
 }
 
 /// A fitness, and by how many it is reached.
@@ -46,7 +46,7 @@ pub struct PopulationShare {
 /// A measurement, and the bound it must reach: one of them, from below or from above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Reached {
+pub struct MeasurementBound {
     /// Its name.
     pub name: String,
     /// At least this.
@@ -57,7 +57,7 @@ pub struct Reached {
     pub at_most: Option<f64>,
 }
 
-impl Rule {
+impl PromotionRule {
     /// Checks the numbers, and that the rule could ever be met.
     ///
     /// # Errors
@@ -81,7 +81,7 @@ impl Rule {
                     false => Err(SettingError::new("share.of", of, "above 0 and at most 1")),
                 }
             }
-            Self::Measurement(Reached { at_least, at_most, .. }) => match (at_least, at_most) {
+            Self::Measurement(MeasurementBound { at_least, at_most, .. }) => match (at_least, at_most) {
                 (Some(bound), None) => finite("measurement.at_least", *bound),
                 (None, Some(bound)) => finite("measurement.at_most", *bound),
                 (bounds, _) => {
@@ -99,8 +99,8 @@ impl Rule {
     }
 
     /// Whether it is met.
-    pub fn is_met(&self, moment: &Moment<'_>) -> bool {
-        let Moment { evaluations, champion, progress, .. } = *moment;
+    pub fn is_met(&self, state: &StageState<'_>) -> bool {
+        let StageState { evaluations, champion, progress, .. } = *state;
         match self {
             Self::Fitness(fitness) => champion.is_some_and(|champion| champion.fitness.get() >= *fitness),
             Self::Usable => champion.is_some_and(|champion| champion.tier >= 1),
@@ -110,13 +110,13 @@ impl Rule {
                     .filter(|evaluation| evaluation.fitness().is_some_and(|found| found.get() >= *fitness));
                 good.count() as f64 >= of * evaluations.len() as f64
             }
-            Self::Measurement(reached) => reached.is_met(moment),
+            Self::Measurement(reached) => reached.is_met(state),
             Self::Stagnation(generations) => progress.stagnation >= *generations,
             Self::Generations(generations) => progress.generations >= *generations,
             Self::Evaluations(evaluations) => progress.evaluations >= *evaluations,
             Self::Steps(steps) => progress.steps >= *steps,
-            Self::Any(rules) => rules.iter().any(|rule| rule.is_met(moment)),
-            Self::All(rules) => rules.iter().all(|rule| rule.is_met(moment)),
+            Self::Any(rules) => rules.iter().any(|rule| rule.is_met(state)),
+            Self::All(rules) => rules.iter().all(|rule| rule.is_met(state)),
         }
     }
 
@@ -139,18 +139,19 @@ impl Rule {
     }
 }
 
-fn validate_all(field: &str, rules: &[Rule]) -> Result<(), SettingError> {
+fn validate_all(field: &str, rules: &[PromotionRule]) -> Result<(), SettingError> {
     if rules.is_empty() {
         return Err(SettingError::new(field, "[]", "at least one rule"));
     }
-    let numbered =
-        |(index, rule): (usize, &Rule)| rule.validate().map_err(|error| error.within(&format!("{field}[{index}]")));
+    let numbered = |(index, rule): (usize, &PromotionRule)| {
+        rule.validate().map_err(|error| error.within(&format!("{field}[{index}]")))
+    };
     rules.iter().enumerate().try_for_each(numbered)
 }
 
-impl Reached {
-    fn is_met(&self, moment: &Moment<'_>) -> bool {
-        let found = moment.evaluations.iter().filter(|evaluation| evaluation.outcome.is_ok());
+impl MeasurementBound {
+    fn is_met(&self, state: &StageState<'_>) -> bool {
+        let found = state.evaluations.iter().filter(|evaluation| evaluation.outcome.is_ok());
         let values: Vec<f64> =
             found.filter_map(|evaluation| evaluation.measurements.get(&self.name).copied()).collect();
         if values.is_empty() {
@@ -161,16 +162,16 @@ impl Reached {
     }
 }
 
-impl Promotion for Rule {
-    fn decide(&self, moment: &Moment<'_>) -> Decision {
-        if self.is_met(moment) { Decision::Promote } else { Decision::Stay }
+impl Promotion for PromotionRule {
+    fn decide(&self, state: &StageState<'_>) -> Decision {
+        if self.is_met(state) { Decision::Promote } else { Decision::Stay }
     }
 }
 
 /// A condition in words: `fitness ≥ 20`, `usable or 100 generations`.
-impl std::fmt::Display for Rule {
+impl std::fmt::Display for PromotionRule {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let joined = |f: &mut std::fmt::Formatter<'_>, rules: &[Rule], word: &str| {
+        let joined = |f: &mut std::fmt::Formatter<'_>, rules: &[PromotionRule], word: &str| {
             for (index, rule) in rules.iter().enumerate() {
                 let nested = matches!(rule, Self::Any(_) | Self::All(_));
                 f.write_str(if index > 0 { word } else { "" })?;
@@ -184,8 +185,10 @@ impl std::fmt::Display for Rule {
             Self::Share(PopulationShare { fitness, of }) => {
                 write!(f, "fitness ≥ {fitness} in {} % of the population", of * 100.0)
             }
-            Self::Measurement(Reached { name, at_least: Some(bound), .. }) => write!(f, "mean {name} ≥ {bound}"),
-            Self::Measurement(Reached { name, at_most, .. }) => {
+            Self::Measurement(MeasurementBound { name, at_least: Some(bound), .. }) => {
+                write!(f, "mean {name} ≥ {bound}")
+            }
+            Self::Measurement(MeasurementBound { name, at_most, .. }) => {
                 write!(f, "mean {name} ≤ {}", at_most.unwrap_or(f64::NAN))
             }
             Self::Stagnation(generations) => write!(f, "{generations} generations without progress"),

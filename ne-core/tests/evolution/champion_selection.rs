@@ -7,8 +7,9 @@ use crate::{
     state,
 };
 use ne_core::{
-    Candidate, Champion, ChampionSelection, Checkpoint, Evaluation, Evaluator, Evolution, Fitness, Judgement, Parallel,
-    Progress, ReEvaluationReport, ReEvaluations, Seed, Serial, Standing, StopConditions, StopReason,
+    Candidate, Champion, Checkpoint, Evaluation, Evaluator, Evolution, Fitness, Parallel, Progress, Seed, Serial,
+    StopConditions, StopReason, TieredFitness,
+    champion_selection::{ChampionSelection, ReEvaluation, ReEvaluationReport, ReEvaluations},
     conformance::Puppet,
 };
 use proptest::prelude::*;
@@ -37,12 +38,12 @@ impl ChampionSelection<Puppet> for Known {
         WORLD
     }
 
-    fn judge(&self, candidates: &[Puppet], _: Option<Standing>) -> Judgement {
+    fn judge(&self, candidates: &[Puppet], _: Option<TieredFitness>) -> ReEvaluation {
         self.heard.lock().expect("no test panics here").push(candidates.to_vec());
         let worth = |candidate: &Puppet| Evaluation::new(entry(&self.worth, candidate).unwrap_or(FAILED));
         let tier = |candidate: &Puppet| entry(&self.tiers, candidate).unwrap_or(0);
         let tiers = if self.tiers.is_empty() { Vec::new() } else { candidates.iter().map(tier).collect() };
-        Judgement { evaluations: candidates.iter().map(worth).collect(), tiers, diverged: self.diverged }
+        ReEvaluation { evaluations: candidates.iter().map(worth).collect(), tiers, diverged: self.diverged }
     }
 }
 
@@ -99,7 +100,7 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     };
     assert_eq!(evolution.champion(), Some(&champion));
     // Of the equals in training the first is candidate; worth 5, it would take over.
-    let next = evolution.champion_if_re_evaluated().expect("somebody");
+    let next = evolution.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("somebody");
     assert_eq!((next.genome, next.fitness, next.trained), (genome(4, 0), fitness(5.0), Some(fitness(9.0))));
     assert_eq!(evolution.champion(), Some(&champion), "it was only asked");
     assert_eq!(evolution.candidates().len(), 1);
@@ -254,13 +255,13 @@ fn a_candidate_is_heard_once_however_often_it_was_best() {
     let checkpoint: Checkpoint<Script> = Checkpoint::read(&folder.path().join("checkpoint")).expect("it is whole");
     let resumed = Evolution::resume(Checkpoint { candidates, ..checkpoint }, StopConditions::default())
         .with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone());
-    let champion = resumed.champion_if_re_evaluated().expect("somebody");
+    let champion = resumed.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("somebody");
     assert_eq!((champion.generation, champion.trained), (1, Some(fitness(5.0))), "as it was first");
     assert_eq!(*known.heard.lock().expect("no test panics here"), [vec![genome(1, 1), genome(1, 0)]]);
-    assert_eq!(evolution.champion_if_re_evaluated(), None);
+    assert_eq!(evolution.champion_if_re_evaluated().expect("as many evaluations as candidates"), None);
 }
 
-/// A champion selection that loses everybody.
+/// A champion selection that loses all evaluations.
 struct Asleep;
 
 impl ChampionSelection<Puppet> for Asleep {
@@ -268,19 +269,22 @@ impl ChampionSelection<Puppet> for Asleep {
         WORLD
     }
 
-    fn judge(&self, _: &[Puppet], _: Option<Standing>) -> Judgement {
-        Judgement { evaluations: Vec::new(), tiers: Vec::new(), diverged: false }
+    fn judge(&self, _: &[Puppet], _: Option<TieredFitness>) -> ReEvaluation {
+        ReEvaluation { evaluations: Vec::new(), tiers: Vec::new(), diverged: false }
     }
 }
 
 #[test]
-fn a_champion_selection_that_loses_evaluations_makes_no_champion() {
+fn a_champion_selection_that_loses_evaluations_is_an_error_and_the_candidates_stay() {
     let stop = StopConditions { generations: Some(2), ..Default::default() };
     let mut evolution =
         Script::evolution(&[&[1.0]], stop).with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, Asleep);
     let prompter = Prompter::of(&evolution);
-    evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
-    assert_eq!((evolution.champion(), evolution.progress().stagnation), (None, 2));
+    let error = evolution.run(&Unused, &prompter, &mut []).expect_err("one is missing");
+    let message = "the champion selection gave 0 evaluations for 1 candidates in generation 1";
+    assert_eq!(error.to_string(), message);
+    assert_eq!((evolution.champion(), evolution.candidates().len()), (None, 1));
+    assert_eq!(evolution.champion_if_re_evaluated().expect_err("still missing").to_string(), message);
 }
 
 #[test]
@@ -314,8 +318,8 @@ impl ChampionSelection<Weights> for Panel {
         WORLD
     }
 
-    fn judge(&self, candidates: &[Weights], _: Option<Standing>) -> Judgement {
-        Judgement { evaluations: Serial.evaluate(&TASK, candidates, WORLD), tiers: Vec::new(), diverged: false }
+    fn judge(&self, candidates: &[Weights], _: Option<TieredFitness>) -> ReEvaluation {
+        ReEvaluation { evaluations: Serial.evaluate(&TASK, candidates, WORLD), tiers: Vec::new(), diverged: false }
     }
 }
 
@@ -338,13 +342,16 @@ fn a_run_with_a_champion_selection_resumed_at_any_generation_ends_the_same() -> 
         let mut first = judged(crate::evolution(until));
         first.run(&TASK, &Serial, &mut [])?;
         // As at the end of a run: asked for, and not kept.
-        first.champion_if_re_evaluated();
+        first.champion_if_re_evaluated().expect("as many evaluations as candidates");
         first.write_checkpoint(&path)?;
         let stop = StopConditions { generations: Some(GENERATIONS), ..Default::default() };
         let mut second = judged(Evolution::resume(Checkpoint::<Climber>::read(&path)?, stop));
         second.run(&TASK, &threads, &mut [])?;
         assert_eq!(state(&second), state(&whole), "resumed after generation {until}");
-        assert_eq!(second.champion_if_re_evaluated(), whole.champion_if_re_evaluated());
+        assert_eq!(
+            second.champion_if_re_evaluated().expect("as many evaluations as candidates"),
+            whole.champion_if_re_evaluated()?
+        );
         second.write_checkpoint(&path)?;
         assert_eq!(std::fs::read(&path)?, last, "resumed after generation {until}");
     }
@@ -363,7 +370,10 @@ fn a_champion_selection_does_not_steer() {
         (progress, serde_json::to_string(evolution.strategy()).expect("plain data"))
     };
     assert_eq!(search(&with), search(&without));
-    assert_eq!(without.champion_if_re_evaluated().as_ref(), without.champion());
+    assert_eq!(
+        without.champion_if_re_evaluated().expect("as many evaluations as candidates").as_ref(),
+        without.champion()
+    );
 }
 
 #[test]
@@ -433,6 +443,6 @@ proptest! {
         };
         let last_re_evaluation = (1..=lines.len() as u64).filter(|&generation| hears(generation)).max().unwrap_or(0);
         prop_assert_eq!(seen(evolution.champion().cloned()), best(last_re_evaluation));
-        prop_assert_eq!(seen(evolution.champion_if_re_evaluated()), best(lines.len() as u64));
+        prop_assert_eq!(seen(evolution.champion_if_re_evaluated().expect("as many evaluations as candidates")), best(lines.len() as u64));
     }
 }

@@ -11,6 +11,7 @@ mod resuming;
 mod scripted;
 mod stopping;
 mod successive_halving;
+mod tasks;
 mod threads;
 
 use common::{Climber, Imitate};

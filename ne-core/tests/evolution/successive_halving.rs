@@ -6,8 +6,9 @@ use crate::{
     state,
 };
 use ne_core::{
-    Evaluation, Evaluator, Evolution, Failure, Fitness, Genome, Parallel, Phenotype, Rung, Seed, Serial,
-    StopConditions, Strategy as _, SuccessiveHalving, Task,
+    Evaluation, Evaluator, Evolution, Failure, Fitness, Genome, Parallel, Phenotype, Seed, Serial, StopConditions,
+    Strategy as _, Task,
+    successive_halving::{Rung, SuccessiveHalving},
 };
 use proptest::prelude::{Strategy, *};
 use serde::{Deserialize, Serialize};

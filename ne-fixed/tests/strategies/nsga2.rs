@@ -36,7 +36,7 @@ fn as_in_the_paper() -> Nsga2Settings {
 fn zdt1(population: &[WeightVector]) -> Vec<Evaluation> {
     let evaluate = |(index, genome): (usize, &WeightVector)| {
         if index % 11 == 10 {
-            return Evaluation::failed(Failure::TimedOut { steps: 3 });
+            return Evaluation::failed(Failure::Unstable { what: "speed".into() });
         }
         let x: Vec<f64> = genome.weights().iter().map(|&weight| f64::from(weight).clamp(0.0, 1.0)).collect();
         let g = 1.0 + 9.0 * x[1..].iter().sum::<f64>() / (x.len() - 1) as f64;
@@ -181,7 +181,7 @@ fn without_objectives_the_fitness_is_the_only_one() {
 #[test]
 fn where_all_fail_the_front_is_empty_and_the_search_goes_on() {
     let mut strategy = new(Nsga2Settings::default());
-    let failed = Evaluation::failed(Failure::TimedOut { steps: 1 });
+    let failed = Evaluation::failed(Failure::Unstable { what: "speed".into() });
     crate::common::generation_of(&mut strategy, 1, &failed);
     assert_eq!(strategy.front().map(|front| front.len()), Some(0));
     let nonsense = Evaluation { objectives: vec![1.0, f64::NAN], ..Evaluation::new(1.0) };

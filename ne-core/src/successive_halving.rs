@@ -1,5 +1,6 @@
-use super::Evaluator;
-use crate::{Evaluation, Failure, Fitness, Genome, Seed, Task};
+//! Cheaper evaluations before the whole one, of which only the best individuals get it.
+
+use crate::{Evaluation, Evaluator, Failure, Fitness, Genome, Seed, Task};
 use std::{cmp::Reverse, fmt};
 
 /// Spends the whole evaluation on the promising: everybody is evaluated on a cheaper task first, and only the best go on
