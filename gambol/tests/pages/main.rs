@@ -1,0 +1,193 @@
+//! Every kind of page, opened in a real browser.
+//!
+//! Needs Chromium (or Chrome) in the path, or the variable CHROMIUM; without it the tests are skipped, and say so.
+
+mod browser;
+mod kinds;
+
+use browser::{Browser, RIGHT, SPACE, TAB};
+use kinds::{KINDS, Kind};
+use libtest_mimic::{Arguments, Failed, Trial};
+use serde_json::Value;
+use std::{collections::BTreeSet, path::Path, process::ExitCode};
+
+/// Widths of a phone and of a desk, px.
+const WIDTHS: [u32; 2] = [360, 1280];
+
+fn main() -> ExitCode {
+    let arguments = Arguments::from_args();
+    let program = browser::find();
+    if program.is_none() {
+        println!("skipped, for there is no Chromium here: install it, or set CHROMIUM to its path, and call");
+        println!("    cargo test -p gambol --test pages");
+    }
+    let ignored = program.is_none();
+    let program = program.unwrap_or_default();
+    let trial = |name: String, check: fn(&mut Browser, &Path, &Kind), kind: &'static Kind| {
+        let program = program.clone();
+        let run = move || -> Result<(), Failed> {
+            let folder = tempfile::tempdir()?;
+            let page = (kind.make)(folder.path());
+            check(&mut Browser::start(&program), &page, kind);
+            Ok(())
+        };
+        Trial::test(name, run).with_ignored_flag(ignored)
+    };
+    let every = KINDS.iter().map(|kind| trial(format!("the page of a {}", kind.name), check_page, kind));
+    static FRONT: Kind = Kind { name: "front", make: kinds::front, plays: true };
+    static HOSTILE: Kind = Kind { name: "hostile creature", make: kinds::hostile, plays: true };
+    let others = [
+        trial("a click on a point of a front plays it".into(), check_front, &FRONT),
+        trial("names of a creature run no script".into(), check_hostile, &HOSTILE),
+    ];
+    libtest_mimic::run(&arguments, every.chain(others).collect()).exit_code()
+}
+
+/// What holds for every page.
+fn check_page(browser: &mut Browser, page: &Path, kind: &Kind) {
+    for width in WIDTHS {
+        browser.open(page, width);
+        assert_eq!(texts(&browser.evaluate(BLANK_CANVASES)), [""; 0], "canvases without a drawing, {width} px");
+        let overhang = "document.documentElement.scrollWidth - document.documentElement.clientWidth";
+        assert_eq!(browser.evaluate(overhang), 0, "wider than {width} px");
+        check_keyboard(browser);
+        if kind.plays {
+            check_replay(browser);
+        }
+        assert_eq!(browser.complaints(), [""; 0], "errors, {width} px");
+        assert_eq!(browser.requests(page), [""; 0], "requests, {width} px");
+    }
+    let headings = browser.evaluate("[...document.querySelectorAll('h1')].map(heading => heading.textContent.trim())");
+    assert!(texts(&headings).iter().any(|heading| !heading.is_empty()), "a page has a heading");
+}
+
+/// The replay plays, pauses, steps and is scrubbed.
+fn check_replay(browser: &mut Browser) {
+    browser.evaluate("document.getElementById('replay-canvas').scrollIntoView({ block: 'center' })");
+    let seen = browser.evaluate(PLACES_WHILE_PLAYING);
+    let seen: BTreeSet<&str> = seen.as_array().expect("a list").iter().filter_map(Value::as_str).collect();
+    assert!(seen.len() >= 3, "it plays: {seen:?}");
+    let label = "document.getElementById('replay-play').getAttribute('aria-label')";
+    browser.evaluate("document.getElementById('replay-play').focus()");
+    assert_eq!(browser.evaluate(label), "Pause");
+    browser.press(SPACE);
+    assert_eq!(browser.evaluate(label), "Play", "the space bar pauses");
+    let place = "Number(document.getElementById('replay-scrub').value)";
+    let rewind = "(() => { const scrub = document.getElementById('replay-scrub'); scrub.focus(); scrub.value = 0; \
+                  scrub.dispatchEvent(new Event('input')); })()";
+    browser.evaluate(rewind);
+    browser.press(RIGHT);
+    assert_eq!(browser.evaluate(place).as_f64(), Some(1.0), "an arrow key scrubs");
+    browser.evaluate("document.activeElement.blur()");
+    browser.press(RIGHT);
+    let after = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => \
+                 done(Number(document.getElementById('replay-scrub').value)))))";
+    assert_eq!(browser.evaluate(after).as_f64(), Some(2.0), "an arrow key steps");
+}
+
+/// Everything that can be used is reached with the Tab key.
+fn check_keyboard(browser: &mut Browser) {
+    let wanted = browser.evaluate(USABLE);
+    browser.evaluate("scrollTo(0, 0); document.activeElement.blur()");
+    // What can be scrolled has the focus once as well.
+    for _ in 0..2 * wanted.as_u64().unwrap_or(0) + 10 {
+        browser.press(TAB);
+        browser.evaluate("document.activeElement.dataset.reached = 1");
+    }
+    assert_eq!(texts(&browser.evaluate(UNREACHED)), [""; 0], "not reached with the keyboard");
+}
+
+fn check_front(browser: &mut Browser, page: &Path, _: &Kind) {
+    browser.open(page, 1280);
+    browser.evaluate("document.getElementById('front-chart').scrollIntoView({ block: 'center' })");
+    let points = browser.evaluate("document.querySelectorAll('.front-point').length").as_u64().expect("a number");
+    assert!(points >= 2, "a front of {points}");
+    for index in [points - 1, 0] {
+        let place = format!(
+            "(() => {{ const box = document.querySelectorAll('.front-point')[{index}].getBoundingClientRect(); \
+             return [box.x + box.width / 2, box.y + box.height / 2]; }})()"
+        );
+        let place = browser.evaluate(&place);
+        browser.click(place[0].as_f64().expect("a number"), place[1].as_f64().expect("a number"));
+        let chosen = browser.evaluate("document.getElementById('front-chart').getAttribute('aria-valuenow')");
+        assert_eq!(chosen, (index + 1).to_string());
+        let note = browser.evaluate("document.getElementById('front-note').textContent");
+        assert!(note.as_str().is_some_and(|note| note.starts_with(&format!("Point {}", index + 1))), "{note}");
+    }
+    assert_eq!(browser.complaints(), [""; 0]);
+}
+
+fn check_hostile(browser: &mut Browser, page: &Path, _: &Kind) {
+    browser.open(page, 1280);
+    assert!(browser.evaluate("typeof window.hostile").as_str() == Some("undefined"), "a script of the creature ran");
+    assert_eq!(browser.evaluate("document.querySelectorAll('img[src=x]').length"), 0);
+    let heading = browser.evaluate("document.body.textContent.includes('window.hostile=1')");
+    assert_eq!(heading, true, "the names are shown as they are");
+    assert_eq!(browser.complaints(), [""; 0]);
+    assert_eq!(browser.requests(page), [""; 0]);
+    // Were one to slip in, the policy would stop it.
+    browser.evaluate(
+        "(() => { const script = document.createElement('script'); script.textContent = 'window.hostile=1'; \
+         document.body.append(script); })()",
+    );
+    assert!(browser.evaluate("typeof window.hostile").as_str() == Some("undefined"), "the policy allows scripts");
+}
+
+fn texts(list: &Value) -> Vec<String> {
+    let list = list.as_array().expect("a list");
+    list.iter().map(|text| text.as_str().unwrap_or_default().to_owned()).collect()
+}
+
+/// Canvases that can be seen and stay of one colour for two seconds.
+const BLANK_CANVASES: &str = r#"(async () => {
+  const blank = [];
+  for (const canvas of document.querySelectorAll("canvas")) {
+    if (!canvas.offsetParent) continue;
+    canvas.scrollIntoView({ block: "center" });
+    let drawn = false;
+    for (let tries = 0; tries < 40 && !drawn; tries += 1) {
+      await new Promise(done => setTimeout(done, 50));
+      if (!canvas.width || !canvas.height) continue;
+      const pixels = new Uint32Array(canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height).data.buffer);
+      drawn = pixels.some(pixel => pixel !== pixels[0]);
+    }
+    if (!drawn) blank.push(canvas.id || canvas.parentElement.className);
+  }
+  return blank;
+})()"#;
+
+/// Where the replay is, over a second.
+const PLACES_WHILE_PLAYING: &str = r#"(async () => {
+  const button = document.getElementById("replay-play");
+  if (button.getAttribute("aria-label") !== "Pause") button.click();
+  const places = [];
+  for (let index = 0; index < 10; index += 1) {
+    await new Promise(done => setTimeout(done, 100));
+    places.push(document.getElementById("replay-scrub").value);
+  }
+  return places;
+})()"#;
+
+/// Marks what can be used; gives how much there is. Of radio buttons of one name the Tab key reaches one.
+const USABLE: &str = r#"(() => {
+  const groups = new Set();
+  let count = 0;
+  for (const item of document.querySelectorAll("a[href], button, input, select, summary, textarea, [tabindex='0']")) {
+    if (item.disabled || !item.checkVisibility({ visibilityProperty: true })) continue;
+    if (item.type === "radio") {
+      if (groups.has(item.name)) continue;
+      groups.add(item.name);
+      item.dataset.group = item.name;
+    }
+    item.dataset.usable = 1;
+    count += 1;
+  }
+  return count;
+})()"#;
+
+/// What was marked and had no focus, by what it is called.
+const UNREACHED: &str = r#"[...document.querySelectorAll("[data-usable]")].filter(item => {
+  if (item.dataset.reached) return false;
+  const group = item.dataset.group;
+  return !group || ![...document.getElementsByName(group)].some(other => other.dataset.reached);
+}).map(item => item.id || item.getAttribute("aria-label") || item.textContent.trim().slice(0, 40) || item.outerHTML.slice(0, 80))"#;
