@@ -225,7 +225,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     };
     let mut builder = tempfile::Builder::new();
     builder.prefix(".gambol-").suffix(".tmp");
-    // Temporary files are private by default; a result may be read by whom the user lets (the umask still counts).
+    // Temporary files are private by default; a result has the usual permissions (the umask still counts).
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     let mut file = builder.tempfile_in(folder)?;

@@ -21,7 +21,7 @@ pub struct Checkpoint<S: Strategy> {
     pub progress: Progress,
     /// The best so far.
     pub champion: Option<Champion<S::Genome>>,
-    /// Those who wait for the next re-evaluation, if a champion selection chooses the champion.
+    /// The candidates that wait for the next re-evaluation, if a champion selection chooses the champion.
     #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
     pub candidates: Vec<Candidate<S::Genome>>,
     /// What a [`Promotion`](crate::promotion::Promotion) has decided after the last generation.

@@ -30,7 +30,7 @@ pub struct Generation<'a, S: Strategy> {
     pub champion: Option<&'a Champion<S::Genome>>,
     /// Whether the champion is new: of this generation or, with a champion selection, of this re-evaluation.
     pub improved: bool,
-    /// Those who wait for the next re-evaluation; none without a champion selection.
+    /// The candidates that wait for the next re-evaluation; none without a champion selection.
     pub candidates: &'a [Candidate<S::Genome>],
     /// The strategy after `tell`.
     pub strategy: &'a S,

@@ -34,8 +34,8 @@ pub fn dominates(one: Point<'_>, other: Point<'_>) -> bool {
 /// Sorts points into fronts: the first holds those that none dominates, the next those that only points of the fronts
 /// before dominate, and so on. Gives the indices of each front, in ascending order; failed points are the last front.
 ///
-/// The fast non-dominated sort, in O(M N²) comparisons of N points with M objectives. Whom a point dominates is
-/// compared again rather than remembered, so that memory stays in O(N).
+/// The fast non-dominated sort, in O(M N²) comparisons of N points with M objectives. Dominance is computed again
+/// rather than remembered, so that memory stays in O(N).
 pub fn fronts(points: &[Point<'_>]) -> Vec<Vec<usize>> {
     let dominators = |&point: &Point<'_>| points.iter().filter(|&&other| dominates(other, point)).count();
     // Of those in no front yet: how many others in no front yet dominate each.
@@ -169,7 +169,7 @@ mod tests {
         })
     }
 
-    /// The definition: 0 if nobody dominates it, else one more than the highest of those that do.
+    /// The definition: 0 if no point dominates it, else one more than the highest of those that do.
     fn front_by_definition(points: &[Point<'_>], index: usize) -> usize {
         let dominating = (0..points.len()).filter(|&other| dominates(points[other], points[index]));
         dominating.map(|other| front_by_definition(points, other) + 1).max().unwrap_or(0)

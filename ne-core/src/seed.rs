@@ -7,8 +7,8 @@ pub type RandomStream = rand_chacha::ChaCha8Rng;
 /// A place in a run, from which random streams are derived.
 ///
 /// The place (run, generation, individual, trial) and the [`Purpose`] *are* the 256-bit key of the stream, so two
-/// streams are the same only if all five are. Nothing is drawn from a shared generator: whoever stands at the same
-/// place gets the same numbers, in whatever order threads arrive there, and after a restart as before.
+/// streams are the same only if all five are. Nothing is drawn from a shared generator: the same place gets the same
+/// numbers, in whatever order threads arrive there, and after a restart as before.
 ///
 /// ```
 /// use ne_core::{Purpose, Seed};

@@ -77,7 +77,7 @@ impl fmt::Display for StopReason {
     }
 }
 
-/// A switch by which anybody (a Ctrl-C handler, a window) can end a run after the generation under way.
+/// A switch by which other code (a Ctrl-C handler, a window) can end a run after the generation under way.
 #[derive(Clone, Debug, Default)]
 pub struct StopSignal(Arc<AtomicBool>);
 
@@ -87,7 +87,7 @@ impl StopSignal {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether somebody asked.
+    /// Whether a stop was requested.
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

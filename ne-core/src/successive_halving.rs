@@ -3,20 +3,20 @@
 use crate::{Evaluation, Evaluator, Failure, Fitness, Genome, Seed, Task};
 use std::{cmp::Reverse, fmt};
 
-/// Spends the whole evaluation on the promising: everybody is evaluated on a cheaper task first, and only the best go on
-/// to the next rung, or to the task itself.
+/// Spends the whole evaluation on the promising individuals: all are evaluated on a cheaper task first, and only the
+/// best go on to the next rung, or to the task itself.
 ///
 /// This is successive halving (Karnin, Koren & Somekh 2013; Jamieson & Talwalkar 2016) within a generation, with a share
 /// and a task of your own for each rung.
 ///
-/// - Whoever reaches the end has the evaluation that the inner evaluator gives.
-/// - Whoever is left behind keeps the evaluation of the last rung it ran. If the best of those left behind in a rung has
-///   not less fitness than the lowest of those who went on, the fitness of all who were left behind there is lowered by
-///   the same amount, so that it has. Their order stays, and so do their differences, as far as `f64` can tell. Only the
-///   fitness is lowered, not objectives or measurements.
+/// - An individual that reaches the end has the evaluation that the inner evaluator gives.
+/// - An individual that is left behind keeps the evaluation of the last rung it ran. If the best of those left behind
+///   in a rung has not less fitness than the lowest of those that went on, the fitness of all that were left behind
+///   there is lowered by the same amount, so that it has. Their order stays, and so do their differences, as far as
+///   `f64` can tell. Only the fitness is lowered, not objectives or measurements.
 /// - A failed evaluation ranks lowest, and of equals the first goes on first.
-/// - If all who went on have failed, as many of the next in rank go on too, until somebody succeeds or everybody has been
-///   evaluated whole. So the best of a generation is never one who was left behind.
+/// - If all individuals that went on have failed, as many of the next in rank go on too, until one succeeds or all have
+///   been evaluated whole. So the best of a generation is never an individual that was left behind.
 /// - The steps of an evaluation are those of all the rungs its individual ran.
 ///
 /// Without rungs it is the inner evaluator.
@@ -30,7 +30,7 @@ pub struct SuccessiveHalving<E> {
 pub struct Rung {
     /// What is evaluated in this rung, for phenotypes of the same shape.
     pub task: Box<dyn Task>,
-    /// The share of those who ran this rung that goes on, above 0 and below 1; rounded up, and at least one.
+    /// The share of the individuals of this rung that goes on, above 0 and below 1; rounded up, and at least one.
     pub share: f64,
 }
 
@@ -54,13 +54,13 @@ impl<E: Evaluator> Evaluator for SuccessiveHalving<E> {
 }
 
 impl<E: Evaluator> SuccessiveHalving<E> {
-    /// Evaluates these genomes in these rungs and, those who get so far, on the task. Either one of them succeeds there,
-    /// or all have failed there.
+    /// Evaluates these genomes in these rungs, and those that get so far on the task. Either one of them succeeds
+    /// there, or all have failed there.
     fn evaluate_from<G: Genome>(&self, rungs: &[Rung], task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
         let Some((rung, later)) = rungs.split_first() else { return self.inner.evaluate(task, genomes, seed) };
         let mut evaluations = self.inner.evaluate(&*rung.task, genomes, seed);
         if evaluations.len() != genomes.len() {
-            // Nobody can say which belongs to whom; whoever asked sees that some are missing.
+            // It is unknown which evaluation belongs to which genome; the caller sees that some are missing.
             return Vec::new();
         }
         let (ranking, places) = (ranking(&evaluations), places(rung.share, genomes.len()));
@@ -105,11 +105,11 @@ fn ranking(evaluations: &[Evaluation]) -> Vec<usize> {
     ranking
 }
 
-/// Lowers the fitness of those left behind, who are given in the order of their rank, by one constant, so that the best of
-/// them is strictly below `lowest`.
+/// Lowers the fitness of the individuals left behind by one constant, so that the best of them is strictly below
+/// `lowest`. `behind` has them in the order of their rank.
 ///
-/// Where rounding would make equals of two who are not, the lower one goes down to the next number. Below the lowest number
-/// of all there is only failure.
+/// Where rounding would make two different fitnesses equal, the lower one goes down to the next number. Below the
+/// lowest number of all there is only failure.
 fn put_below(lowest: Fitness, behind: &[usize], evaluations: &mut [Evaluation]) {
     let fitness = |index: usize| evaluations[index].fitness().map(Fitness::get);
     let Some(best) = behind.first().and_then(|&index| fitness(index)).filter(|&best| best >= lowest.get()) else {
@@ -147,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn whoever_is_below_already_stays_where_it_is() {
+    fn a_fitness_that_is_below_already_stays_where_it_is() {
         assert_eq!(below(3.0, &[1.0, f64::NAN, 2.5, 1.0]), [Some(1.0), None, Some(2.5), Some(1.0)]);
     }
 
@@ -172,7 +172,7 @@ mod tests {
     }
 
     #[test]
-    fn shares_are_rounded_up_and_never_nobody() {
+    fn shares_are_rounded_up_and_never_zero() {
         for (share, count, expected) in
             [(0.5, 10, 5), (0.5, 11, 6), (0.07, 100, 7), (0.55, 100, 55), (0.01, 3, 1), (0.99, 3, 3), (0.5, 1, 1)]
         {
@@ -191,7 +191,7 @@ mod tests {
             for (old, new) in left.iter().zip(&found) {
                 prop_assert!(new.is_none_or(|new| new < lowest));
                 for (other, others) in left.iter().zip(&found) {
-                    // Those for whom no number is low enough are failures alike.
+                    // Individuals without a number low enough are all failures.
                     prop_assert!(new.partial_cmp(others) == old.partial_cmp(other) || (*new, *others) == (None, None));
                 }
             }

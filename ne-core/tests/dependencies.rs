@@ -2,8 +2,8 @@
 
 use std::{collections::BTreeSet, process::Command};
 
-/// Every crate of `default-features = false`, and why it is there. A crate more is a decision: it is paid for by
-/// everybody who embeds the traits.
+/// Every crate of `default-features = false`, and why it is there. A crate more is a decision: every program that
+/// embeds the traits pays for it.
 const ALLOWED: &[(&str, &str)] = &[
     ("ne-core", "this crate"),
     ("rand", "the traits of random generators, by which selectors and plug-ins draw"),

@@ -292,7 +292,7 @@ fn solves_exclusive_or_with_every_seed() {
     }
 }
 
-/// Golden: another digest is another run for everyone who recorded one.
+/// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {
     let thesis = ConventionalNeSettings::thesis();

@@ -79,7 +79,7 @@ pub enum StateError {
     /// A parent is of no species, or a species has no member.
     #[error("{what}")]
     Membership {
-        /// Who is without whom.
+        /// Which parent or species, and what it lacks.
         what: String,
     },
     /// A number is not in its range.
@@ -104,7 +104,7 @@ pub(crate) struct State {
     stagnation: u64,
     /// Those of the generation last told, in order of their numbers.
     species: Vec<SavedSpecies>,
-    /// Who is in the first generation, if it is not drawn; empty after it.
+    /// The first generation, if it is not drawn; empty after it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     start: Vec<Genes>,
     /// The generation last told; empty before the first.

@@ -75,7 +75,7 @@ impl Activation {
     }
 
     /// The same for sums side by side, of as many nets or neurons.
-    // Always inlined, so that it is compiled for the instruction set of whoever calls it.
+    // Always inlined, so that it is compiled for the instruction set of its caller.
     #[inline(always)]
     pub fn apply_to_lanes<const LANES: usize>(self, sums: &mut [f32; LANES]) {
         match self {

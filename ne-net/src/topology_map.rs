@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 /// What becomes of weights when a topology grows: each weight of the grown one goes on from a weight of the old one, or is
 /// new and begins at 0.
 ///
-/// A new input whose weights are 0 adds 0 to every sum, and a new neuron that nobody hears, or whose weights are 0, changes
-/// no other: so a net does after the growth what it did before, to the bit, as long as the sources that were there before
-/// are summed in the order they had.
+/// A new input whose weights are 0 adds 0 to every sum. A new neuron that no neuron has as a source, or whose weights
+/// are 0, changes no other neuron. So a net does after the growth what it did before, to the bit, as long as the
+/// sources that were there before are summed in the order they had.
 ///
 /// ```
 /// use ne_net::TopologyMap;

@@ -15,13 +15,13 @@ pub(super) struct Spy {
 }
 
 impl Spy {
-    /// A spy that has been used by somebody else.
+    /// A spy that another caller has used.
     pub(super) fn new(inputs: usize, outputs: usize) -> Self {
         let puppet = Puppet::new(inputs, outputs, 1).express();
         Self { puppet, used: true, used_unreset: false, wrong_slices: None, non_finite_input: None }
     }
 
-    /// Lets it look used by somebody else again.
+    /// Lets it look used by another caller again.
     pub(super) fn use_again(&mut self) {
         self.used = true;
     }

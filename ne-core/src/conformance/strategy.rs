@@ -14,7 +14,7 @@ pub const RUNS: Promise = Promise::new("strategy", "it answers `ask` and `tell` 
 /// A name that can be typed.
 pub const NAME: Promise =
     Promise::new("strategy", "a name of lower-case letters, digits and hyphens that never changes");
-/// There is always somebody.
+/// The population is never empty.
 pub const POPULATION: Promise =
     Promise::new("strategy", "`ask` gives at least one genome, and as many each time unless it says otherwise");
 /// One shape.

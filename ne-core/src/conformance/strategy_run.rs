@@ -63,7 +63,7 @@ pub(super) fn generation<S: Strategy>(
     let genomes = strategy.ask(seed).to_vec();
     let evaluations: Vec<Evaluation> =
         genomes.iter().enumerate().map(|(index, genome)| results.evaluate(genome, index, generation)).collect();
-    // Who asked for nothing need not understand an answer; the check of the population says so.
+    // A strategy that asked for nothing need not understand an answer; the check of the population says so.
     if !genomes.is_empty() {
         strategy.tell(&evaluations, seed);
     }

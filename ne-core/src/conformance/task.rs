@@ -24,10 +24,10 @@ pub const BATCH: Promise =
 pub const RESETS: Promise = Promise::new("task", "the phenotype is reset before its first step");
 /// It keeps to the phenotype's shape.
 pub const FEEDS: Promise =
-    Promise::new("task", "`activate` gets slices of the declared lengths; who sees NaN does not succeed");
+    Promise::new("task", "`activate` gets slices of the declared lengths; an evaluation with a NaN input fails");
 /// Wrong shape, no panic.
 pub const WRONG_SHAPE_FAILS: Promise =
-    Promise::new("task", "a phenotype of another shape gets a failure and disturbs nobody in its batch");
+    Promise::new("task", "a phenotype of another shape gets a failure and changes nothing else in its batch");
 /// No success without numbers.
 pub const NAN_FAILS: Promise = Promise::new("task", "a phenotype whose outputs are NaN gets a failure");
 /// Every number can be written down.

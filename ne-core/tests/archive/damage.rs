@@ -41,7 +41,7 @@ fn every_truncated_file_is_an_error() -> Outcome {
     let path = folder.path().join("file");
     write(&path, Layout::Compact)?;
     let bytes = fs::read(&path)?;
-    // The last byte is a line break, which nobody misses.
+    // The last byte is a line break: the file is whole without it.
     for length in 0..bytes.len() - 1 {
         fs::write(&path, &bytes[..length])?;
         let error = read(&path).expect_err("it is truncated");
@@ -96,7 +96,7 @@ fn an_edited_file_is_told_from_a_damaged_one() -> Outcome {
     fs::write(&path, fs::read_to_string(&path)?.replace("-12.75", "99"))?;
     let error = read(&path).expect_err("it was edited");
     assert!(matches!(error, ArchiveError::Damaged { .. }), "{error}");
-    // Those who want to look at it all the same can.
+    // It can be read all the same, without verification.
     let (value, digests) = archive::read_unverified(&path, FORMAT, VERSION)?;
     assert_ne!(digests.expected, digests.found);
     assert_eq!(archive::content::<Content>(&path, value)?.fitness, Some(99.0));

@@ -85,7 +85,7 @@ impl Strategy for Flawed {
         self.failed = evaluations.iter().all(|evaluation| evaluation.outcome.is_err());
         self.extreme |= evaluations.iter().filter_map(Evaluation::fitness).any(|fitness| fitness.get() > 1e100);
         self.unsaved += 1;
-        assert!(!(self.failed && self.flaw == Flaw::PanicsWhenAllFail), "nobody left");
+        assert!(!(self.failed && self.flaw == Flaw::PanicsWhenAllFail), "no individual left");
         assert!(!(self.flaw == Flaw::GivesUp && seed.generation_index() == 2), "this is hopeless");
         self.inner.tell(evaluations, seed);
     }

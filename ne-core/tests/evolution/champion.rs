@@ -70,7 +70,7 @@ fn an_empty_population_is_an_error_with_names() {
     let mut evolution =
         Script::evolution(&[&[1.0], &[]], StopConditions { generations: Some(9), ..Default::default() });
     let prompter = Prompter::of(&evolution);
-    let error = evolution.run(&Unused, &prompter, &mut []).expect_err("nobody was asked for");
+    let error = evolution.run(&Unused, &prompter, &mut []).expect_err("no genome was asked for");
     assert_eq!(error.to_string(), "the strategy \"script\" asked for the evaluation of no genome in generation 2");
     assert_eq!(evolution.progress().generations, 1);
 }

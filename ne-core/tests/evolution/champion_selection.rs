@@ -18,12 +18,12 @@ use std::sync::{Arc, Mutex};
 const FAILED: f64 = f64::NAN;
 const WORLD: Seed = Seed::of_run(99);
 
-/// Knows beforehand what each genome of a script is worth, and keeps who came before it.
+/// Knows beforehand what each genome of a script is worth, and keeps the candidates that it judged.
 #[derive(Clone, Default)]
 struct Known {
     /// The same shape as the script.
     worth: Vec<Vec<f64>>,
-    /// The same shape, or shorter: who is not in it has tier 0.
+    /// The same shape, or shorter: a genome that is not in it has tier 0.
     tiers: Vec<Vec<u8>>,
     heard: Arc<Mutex<Vec<Vec<Puppet>>>>,
     diverged: bool,
@@ -82,7 +82,7 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
         )
     };
     assert_eq!(next(), (None, None, 1, 0));
-    assert_eq!(next(), (None, None, 1, 0), "a generation that failed has nobody");
+    assert_eq!(next(), (None, None, 1, 0), "a generation that failed has no candidates");
     let (judged, trained) = (Some(fitness(4.0)), Some(fitness(3.0)));
     let report = ReEvaluationReport { candidates: 3, judged, trained, diverged: false };
     assert_eq!(next(), (Some(4.0), Some(report), 0, 0));
@@ -114,7 +114,7 @@ fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_champion_select
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-        let champion = evolution.champion().expect("somebody");
+        let champion = evolution.champion().expect("a champion");
         let judged = report.re_evaluation.and_then(|re_evaluation| re_evaluation.judged).map(Fitness::get);
         (champion.generation, champion.fitness.get(), judged, evolution.progress().stagnation)
     };
@@ -140,7 +140,7 @@ fn a_higher_tier_dethrones_a_fitter_champion_and_no_fitness_a_higher_tier() {
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-        let champion = evolution.champion().expect("somebody");
+        let champion = evolution.champion().expect("a champion");
         assert_eq!((report.best_so_far, report.tier), (Some(champion.fitness), champion.tier));
         (champion.generation, champion.tier, champion.fitness.get(), evolution.progress().stagnation)
     };
@@ -148,7 +148,7 @@ fn a_higher_tier_dethrones_a_fitter_champion_and_no_fitness_a_higher_tier() {
     assert_eq!(next(), (2, 1, 2.0, 0), "less fit, of a higher tier");
     assert_eq!(next(), (2, 1, 2.0, 1), "fitter, of a lower tier");
     assert_eq!(next(), (4, 1, 3.0, 0), "of the same tier, and fitter");
-    assert_eq!(next(), (4, 1, 3.0, 1), "who failed has no tier");
+    assert_eq!(next(), (4, 1, 3.0, 1), "a failed candidate has no tier");
     assert_eq!(next(), (6, 2, 1.0, 0));
 }
 
@@ -161,12 +161,12 @@ fn at_one_re_evaluation_the_highest_tier_wins_and_then_fitness() {
     evolution = evolution.with_champion_selection(re_evaluations, known);
     let prompter = Prompter::of(&evolution);
     let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-    let champion = evolution.champion().expect("somebody");
+    let champion = evolution.champion().expect("a champion");
     assert_eq!((champion.genome.clone(), champion.tier), (genome(1, 2), 1));
     assert_eq!(
         report.re_evaluation.and_then(|re_evaluation| re_evaluation.judged),
         Some(fitness(3.0)),
-        "of who stood highest"
+        "of the candidate that stood highest"
     );
 }
 
@@ -224,7 +224,7 @@ fn a_resumed_run_knows_the_tier_of_its_champion() -> Result<(), Box<dyn std::err
     Ok(())
 }
 
-/// Between re-evaluations nobody can know whether there is progress.
+/// Between re-evaluations it is unknown whether there is progress.
 #[test]
 fn stop_conditions_look_at_the_champion() {
     let run = |stop: StopConditions| {
@@ -358,7 +358,7 @@ fn a_run_with_a_champion_selection_resumed_at_any_generation_ends_the_same() -> 
     Ok(())
 }
 
-/// A champion selection changes who is champion, and nothing of the search.
+/// A champion selection changes the champion, and nothing of the search.
 #[test]
 fn a_champion_selection_does_not_steer() {
     let (mut with, mut without) = (judged(crate::evolution(9)), crate::evolution(9));
@@ -395,10 +395,10 @@ fn borrowed(lines: &[Vec<f64>]) -> Vec<&[f64]> {
 }
 
 proptest! {
-    /// Against the rule, written down naively: of all who were heard the first with the highest worth among those of the
-    /// highest tier.
+    /// Against the rule, written down naively: of all judged candidates the first with the highest worth among those of
+    /// the highest tier.
     #[test]
-    fn the_champion_is_the_best_of_all_who_were_heard(
+    fn the_champion_is_the_best_of_all_judged_candidates(
         run in prop::collection::vec(prop::collection::vec((-3..4_i8, -3..4_i8, 0..3_u8), 1..5), 1..12),
         every in 1..5_u64,
         candidates in 1..4_usize,

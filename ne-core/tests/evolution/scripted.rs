@@ -59,7 +59,7 @@ impl Evaluator for Prompter {
     }
 }
 
-/// A task nobody is evaluated on.
+/// A task on which no individual is evaluated.
 pub(crate) struct Unused;
 
 impl Task for Unused {
@@ -72,6 +72,6 @@ impl Task for Unused {
     }
 
     fn evaluate(&self, _: &mut dyn Phenotype, _: Seed) -> Evaluation {
-        Evaluation::failed(Failure::Other { what: "nobody should ask".into() })
+        Evaluation::failed(Failure::Other { what: "this task is not to be evaluated".into() })
     }
 }

@@ -1,4 +1,4 @@
-//! Evaluating in rungs: who goes on, what those left behind are worth, and what it costs.
+//! Evaluating in rungs: which individuals go on, what those left behind are worth, and what it costs.
 
 use crate::{
     common::{Climber, Imitate},
@@ -109,7 +109,7 @@ fn the_best_go_on_and_the_others_are_put_below_them() {
 }
 
 #[test]
-fn if_all_who_went_on_failed_the_next_in_rank_go_on() {
+fn if_all_that_went_on_failed_the_next_in_rank_go_on() {
     let entrant = |short, long| Entrant(vec![Some(short), long]);
     let entrants = [
         entrant(1.0, Some(7.0)),
@@ -198,7 +198,7 @@ fn field() -> impl Strategy<Value = (Vec<f64>, Vec<Entrant>)> {
 
 proptest! {
     #[test]
-    fn whoever_reaches_the_end_is_evaluated_as_by_the_inner_evaluator((shares, entrants) in field()) {
+    fn an_individual_that_reaches_the_end_is_evaluated_as_by_the_inner_evaluator((shares, entrants) in field()) {
         let evaluations = evaluate(Serial, &shares, &entrants);
         prop_assert_eq!(evaluations.len(), entrants.len());
         let whole = Serial.evaluate(&Gene(shares.len()), &entrants, SEED);
@@ -210,7 +210,7 @@ proptest! {
     }
 
     #[test]
-    fn whoever_is_left_behind_ranks_below_whoever_went_further((shares, entrants) in field()) {
+    fn an_individual_left_behind_ranks_below_those_that_went_further((shares, entrants) in field()) {
         let evaluations = evaluate(Serial, &shares, &entrants);
         for (one, behind) in evaluations.iter().enumerate() {
             let gene = tasks_run(behind) - 1;
@@ -219,7 +219,7 @@ proptest! {
             for (other, further) in evaluations.iter().enumerate() {
                 if tasks_run(further) > gene + 1 && further.outcome.is_ok() {
                     prop_assert!(behind.fitness() < further.fitness());
-                    // In the rung that both ran, the one who went further was no worse, of equals the first.
+                    // In the rung that both ran, the one that went further was no worse, of equals the first.
                     let (mine, theirs) = (entrants[one].0[gene], entrants[other].0[gene]);
                     prop_assert!(theirs > mine || (theirs == mine && other < one));
                 } else if tasks_run(further) == gene + 1 {
@@ -236,7 +236,7 @@ proptest! {
         let ran = |tasks: usize| evaluations.iter().filter(|evaluation| tasks_run(evaluation) >= tasks).count();
         let succeeded = |evaluation: &&Evaluation| tasks_run(evaluation) > shares.len() && evaluation.outcome.is_ok();
         let winners = evaluations.iter().filter(succeeded).count();
-        prop_assert!(winners > 0 || ran(shares.len() + 1) == entrants.len(), "everybody has had a chance");
+        prop_assert!(winners > 0 || ran(shares.len() + 1) == entrants.len(), "all have been evaluated whole");
         let failed = evaluations.iter().any(|evaluation| tasks_run(evaluation) > shares.len() && evaluation.outcome.is_err());
         for (rung, share) in shares.iter().enumerate() {
             let places = (share * ran(rung + 1) as f64 - 1e-9).ceil() as usize;

@@ -32,10 +32,10 @@ proptest! {
     ) {
         let chosen = select(&selection, &scores, count, run);
         prop_assert_eq!(chosen.len(), if scores.is_empty() { 0 } else { count });
-        let somebody = scores.iter().any(Option::is_some);
+        let any_score = scores.iter().any(Option::is_some);
         for index in chosen {
             prop_assert!(index < scores.len());
-            prop_assert!(scores[index].is_some() || !somebody);
+            prop_assert!(scores[index].is_some() || !any_score);
         }
     }
 

@@ -46,7 +46,7 @@ const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     pub(super) settings: ConventionalNeSettings<S, C, M>,
     pub(super) topology: Topology,
-    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    /// The first generation, best first, if it is not drawn; empty after it.
     pub(super) start: Vec<WeightVector>,
     /// The generation last told, with its scores: the parents of the next. Empty before the first.
     pub(super) parents: Vec<WeightVector>,

@@ -17,7 +17,7 @@ pub(super) struct State<S, C, M> {
     best: Option<Fitness>,
     stagnation: u64,
     distinct_parents: usize,
-    /// Who is in the first generation, if it is not drawn; empty after it.
+    /// The first generation, if it is not drawn; empty after it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     start: Vec<Genes>,
     /// The generation last told; empty before the first.

@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 pub(super) struct State {
     settings: CosyneSettings,
     topology: Topology,
-    /// Who is in the first generation, if it is not drawn; empty after it.
+    /// The first generation, if it is not drawn; empty after it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     start: Vec<Vec<f32>>,
     /// The generation last told; empty before the first.

@@ -34,7 +34,7 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 pub struct Cosyne {
     pub(super) settings: CosyneSettings,
     pub(super) topology: Topology,
-    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    /// The first generation, best first, if it is not drawn; empty after it.
     pub(super) start: Vec<WeightVector>,
     /// The generation last told, with its scores. Empty before the first.
     pub(super) parents: Vec<WeightVector>,
@@ -116,7 +116,7 @@ impl Cosyne {
         cauchy::mutate(genes, *mutation_rate, *mutation_scale, &mut stream);
     }
 
-    /// In each subpopulation, marked weights change places; children, who come last, are not marked by fitness.
+    /// In each subpopulation, marked weights change places; children, which come last, are not marked by fitness.
     fn permute(&self, table: &mut [WeightVector], order: &[usize], seed: Seed) {
         let scores: Vec<_> = order.iter().map(|&index| self.scores[index]).collect();
         let mut probabilities = self.settings.permutation.probabilities(&scores, self.topology.weight_count());

@@ -11,7 +11,7 @@ pub struct Nsga2Settings {
     pub population: usize,
     /// Whether parents are evaluated again beside their children, each half of the population, so that all were in the
     /// same worlds; default yes. Without, as in the paper, a parent keeps what it was told once, and in worlds that
-    /// vary with the generation the front fills with those who were lucky.
+    /// vary with the generation the front fills with lucky individuals.
     pub parents_again: bool,
     /// How parents are selected by rank and crowding; default a tournament of two, as in the paper.
     pub selection: Selection,

@@ -14,7 +14,7 @@ pub(super) struct State {
     settings: Nsga2Settings,
     topology: Topology,
     reference: Option<Vec<Fitness>>,
-    /// Who is in the first generation, if it is not drawn; empty after it.
+    /// The first generation, if it is not drawn; empty after it.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     start: Vec<Genes>,
     /// The survivors of the generation last told; empty before the first.
@@ -87,7 +87,7 @@ fn check_objectives(parents: &[SavedParent], reference: Option<&[Fitness]>) -> R
     });
     let Some(expected) = reference.map(<[Fitness]>::len) else {
         return match counts.into_iter().next() {
-            Some(_) => Err(SettingError::new("reference", "null", "given where anybody has scores")),
+            Some(_) => Err(SettingError::new("reference", "null", "given if a parent has scores")),
             None => Ok(()),
         };
     };

@@ -23,7 +23,7 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 /// From a generation that was evaluated the next is made in these steps:
 /// 1. parents and children together are sorted into fronts of which none dominates another within
 ///    ([`pareto::fronts`]);
-/// 2. front by front they become the next parents; of the front that no longer fits, those who have most room to
+/// 2. front by front they become the next parents; of the front that no longer fits, the individuals with most room to
 ///    themselves ([`pareto::crowding`]), so that the whole front stays in sight; of equals, those with the lower index;
 /// 3. children are bred by parents that win tournaments: the earlier front is better, in one front the roomier place.
 ///
@@ -33,8 +33,8 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 /// # Statistics
 /// - `front_size`: how many different points the first front of the parents has;
 /// - `hypervolume`: the area the front dominates, in the product of the objectives' units, seen from the lowest values
-///   of the first generation of which anybody succeeded; what is worse than that in an objective adds nothing. 0 unless
-///   there are two objectives;
+///   of the first generation in which an individual succeeded; what is worse than that in an objective adds nothing. 0
+///   unless there are two objectives;
 /// - `diversity`: the standard deviation of a gene over the parents, mean of all genes, in units of the weights.
 ///
 /// Source: Deb, Pratap, Agarwal & Meyarivan, *A Fast and Elitist Multiobjective Genetic Algorithm: NSGA-II*, IEEE
@@ -45,7 +45,7 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 pub struct Nsga2 {
     pub(super) settings: Nsga2Settings,
     pub(super) topology: Topology,
-    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    /// The first generation, best first, if it is not drawn; empty after it.
     pub(super) start: Vec<WeightVector>,
     /// The survivors of the generation last told, best first. Empty before the first.
     pub(super) parents: Vec<Parent>,
@@ -271,7 +271,7 @@ impl Strategy for Nsga2 {
     }
 }
 
-/// The lowest value of each objective, if anybody succeeded.
+/// The lowest value of each objective, if any individual succeeded.
 fn lowest(points: &[Point<'_>]) -> Option<Vec<Fitness>> {
     points
         .iter()

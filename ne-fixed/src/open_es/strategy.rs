@@ -10,8 +10,8 @@ const NOISE: Purpose = Purpose::new("open-es noise");
 /// The evolution strategy of OpenAI: a centre climbs the gradient of the expected fitness of its noisy copies, which it
 /// estimates from their ranks.
 ///
-/// A generation consists of the centre θ, for whoever wants the champion: it is evaluated and takes no part in the
-/// estimate; and of pairs θ + σε, θ − σε (antithetic sampling), each with its own ε ~ N(0, I). Once evaluated,
+/// A generation consists of the centre θ, which is evaluated as a possible champion and takes no part in the estimate,
+/// and of pairs θ + σε, θ − σε (antithetic sampling), each with its own ε ~ N(0, I). Once evaluated,
 /// 1. each sample has its centred rank u, from −½ for the worst to ½ for the best;
 /// 2. the gradient is Σ u ε / (λσ) for λ samples, less the weight decay times θ;
 /// 3. [`Adam`](crate::Adam) moves θ along it;

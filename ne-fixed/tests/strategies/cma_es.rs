@@ -59,7 +59,7 @@ fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) }), 60);
 }
 
-/// Golden: another digest is another run for everyone who recorded one.
+/// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {
     let digests = [

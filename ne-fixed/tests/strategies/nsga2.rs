@@ -83,7 +83,7 @@ fn goes_on_to_the_bit_after_a_save() {
     }
 }
 
-/// Golden: another digest is another run for everyone who recorded one.
+/// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {
     let digests = [digest(new(Nsga2Settings::default()), 20), digest(new(as_in_the_paper()), 20)];
@@ -111,7 +111,7 @@ fn approaches_the_whole_front_of_zdt1() {
 }
 
 #[test]
-fn the_front_is_in_order_and_nobody_in_it_is_beaten() {
+fn the_front_is_in_order_and_no_point_in_it_is_dominated() {
     for settings in [Nsga2Settings::default(), as_in_the_paper()] {
         for generations in [1, 2, 10] {
             let strategy = searched(settings.clone(), 1, generations);
@@ -236,7 +236,7 @@ fn damaged_states_are_errors_that_name_the_field() {
                 |s| s["parents"][3]["scores"]["objectives"] = json!([0.0, 1.0]),
                 "parents[3].scores.objectives = 2 numbers: must be 1 numbers, as the reference has",
             ),
-            (|s| s["reference"] = json!(null), "reference = null: must be given where anybody has scores"),
+            (|s| s["reference"] = json!(null), "reference = null: must be given if a parent has scores"),
             (|s| s["asked"] = json!([{ "mutation_deviation": 0.0, "weights": [1.0] }]), "asked: found 1 individuals"),
         ],
     );

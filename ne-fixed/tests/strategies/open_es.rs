@@ -35,7 +35,7 @@ fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(decaying()), 5);
 }
 
-/// Golden: another digest is another run for everyone who recorded one.
+/// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {
     let graph = OpenEs::new(OpenEsSettings::default(), recurrent()).expect("valid");

@@ -169,7 +169,8 @@ impl Phenotype for GraphNet {
             let (members, later) = neurons.split_at(group.neurons as usize);
             let start = node;
             for &neuron in members {
-                // Nothing reads this value before the group's activation: who needs it new is in a later group.
+                // Nothing reads this value before the group's activation: a neuron that needs it new is in a later
+                // group.
                 values[node] = weighted_sum(neuron, &mut weights, &mut sources, values);
                 node += 1;
             }
