@@ -3,7 +3,7 @@
 use crate::{Creature, CreatureError, Motor, Shape, check, legs, parse};
 
 /// A checked creature in the form engines want: SI units, radians, indices for names, anchors in the parts' own
-/// frames. Whoever holds one need not validate anything.
+/// frames. Its users need not validate anything.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Blueprint {
     creature: Creature,
@@ -56,7 +56,8 @@ pub struct Hinge {
     /// Smallest and largest angle of the child against the parent, rad, relative to the start pose: at most 0, at
     /// least 0, no more than 2π apart.
     pub limits: [f32; 2],
-    /// What drives it, if anything does. A motor of a hinge that is not actuated is nobody's to move: hold it still.
+    /// What drives it, if anything does. The net does not move the motor of a hinge that is not actuated: hold it
+    /// still.
     pub motor: Option<Motor>,
     /// Whether its motor is an output of the net: it has one, and its child has an actuated tag.
     pub actuated: bool,

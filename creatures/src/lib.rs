@@ -3,9 +3,9 @@
 //! **The one decision of this crate: a creature is a file, and nothing else.** No code belongs to a particular body,
 //! and nothing here knows about physics or about learning. A [`Creature`] is the JSON file as its author wrote it
 //! (degrees, names, looks). A [`Blueprint`] is the same creature checked and resolved (radians, indices, local
-//! anchors): whoever holds one knows that it makes sense, so engines never validate. Between a body and its net stand
-//! two small tables: [`Senses`] (what the body tells, scaled to what a net likes) and [`Motors`] (what the net asks of
-//! the joints). Any engine takes part by implementing [`BodyView`].
+//! anchors). Every blueprint is valid, so engines never validate. Between a body and its net stand two small tables:
+//! [`Senses`] (what the body tells, scaled to what a net likes) and [`Motors`] (what the net asks of the joints). Any
+//! engine takes part by implementing [`BodyView`].
 //!
 //! ```text
 //! creature.json ── Creature ── Blueprint ──┬── engine: bodies, hinges, motors

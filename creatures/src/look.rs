@@ -1,7 +1,7 @@
 //! How a creature is drawn. Nothing here has any influence on its physics.
 //!
 //! # The rules of drawing
-//! Whoever draws a creature (report, editor, game) follows these rules, so that it looks the same everywhere.
+//! Programs that draw a creature (report, editor, game) follow these rules, so that it looks the same everywhere.
 //!
 //! 1. Parts are drawn in the order of their [`layer`](Look::layer), lowest first; parts of the same layer in the order
 //!    of the file. See [`Creature::drawing_order`](crate::Creature::drawing_order).

@@ -10,7 +10,7 @@ pub enum Problem {
     /// No parts, so no torso.
     #[error("parts: a creature needs parts; the first one is its torso")]
     NoTorso,
-    /// More parts than anybody needs.
+    /// More parts than a creature may have.
     #[error("parts: at most {MOST_PARTS} parts, found {count}")]
     TooManyParts {
         /// How many there are.

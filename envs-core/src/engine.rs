@@ -11,7 +11,7 @@ use tasks::PartState;
 /// An implementor owes:
 /// - what happens is a function of what `new` was given, of the speeds asked for and of the nudges, to the bit, on any
 ///   thread;
-/// - a clone goes on to the bit as the original would, and what happens to one happens to nobody else;
+/// - a clone goes on to the bit as the original would, and what happens to one happens to no other;
 /// - all but `new` and `clone` allocate nothing that grows with time, and none of them panics, whatever speed is asked
 ///   for or added, as long as it is a number.
 pub trait Engine: Clone + Send + Sync {

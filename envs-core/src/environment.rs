@@ -284,8 +284,8 @@ impl<E: Engine> CreatureEnvironment<E> {
         Cow::Owned(Ground { shapes }.into())
     }
 
-    /// What the trial with this seed begins with, and what `reset` puts in place; for those who step many creatures at
-    /// once by themselves.
+    /// What the trial with this seed begins with, and what `reset` puts in place; for callers that step many creatures
+    /// at once by themselves.
     ///
     /// # Errors
     /// If the creature cannot come to rest in the world of this trial.

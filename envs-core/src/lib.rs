@@ -23,7 +23,7 @@
 //! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
 //!   can be shown and compared; engines draw nothing. [`CreatureEnvironment::under`] builds a world of given conditions.
 //!
-//! What those who judge movements may know of a creature, [`body_of`] tells them.
+//! [`body_of`] gives what the judges of movements may know of a creature.
 //!
 //! ```
 //! use envs_core::{Conditions, Ground, GroundShape, Variation};

@@ -150,8 +150,8 @@ impl Variation {
         }
     }
 
-    /// [`light`](Self::light) with bumps up to 2 cm high and up to 8 solver iterations, for gaits that last: who stumbles over a
-    /// bump has to go on, and the more iterations, the harder ground and joints answer.
+    /// [`light`](Self::light) with bumps up to 2 cm high and up to 8 solver iterations, for gaits that last: a creature
+    /// that stumbles over a bump has to go on, and the more iterations, the harder ground and joints answer.
     pub const fn bumpy() -> Self {
         Self { bumps: 0.02, solver_iterations: Some([1, 8]), ..Self::light() }
     }

@@ -61,7 +61,7 @@ fn main() {
     }
 }
 
-/// µs a step of rapier takes when nobody senses or decides anything.
+/// µs a step of rapier takes without sensing and deciding.
 fn alone(mut environment: RapierEnvironment) -> f64 {
     let mut best = f64::INFINITY;
     for _ in 0..5 {

@@ -18,7 +18,7 @@ use tasks::Snapshot;
 /// hardly longer than one.
 ///
 /// A lane is a creature only between [`begin`](Self::begin) and the end of its trial; what is left in it afterwards goes
-/// on moving, and nobody looks.
+/// on moving, and is ignored.
 #[derive(Clone)]
 pub(crate) struct Batch<const W: usize> {
     instructions: Instructions,

@@ -5,7 +5,8 @@ use tasks::PartState;
 
 /// The lane solver with a single lane: one creature on its ground.
 ///
-/// For whoever wants one creature at a time, in the place of rapier; a [`LaneEpisode`](crate::LaneEpisode) steps many.
+/// For callers that want one creature at a time, in the place of rapier; a [`LaneEpisode`](crate::LaneEpisode) steps
+/// many.
 #[derive(Clone, Debug)]
 pub struct LaneEngine {
     world: LaneWorld<1>,
@@ -27,7 +28,7 @@ impl LaneEngine {
         self.world.is_level() == other.world.is_level()
     }
 
-    /// Worlds of the same kind for more creatures, with nobody in them yet.
+    /// Worlds of the same kind for more creatures, with no creature in them yet.
     pub(crate) fn widened<const W: usize>(&self) -> LaneWorld<W> {
         self.world.widened()
     }

@@ -6,7 +6,7 @@
 //!
 //! - [`LaneEpisode`] is the [`Task`](ne_core::Task) for training: it plays batches.
 //! - [`play`] shows what controllers do, each in a world of its own.
-//! - [`LaneEnvironment`] is a single creature, for whoever has a place for a [`tasks::Environment`].
+//! - [`LaneEnvironment`] is a single creature, for callers that take a [`tasks::Environment`].
 //!
 //! Three decisions:
 //!

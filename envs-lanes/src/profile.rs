@@ -69,7 +69,7 @@ impl Laps {
         Self { profile: Profile::default(), last: Instant::now(), look }
     }
 
-    /// Not inlined: who steps for training has no stopwatch, and no code for one in the middle of the solver.
+    /// Not inlined: training has no stopwatch, and no code for one in the middle of the solver.
     #[inline(never)]
     pub(crate) fn lap(&mut self, part: Part) {
         let now = Instant::now();

@@ -1,8 +1,8 @@
 //! A generation on stage: its trials in the lanes of as many threads as there are.
 //!
-//! Trials are handed out one by one from a queue, so that lanes and threads stay busy until hardly any are left. Who plays
-//! what where is chance, and changes no result: a lane knows nothing of its neighbours, and the trials of an individual are
-//! added up in their order once all have been played.
+//! Trials are handed out one by one from a queue, so that lanes and threads stay busy until hardly any are left. Which
+//! trial is played in which lane is chance, and changes no result: a lane knows nothing of its neighbours, and the
+//! trials of an individual are added up in their order once all have been played.
 
 use crate::{LANES, LaneEngine, LaneEpisode, batch::Batch};
 use envs_core::Settled;

@@ -10,8 +10,8 @@ use std::collections::BTreeMap;
 /// that. Mutations only *propose* new structure; numbers are given afterwards, individual by individual, so that it does
 /// not matter in which order individuals were mutated.
 ///
-/// Connections from inputs to outputs have their numbers from the beginning and keep them: whoever has lost one, or
-/// started without, and invents it later, has the same gene again. Those of a [hidden
+/// Connections from inputs to outputs have their numbers from the beginning and keep them: a genome that has lost one,
+/// or started without it, has the same gene again if it invents the connection later. Those of a [hidden
 /// layer](crate::StartTopology::HiddenLayer) have numbers from the beginning too.
 ///
 /// Source: Stanley & Miikkulainen, *Evolving Neural Networks through Augmenting Topologies*, Evolutionary Computation

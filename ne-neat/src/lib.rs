@@ -15,7 +15,7 @@
 //! | historical markings | `innovation.rs` |
 //! | distance between genomes | [`Compatibility`], `compatibility.rs` |
 //! | species, fitness sharing, stagnation | [`SpeciationSettings`], `speciation` |
-//! | who breeds with whom | [`ReproductionSettings`], `reproduction.rs` |
+//! | selection of parents | [`ReproductionSettings`], `reproduction.rs` |
 //! | crossover | [`Crossover`], `crossover.rs` |
 //! | mutations | [`MutationSettings`], `mutation` |
 //! | the first generation | [`StartTopology`], `start.rs` |

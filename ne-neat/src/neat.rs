@@ -40,7 +40,7 @@ pub struct Neat {
     pub(crate) settings: NeatSettings,
     pub(crate) layout: Layout,
     pub(crate) innovations: Innovations,
-    /// Who is in the first generation, best first, if it is not drawn; empty after it.
+    /// The first generation, best first, if it is not drawn; empty after it.
     pub(crate) start: Vec<NeatGenome>,
     /// The generation last told, with its scores: the parents of the next. Empty before the first.
     pub(crate) parents: Vec<NeatGenome>,

@@ -1,11 +1,11 @@
-//! Who begets a child with whom.
+//! The selection of a child's parents.
 
 use crate::{noise::happens, speciation::Species};
 use ne_core::{RandomStream, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-/// Who breeds within a species, and how.
+/// Which individuals breed within a species, and how.
 ///
 /// Source: Stanley & Miikkulainen, 2002, section 4.1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -308,7 +308,7 @@ proptest! {
     }
 }
 
-/// Golden: another digest is another run for everyone who recorded one.
+/// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {
     let [.., other, sparse] = all_settings();

@@ -3,8 +3,8 @@ use crate::Curve;
 /// How much is spent until half of all runs reach `threshold`: the median of
 /// [`first_reaching`](Curve::first_reaching), in the unit of the curves' x.
 ///
-/// A run that ends without reaching the threshold is *censored*: it would have taken longer than its end, nobody knows
-/// how long. Leaving it out, or counting its end, would flatter the method. The median is that of the Kaplan–Meier
+/// A run that ends without reaching the threshold is *censored*: it would have taken longer than its end by an unknown
+/// amount. Leaving it out, or counting its end, would flatter the method. The median is that of the Kaplan–Meier
 /// estimate (Kaplan & Meier, *Nonparametric Estimation from Incomplete Observations*, Journal of the American
 /// Statistical Association 53, 1958): the least x at which the estimated share of runs still below the threshold is at
 /// most a half. When all runs are observed equally long that is plainly the least x by which half of them have reached

@@ -1,4 +1,4 @@
-//! What a body is made of, as far as those who judge its movement need to know.
+//! What a body is made of, as far as the judges of its movement need to know.
 
 /// A body as the judges of movements see it: its legs, hinges and masses, without looks, sensors or an engine.
 ///

@@ -145,7 +145,7 @@ impl<E: Environment> Stage<E> {
         for step in 1..=steps {
             environment.sense(inputs);
             phenotype.activate(inputs, outputs);
-            // A body would clamp a NaN into some number, and nobody would know.
+            // A body would clamp a NaN into some number, and the fault would stay hidden.
             if let Some(index) = outputs.iter().position(|output| !output.is_finite()) {
                 return (step - 1, Some(Failure::NonFinite { what: format!("output {index}") }));
             }

@@ -260,7 +260,7 @@ fn getting_up_is_to_be_turned_and_high_and_to_stay_so() {
     ]);
     assert!(worth(&by(PI, 0.35, 4.0)) < 0.15, "what is not held is worth little");
     let late = |time: f32| if time > 9.0 { at_once(time) } else { Pose::default() };
-    assert!(worth(&late) < 0.2, "who is up for the last tenth has a fifth");
+    assert!(worth(&late) < 0.2, "a body that is up for the last tenth has a fifth");
     assert!(worth(&by(2.0 * PI, 0.0, 99.0)) < 0.01, "a somersault that lies again");
     // On its side: one way is up, the other upside down.
     let side = |turn| GettingUp::new(GettingUpSettings { turn }).expect("a turn");
@@ -328,7 +328,7 @@ fn cruising_is_to_be_as_fast_as_wanted_and_cheap() {
 }
 
 proptest! {
-    /// It never pays to spend more, nor to get less far, and nobody gets more than the way.
+    /// It never pays to spend more, nor to get less far, and the value is never above the distance.
     #[test]
     fn cruising_pays_for_way_and_thrift(
         speed in -5.0..5.0_f32,

@@ -221,7 +221,7 @@ fn footfalls_ends_an_episode_when_half_of_the_legs_rest_or_hang() {
     let uneven = Body { uneven_ground: true, ..puppet() };
     assert_eq!(watch(Footfalls::default(), &uneven, &below), Seen { value: 0.0, end: None });
     assert_ends(watch(Footfalls::default(), &uneven, &walk(&good, &rests)), 0.9, 0.0);
-    // Who has no legs cannot rest them.
+    // A body without legs cannot rest them.
     let legless = Body { legless: true, ..puppet() };
     assert_eq!(value(Footfalls::default(), &legless, &walk(&rests, &rests)), 0.0);
 }

@@ -17,7 +17,7 @@ pub(crate) fn check(creature: &Creature) -> Vec<Problem> {
     let mut problems = Vec::new();
     let count = creature.parts.len();
     if count > MOST_PARTS {
-        // A file of this size was made by a program gone astray: listing its every fault helps nobody.
+        // A file of this size comes from a faulty program: a list of its every fault is of no use.
         return vec![Problem::TooManyParts { count }];
     }
     parts::check_creature_name(&creature.name, &mut problems);

@@ -120,7 +120,7 @@ fn a_world_given_whole_is_that_of_every_trial() {
     }
     assert_eq!(fixed.settings().time_step, trial.time_step);
     let mass = |environment: &CreatureEnvironment<Puppet>| environment.body().expect("a creature").parts[0].mass;
-    assert_eq!(mass(&fixed), mass(&varied) * conditions.mass, "who judges the energy of a body must know its mass");
+    assert_eq!(mass(&fixed), mass(&varied) * conditions.mass, "a judge of a body's energy must know its mass");
     assert!(fixed.variation().is_none());
 }
 
@@ -150,7 +150,7 @@ fn conditions_are_in_the_settings_of_their_world() {
     };
     assert_eq!(*world.settings(), expected);
     let body = world.body().expect("a creature");
-    assert_eq!(body.gravity, 9.81 * 0.25, "who judges the weight of a body must know what pulls it");
+    assert_eq!(body.gravity, 9.81 * 0.25, "a judge of a body's weight must know the gravity");
 }
 
 #[test]

@@ -34,9 +34,9 @@ impl<const W: usize> LevelContact<W> {
             Shape::Circle { radius } => Outline::Circle { radius },
             Shape::Capsule { length, radius } => Outline::Capsule { half_length: length * 0.5, radius },
         };
-        // No point has had a corner yet, and the second of a circle never will: no number is the same as no number.
-        let nobodys = Lanes::splat(f32::NAN);
-        Self { outline, corners: [(nobodys, nobodys); 2], rows: Rows::new(Up) }
+        // No point has had a corner yet, and the second of a circle never will: NaN equals no number.
+        let none = Lanes::splat(f32::NAN);
+        Self { outline, corners: [(none, none); 2], rows: Rows::new(Up) }
     }
 
     /// Takes over what another lane's part presses on the ground with.

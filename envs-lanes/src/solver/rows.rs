@@ -159,7 +159,7 @@ impl<N: Normal<W>, const W: usize> Rows<N, W> {
         self.pressing = lanes.select_mask(self.kept.pressing, self.pressing);
     }
 
-    /// Nobody is near: nothing is pressed on.
+    /// No creature is near the ground: no point presses on it.
     #[inline(always)]
     pub(super) fn rest(&mut self) {
         self.near = false;

@@ -49,7 +49,7 @@ struct Plan {
 }
 
 impl<const W: usize> LaneWorld<W> {
-    /// Worlds with nobody in them yet: see [`reset`](Self::reset) and [`copy_lane`](Self::copy_lane).
+    /// Worlds with no creature in them yet: see [`reset`](Self::reset) and [`copy_lane`](Self::copy_lane).
     ///
     /// # Errors
     /// If lanes cannot do what is asked for.
@@ -67,7 +67,7 @@ impl<const W: usize> LaneWorld<W> {
         })))
     }
 
-    /// Worlds of the same kind with another number of lanes, with nobody in them yet.
+    /// Worlds of the same kind with another number of lanes, with no creature in them yet.
     pub(crate) fn widened<const V: usize>(&self) -> LaneWorld<V> {
         LaneWorld::empty(self.plan.clone())
     }

@@ -1,4 +1,4 @@
-//! A creature's result is its result alone, whoever else is in the batch.
+//! A creature's result does not depend on the other creatures in its batch.
 
 use crate::stage::{both, shipped};
 use envs_core::{PhysicsSettings, Variation};

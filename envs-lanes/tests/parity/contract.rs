@@ -1,4 +1,4 @@
-//! What everyone who implements a contract promises.
+//! What every implementation of a contract promises.
 
 use crate::stage::{SHIPPED, all_sensors, both, shipped};
 use envs_core::{PhysicsSettings, Variation};

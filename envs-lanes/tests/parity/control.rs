@@ -127,9 +127,9 @@ fn control_table() {
     println!("|---|---|---|---|---|");
     for name in CREATURES {
         let [control, lanes] = measure(name, 40, 150, 1000);
-        for (who, apart) in [("rapier 0.2 µm higher", control), ("lanes", lanes)] {
+        for (engine, apart) in [("rapier 0.2 µm higher", control), ("lanes", lanes)] {
             let Apart { time, distance, correlation } = apart;
-            println!("| {name} | {who} | {time:.1} | {:.2} | {correlation:.4} |", distance * 100.0);
+            println!("| {name} | {engine} | {time:.1} | {:.2} | {correlation:.4} |", distance * 100.0);
         }
         check_lanes(name, lanes);
     }

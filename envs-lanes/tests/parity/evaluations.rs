@@ -60,7 +60,7 @@ fn neither_neighbours_nor_instructions_change_a_bit() {
     let seed = Seed::of_run(8);
     let mut nets = nets(task.inputs(), task.outputs(), 70);
     let alone: Vec<Evaluation> = nets.iter_mut().map(|net| task.evaluate(net, seed)).collect();
-    assert!(alone.iter().any(|evaluation| evaluation.steps < 600), "nobody falls");
+    assert!(alone.iter().any(|evaluation| evaluation.steps < 600), "no creature falls");
     for instructions in Instructions::available() {
         let task = task.clone().with_instructions(instructions);
         assert_eq!(batch(&task, &mut nets, seed), alone, "{instructions}");

@@ -90,7 +90,7 @@ fn a_part_that_is_too_fast_ends_the_trial_where_it_does_in_rapier() {
         let faults: Vec<(u32, f32)> = (1..40).map(|at| (at, 0.3)).collect();
         let found = compare(&tasks(name, settings, Box::new(Running::default()), trials), &faults);
         let unstable = |one: &Evaluation| matches!(one.outcome, Err(Failure::Unstable { .. }));
-        assert!(found.iter().any(unstable), "{name}: nobody exceeds {unstable_speed} m/s");
+        assert!(found.iter().any(unstable), "{name}: no creature exceeds {unstable_speed} m/s");
     }
 }
 
@@ -169,7 +169,7 @@ fn a_movement_that_fails_a_trial_does_so_in_lanes() {
             let movement = Sum::of(Running::default()).plus(0.5, Disqualifies { by, start: 0.0 });
             let faults: Vec<(u32, f32)> = (1..40).map(|at| (at, 0.3)).collect();
             let found = compare(&tasks(name, PhysicsSettings::default(), Box::new(movement), trials), &faults);
-            assert!(by > 0.0 || found.iter().any(|one| one.outcome == ducks), "{name}: nobody ducks");
+            assert!(by > 0.0 || found.iter().any(|one| one.outcome == ducks), "{name}: no creature ducks");
         }
     }
 }

@@ -121,7 +121,7 @@ fn what_goes_wrong_ends_a_play_and_no_other() {
 }
 
 #[test]
-fn who_watches_may_end_a_play() {
+fn the_observer_may_end_a_play() {
     let scene = Scene::new("biped-1", PhysicsSettings::default());
     let (network, starts) = (other(&scene.flat.1), (0..PLAYS).map(|play| scene.start(play)).collect::<Vec<_>>());
     let plays: Vec<Play<'_>> = starts.iter().map(|start| Play { network: &network, start, steps: 30 }).collect();

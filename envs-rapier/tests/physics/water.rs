@@ -95,7 +95,7 @@ fn creatures_in_water_keep_the_promises_of_environments() {
 }
 
 #[test]
-fn whoever_does_not_move_stays_where_it_is() {
+fn a_creature_that_does_not_move_stays_where_it_is() {
     let mut apod = swimmer("apod", settings(Water::default()), Variation::default());
     apod.reset(Seed::of_run(1)).expect("builds");
     let start = apod.snapshot().clone();
@@ -109,7 +109,7 @@ fn whoever_does_not_move_stays_where_it_is() {
 }
 
 #[test]
-fn whoever_stops_moving_comes_to_rest() {
+fn a_creature_that_stops_moving_comes_to_rest() {
     let mut apod = swimmer("apod", settings(Water::default()), Variation::default());
     apod.reset(Seed::of_run(1)).expect("builds");
     for outputs in restless(1, 6, 150) {

@@ -34,7 +34,7 @@ pub struct NeatSettings {
     pub new_weights: Noise,
     /// Species and fitness sharing.
     pub speciation: SpeciationSettings,
-    /// Who breeds.
+    /// Which individuals breed.
     pub reproduction: ReproductionSettings,
     /// How two parents' genes become a child's.
     pub crossover: Crossover,

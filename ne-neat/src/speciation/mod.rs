@@ -1,4 +1,4 @@
-//! Species: who belongs together, and how many children each species may have.
+//! Species: which individuals belong together, and how many children each species may have.
 
 mod assignment;
 mod settings;

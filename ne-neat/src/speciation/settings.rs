@@ -21,7 +21,7 @@ pub struct SpeciationSettings {
     /// paper.
     pub stagnation: u64,
     /// So many of the best species breed even if they stagnate, and have at least one child each; at least 1, so that
-    /// somebody breeds. The best individual itself is lost if its species is too small for its champion to be copied.
+    /// there are parents. The best individual itself is lost if its species is too small for its champion to be copied.
     pub protected: usize,
     /// What happens when the whole population stagnates; none for nothing.
     pub population_stagnation: Option<PopulationStagnation>,

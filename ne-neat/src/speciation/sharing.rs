@@ -79,7 +79,7 @@ fn shares(breeders: &[usize], species: &[Species], scores: &[Option<Fitness>], b
     };
     let means: Vec<f64> = breeders.iter().map(mean).collect();
     let total: f64 = means.iter().sum();
-    // Nobody is better than the worst: all species alike.
+    // No individual is better than the worst: all species have the same share.
     let equal = 1.0 / breeders.len() as f64;
     means.iter().map(|mean| if total > 0.0 { mean / total } else { equal }).collect()
 }
@@ -129,7 +129,7 @@ mod tests {
         assert_eq!(children(&[&[4.0, f64::NAN], &[2.0]], 8, Zero), [4, 4]);
         // Largest remainders, 10 · (5, 3, 2)/10 of 7: 3.5, 2.1, 1.4.
         assert_eq!(children(&[&[5.0], &[3.0], &[2.0]], 7, Zero), [4, 2, 1]);
-        // Nobody is better than another.
+        // No individual is better than another.
         assert_eq!(children(&[&[f64::NAN], &[f64::NAN; 3]], 4, Zero), [2, 2]);
         assert_eq!(children(&[&[7.0; 2], &[7.0; 4]], 4, Worst), [2, 2]);
     }

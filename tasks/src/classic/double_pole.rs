@@ -103,9 +103,9 @@ impl DoublePoleSettings {
 /// | steps | decisions made |
 /// | measurements | `held`, decisions held |
 ///
-/// With the fitness survival the evaluation itself shows whether the task is solved. With damping, who holds its 1,000
-/// decisions is a candidate and is tested for 100,000. The papers also ask of a solution without velocities that it be
-/// general: see [`generalization`](Self::generalization).
+/// With the fitness survival the evaluation itself shows whether the task is solved. With damping, an individual that
+/// holds its 1,000 decisions is a candidate and is tested for 100,000. The papers also ask of a solution without
+/// velocities that it be general: see [`generalization`](Self::generalization).
 ///
 /// A decision lasts 0.02 s. The cart starts at rest in the middle, the short pole upright. The seed changes nothing. The
 /// equations of motion are at [`Dynamics`].

@@ -22,7 +22,7 @@ pub const DETERMINISTIC: Promise =
 pub const RESET: Promise = Promise::new("environment", "`reset` leaves nothing of an earlier episode");
 /// A clone is another.
 pub const CLONES: Promise =
-    Promise::new("environment", "a clone is in the same state, and what happens to it happens to nobody else");
+    Promise::new("environment", "a clone is in the same state, and what happens to it happens to no other environment");
 /// Every input is written.
 pub const SENSES: Promise =
     Promise::new("environment", "`sense` writes every input, the same when asked twice, and changes nothing");

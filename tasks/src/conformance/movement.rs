@@ -21,7 +21,7 @@ pub const PURE: Promise = Promise::new("movement", "asking for the value or the 
 pub const FORGETS: Promise = Promise::new("movement", "`begin` forgets every earlier episode");
 /// A clone is another.
 pub const CLONES: Promise =
-    Promise::new("movement", "a clone is in the same state, and what it observes nobody else does");
+    Promise::new("movement", "a clone is in the same state, and what it observes changes no other movement");
 /// Every measurement has a name of its own.
 pub const MEASURES: Promise =
     Promise::new("movement", "measurements are finite and have the same names, once each, in every episode");
@@ -213,10 +213,10 @@ fn clones(movement: &dyn Movement, stories: &[Story], alone: &[Seen]) -> Result<
             original.observe(snapshot);
             twin.observe(snapshot);
         }
-        for (one, who) in [(&original, "the original, beside its clones"), (&twin, "a clone made half-way")] {
+        for (one, name) in [(&original, "the original, beside its clones"), (&twin, "a clone made half-way")] {
             let (found, expected) = (one.value(), last(expected));
             if found.to_bits() != expected.to_bits() {
-                return Err(format!("{}: {who}: {found:?} against {expected:?}", story.name));
+                return Err(format!("{}: {name}: {found:?} against {expected:?}", story.name));
             }
         }
     }

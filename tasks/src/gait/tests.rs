@@ -94,7 +94,7 @@ fn a_hop_in_one_flight_and_height_in_another_are_no_jump() {
 }
 
 #[test]
-fn one_who_stays_on_the_ground_does_not_jump() {
+fn a_body_that_stays_on_the_ground_does_not_jump() {
     let report = report(5.0, JUMPING, |_| Pose::standing());
     assert_eq!(reasons(&report), ["some part always touched the ground"]);
 }

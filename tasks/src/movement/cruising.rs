@@ -10,8 +10,8 @@ use serde::Deserialize;
 /// nothing is worth one, at a cost of transport of 1 it is worth half. What is faster than the speed earns nothing, and
 /// its work is charged all the same. It is the whole distance that counts, so a slow start can be made up for.
 ///
-/// Standing is worth 0, and so is work that gets nowhere; who falls over without any work has come no farther than that.
-/// Backwards is negative, whatever it cost.
+/// Standing is worth 0, and so is work that gets nowhere. A body that falls over without any work is worth the distance
+/// of its fall, and no more. Backwards is negative, whatever it cost.
 #[derive(Clone, Debug)]
 pub struct Cruising {
     speed: f64,

@@ -3,7 +3,7 @@ use crate::gait::{Goal, JointUse, Trajectory};
 
 /// The eye blurs what swings faster, Hz; a usable gait stays below 5.
 const FASTEST: f64 = 8.0;
-/// Smaller swings than this to either side, in degrees, carry nobody.
+/// Smaller swings than this to either side, in degrees, propel no body.
 const MATTERS: f64 = 2.0;
 /// Two reversals make a cycle.
 const MOST_REVERSALS: f64 = 2.0 * FASTEST;
