@@ -1,9 +1,9 @@
 //! Runs come out as they always did, to the bit.
 //!
 //! For each preset and strategy, shipped creature and movement a tiny run is trained, in lanes and in rapier, and what
-//! came out is compared with what is written in the folder `golden`. Where a number differs, every run anybody has
-//! recorded comes out differently too, and every saved champion may fail to verify. If that is wanted, say so in the
-//! changelog, and write the numbers anew:
+//! came out is compared with what is written in the folder `golden`. Where a number differs, every recorded run comes
+//! out differently too, and every saved champion may fail to verify. If that is wanted, say so in the changelog, and
+//! write the numbers anew:
 //!
 //! ```text
 //! GAMBOL_GOLDEN=write cargo test -p gambol-tests golden
@@ -24,7 +24,7 @@ use tasks::TermSpec;
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Golden {
-    /// For a reader who wants to know how far apart two runs are.
+    /// Shows readers how far apart two runs are.
     fitness: f64,
     /// Of the champion.
     trajectory: String,

@@ -75,7 +75,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
     write_report(&outcome.folder, &Registry::default(), Some(outcome.reason))?;
     println!("the report has {} KB", std::fs::metadata(outcome.folder.report())?.len() / 1000);
-    let champion = outcome.champion.ok_or("nobody ran")?;
+    let champion = outcome.champion.ok_or("there is no champion")?;
     println!("the champion of the last stage runs {:.1} m", champion.fitness);
     if champion.verify(&Registry::default())?.is_identical() { Ok(()) } else { Err("it cannot be repeated".into()) }
 }

@@ -1,4 +1,4 @@
-//! An environment of one's own, without a physics engine: somebody on a swing learns to pump.
+//! An environment of one's own, without a physics engine: a rider on a swing learns to pump.
 
 use ne_core::{Evolution, Failure, Seed, Serial, StopConditions};
 use ne_fixed::{ConventionalNe, ConventionalNeSettings};
@@ -75,5 +75,5 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     evolution.run(&task, &Serial, &mut [])?;
     let height = evolution.champion().ok_or("every evaluation failed")?.fitness.get();
     println!("the rider rises {height:.2} m above the start");
-    if height > 2.0 { Ok(()) } else { Err("nobody learned to swing".into()) }
+    if height > 2.0 { Ok(()) } else { Err("the rider did not learn to swing".into()) }
 }

@@ -1,4 +1,5 @@
-//! The experiment behind the movement `cruising`: how much energy a metre is saved by who can run and then learns thrift?
+//! The experiment behind the movement `cruising`: how much energy a metre does a population that can run save by
+//! learning thrift?
 //!
 //! Without arguments it is a matter of seconds and proves nothing; ten seeds, as docs/shaping.md has them:
 //!

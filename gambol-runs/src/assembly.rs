@@ -145,7 +145,7 @@ impl Assembly {
     }
 }
 
-/// Puts what they stand for in the place of a variation's and a terrain's names; those that nobody knows stay.
+/// Puts what they stand for in the place of a variation's and a terrain's names; unknown names stay.
 fn spell_out(layer: &mut Value) {
     let name = |field: &str| layer.get(field).and_then(Value::as_str);
     let named = name("variation").and_then(variation);

@@ -1,5 +1,5 @@
-//! The champion selection of runs whose worlds vary, whose episodes are short or whose bodies are several: who is champion is decided in one
-//! whole episode of the creature, in the world as the configuration has it, and by rapier.
+//! The champion selection of runs whose worlds vary, whose episodes are short or whose bodies are several: the champion
+//! is chosen in one whole episode of the creature, in the world as the configuration has it, and by rapier.
 
 use crate::{config::EngineChoice, reference::ReferenceEpisode, robustness_check::Trial, stage::USABLE};
 use ne_core::{
@@ -10,7 +10,7 @@ use ne_net::{DenseNet, GraphNet, Network};
 use std::{any::Any, cmp::Reverse, sync::Arc};
 
 /// Judges candidates in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
-/// the bit, everybody is judged again, in rapier.
+/// the bit, all candidates are judged again, in rapier.
 pub(crate) struct ReferenceSelection {
     task: Box<dyn Task>,
     /// Rapier, if the task is not in rapier itself.
@@ -133,7 +133,7 @@ impl ReferenceSelection {
         let hoped = |index: usize| place(index, self.hoped(kept[index], standing));
         let mut able: Vec<usize> = (0..candidates.len()).filter(|&index| hoped(index) > standing).collect();
         able.sort_by_key(|&index| Reverse((kept[index], evaluations[index].fitness())));
-        // Those who keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
+        // Those that keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
         let first = &able[..able.len().min(JUDGED)];
@@ -161,8 +161,7 @@ impl ReferenceSelection {
         }
     }
 
-    /// The tier of a usable candidate, of whom up to `hoped` is hoped. Less than `enough` is no use, and told as
-    /// [`USABLE`].
+    /// The tier of a usable candidate, up to `hoped`. A tier below `enough` is of no use, and given as [`USABLE`].
     fn steady<G: Genome>(&self, candidate: &G, enough: u8, hoped: u8) -> u8 {
         let Some(steadiness) = &self.steadiness else { return USABLE };
         let controller = candidate.express();
@@ -179,8 +178,8 @@ impl ReferenceSelection {
         if tier < enough { USABLE } else { tier }
     }
 
-    /// How much of its fitness each keeps in varied worlds; little for whoever has less than half of the best fitness here,
-    /// since it is easy to keep little.
+    /// How much of its fitness each keeps in varied worlds; little for a candidate with less than half of the best
+    /// fitness here, since it is easy to keep little.
     fn kept<G: Genome>(&self, candidates: &[G], evaluations: &[Evaluation]) -> Vec<Kept> {
         let mut kept = vec![Kept::Little; candidates.len()];
         let Some(proof) = &self.proof else { return kept };

@@ -19,8 +19,8 @@ pub const FRONT_FORMAT: &str = "gambol front";
 /// The version of the front file this Gambol writes and reads.
 pub const FRONT_VERSION: u32 = 1;
 
-/// What a strategy that searches for several objectives had found by its last checkpoint: nobody in it is better than
-/// another in one objective without being worse in another.
+/// What a strategy that searches for several objectives had found by its last checkpoint: no individual in it is better
+/// than another in one objective without being worse in another.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Front {

@@ -139,7 +139,7 @@ mod tests {
                 count
             })
             .collect();
-        assert!(counts.iter().any(|&count| count > 0), "nobody is ever usable: {counts:?}");
+        assert!(counts.iter().any(|&count| count > 0), "no gait is ever usable: {counts:?}");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Gambol: evolves controllers for 2D creatures, shows the gait, and saves it for a game.
 //!
-//! The `gambol` program is in this library, for everybody's movements and strategies: [`program`] is all of `main`. Everything
-//! it does is in the libraries below it, which are here under one name:
+//! The `gambol` program is in this library, so that other crates can add movements and strategies: [`program`] is all
+//! of `main`. Everything it does is in the libraries below it, which are here under one name:
 //!
 //! | crate | modules |
 //! |---|---|

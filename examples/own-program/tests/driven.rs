@@ -1,4 +1,4 @@
-//! Somebody else's program has every command for somebody else's movement: driven as a user would.
+//! A user's program has every command for the user's movement: driven as a user would.
 
 use std::{
     fs,

@@ -89,8 +89,8 @@ fn attempt(entrant: &Entrant, strategies: &StrategyCatalogue, seed: u64) -> Resu
     Ok(Attempt { seed, evaluations, solved, hidden, connections, seconds, generalization })
 }
 
-/// Searches until somebody solves the task or so many evaluations are used up. Individuals are evaluated one after the
-/// other; as soon as one solves the task nobody else is.
+/// Searches until an individual solves the task or so many evaluations are used up. Individuals are evaluated one after
+/// the other; as soon as one solves the task, no other is evaluated.
 fn solve(mut strategy: AnyStrategy, task: &dyn Benchmark, seed: Seed, limit: u64) -> (u64, Option<Network>) {
     let mut used = 0;
     for generation in 1.. {

@@ -47,7 +47,7 @@ mod tests {
         let (plan, results) = clear_and_open();
         let analysis = analyse(&plan, &results);
         let page = render(&analysis);
-        // The name of SVG looks like an address, but nobody ever goes there.
+        // The name of SVG looks like an address, but is never fetched.
         let text = page.replace("http://www.w3.org/2000/svg", "");
         for reference in ["http:", "https:", "=\"//", "src=", "@import", "url(/", "url(\"", "fetch(", "{{"] {
             assert!(!text.contains(reference), "the page has a reference: {reference}");

@@ -183,7 +183,7 @@ impl Cell {
         let mut config = registry.configure(&self.preset, creature, self.scenario.movement);
         config.seed = seed;
         config.stop = stop;
-        // Nobody looks at whole populations here.
+        // Whole populations are not used here.
         config.record.populations_at.clear();
         Ok(config)
     }

@@ -3,7 +3,7 @@ use ne_core::{Failure, Fitness};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
 
-/// A candidate who wears on its sleeve what it is worth.
+/// A candidate that states what it is worth.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Candidate {
     /// Without variation.
@@ -59,7 +59,7 @@ impl Task for Fake {
     }
 
     fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-        assert_eq!(seed, Seed::of_run(7), "everybody is judged in one world");
+        assert_eq!(seed, Seed::of_run(7), "all candidates are judged in one world");
         (self.0)(candidate(phenotype))
     }
 }
@@ -141,7 +141,7 @@ fn what_rapier_confirms_stands() {
     assert_eq!(alone.evaluations, [1.0, -3.0, 2.5].map(Evaluation::new));
     assert!(!alone.diverged);
     assert_eq!(judge(reference, Some(reference)), alone);
-    assert_eq!(judge(failed, Some(reference)), judge(failed, None), "there is nobody to confirm");
+    assert_eq!(judge(failed, Some(reference)), judge(failed, None), "there is no candidate to confirm");
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn slow() -> Option<TieredFitness> {
     standing(USABLE, SLOW)
 }
 
-/// Who is given a tier best is champion: so a usable one, and of those the one that is usable in more worlds.
+/// The candidate with the best tier is champion: so a usable one, and of those the one that is usable in more worlds.
 #[test]
 fn a_usable_candidate_stands_above_a_fitter_one_that_is_not() {
     let selection = ScheduledSelection::new(reference, None);
@@ -175,8 +175,8 @@ fn a_usable_candidate_stands_above_a_fitter_one_that_is_not() {
     let (tiers, seen) = selection.tiers(&all, slow());
     assert_eq!(tiers, [0, 0, 0, HIGHEST]);
     assert_eq!(seen, [9.0, 7.0, 6.0], "the best first, until one is usable");
-    let nobody = candidates(&[(9.0, 9.0, false), (7.0, 7.0, false)]);
-    assert_eq!(selection.tiers(&nobody, slow()), (vec![0, 0], vec![9.0, 7.0]));
+    let unusable = candidates(&[(9.0, 9.0, false), (7.0, 7.0, false)]);
+    assert_eq!(selection.tiers(&unusable, slow()), (vec![0, 0], vec![9.0, 7.0]));
 }
 
 #[test]
@@ -211,7 +211,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     assert_eq!(
         against(USABLE, [3, 16]),
         (USABLE, vec![Trial::Short]),
-        "the long trial is for those who pass the short one"
+        "the long trial is for candidates that pass the short one"
     );
     assert_eq!(against(USABLE, [4, 16]), (USABLE + 1, vec![Trial::Short]));
     assert_eq!(against(USABLE + 2, [11, 16]), (USABLE + 3, vec![Trial::Short]));
@@ -223,7 +223,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
 }
 
 #[test]
-fn who_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usable() {
+fn a_candidate_that_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usable() {
     let selection = ScheduledSelection::new(reference, None);
     let tier = |one: (f64, f64, bool)| selection.tiers(&candidates(&[one]), slow()).0[0];
     for whole in [(2.0, 6.0, true), (2.0, 2.0, true), (2.0, 0.5, true)] {
@@ -232,7 +232,7 @@ fn who_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usab
     for little in [(2.0, 0.4, true), (2.0, -6.0, true), (2.0, f64::NAN, true)] {
         assert_eq!(tier(little), USABLE + 1, "{little:?}");
     }
-    // Who keeps more comes first, then who is fitter.
+    // The candidate that keeps more comes first, then the fitter one.
     let all = candidates(&[(9.0, 0.9, true), (5.0, 4.9, true), (7.0, f64::NAN, true), (6.0, 0.6, true)]);
     assert_eq!(selection.tiers(&all, slow()), (vec![0, HIGHEST, 0, 0], vec![5.0]));
     let alike = candidates(&[(5.0, 5.0, true), (9.0, 8.9, true)]);
@@ -240,25 +240,25 @@ fn who_keeps_little_of_its_fitness_in_training_worlds_gets_hardly_more_than_usab
 }
 
 #[test]
-fn who_has_less_than_half_of_the_best_fitness_is_not_credited_for_keeping_it() {
+fn a_candidate_with_less_than_half_of_the_best_fitness_is_not_credited_for_keeping_it() {
     let selection = ScheduledSelection::new(reference, None);
     let tiers = |slower: f64| selection.tiers(&candidates(&[(10.0, 0.1, true), (slower, slower, true)]), slow()).0;
     assert_eq!((tiers(4.9), tiers(5.0)), (vec![USABLE + 1, 0], vec![0, HIGHEST]));
 }
 
 #[test]
-fn where_those_who_keep_most_are_not_usable_the_fittest_have_their_turn() {
+fn where_those_that_keep_most_are_not_usable_the_fittest_have_their_turn() {
     let selection = ScheduledSelection::new(reference, None);
     let safe = [(6.0, 6.0, false), (6.1, 6.1, false), (6.2, 6.2, false), (6.3, 6.3, false), (6.4, 6.4, true)];
     let all = candidates(&[&safe[..], &[(9.0, 0.9, true), (10.0, 1.0, false)]].concat());
     assert_eq!(selection.tiers(&all, slow()), (vec![0, 0, 0, 0, HIGHEST, 0, 0], vec![6.4]));
     let without = [&all[..4], &all[5..]].concat();
     let seen = vec![6.3, 6.2, 6.1, 6.0, 10.0, 9.0];
-    assert_eq!(selection.tiers(&without, slow()), (vec![0, 0, 0, 0, USABLE + 1, 0], seen), "nobody is looked at twice");
+    assert_eq!(selection.tiers(&without, slow()), (vec![0, 0, 0, 0, USABLE + 1, 0], seen), "none is looked at twice");
 }
 
 #[test]
-fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
+fn only_candidates_that_could_become_champion_are_looked_at_and_of_those_few() {
     let selection = ScheduledSelection::new(reference, None);
     let all: Vec<(f64, f64, bool)> = (1..=10).map(|fitness| (fitness.into(), fitness.into(), fitness <= 2)).collect();
     let all = candidates(&all);
@@ -267,11 +267,11 @@ fn only_who_could_become_champion_is_looked_at_and_of_those_few() {
     assert_eq!(selection.tiers(&all, standing(HIGHEST, 8.5)), (vec![0; 10], vec![10.0, 9.0]));
     assert_eq!(selection.tiers(&all[..3], standing(HIGHEST - 1, 100.0)), (vec![0, HIGHEST, 0], vec![3.0, 2.0]));
     let failed = ScheduledSelection::new(failed, None);
-    assert_eq!(failed.tiers(&all, None), (vec![0; 10], vec![]), "who failed has no gait");
+    assert_eq!(failed.tiers(&all, None), (vec![0; 10], vec![]), "a failed candidate has no gait");
 }
 
 #[test]
-fn without_varied_worlds_nobody_is_tried_and_without_a_judged_movement_nobody_is_given_a_tier() {
+fn without_varied_worlds_none_is_tried_and_without_a_judged_movement_none_is_given_a_tier() {
     let all = candidates(&[(1.0, 1.0, true), (3.0, 3.0, true)]);
     let mut selection = ScheduledSelection::new(reference, None);
     (selection.champion_selection.proof, selection.champion_selection.steadiness) = (None, None);

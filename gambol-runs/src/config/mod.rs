@@ -46,7 +46,7 @@ pub struct RunConfig {
     #[serde(default)]
     pub training_steps: Option<u32>,
     /// Cheaper evaluations before that of training, the first one first: after each only the best share goes on. At most
-    /// 8; none, the default: everybody has the evaluation of training.
+    /// 8; none, the default: every individual has the evaluation of training.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rungs: Vec<RungSettings>,
     /// What steps the creatures in training.

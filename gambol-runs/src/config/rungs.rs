@@ -18,7 +18,7 @@ pub struct RungSettings {
     /// as in training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub trials: Option<u32>,
-    /// The share of those who ran this rung that goes on, above 0 and below 1; rounded up, and at least one.
+    /// The share of the individuals of this rung that goes on, above 0 and below 1; rounded up, and at least one.
     pub share: f64,
 }
 

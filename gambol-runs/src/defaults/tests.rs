@@ -77,7 +77,7 @@ fn two_legs_without_knees_that_jump_have_a_clock_that_begins_anew_when_they_land
 
 /// A movement of another crate gets what its crate says, and a controller if it says nothing.
 #[test]
-fn anybody_can_say_what_the_default_preset_adds_for_a_movement() {
+fn any_crate_can_say_what_the_default_preset_adds_for_a_movement() {
     let mut registry = Registry::default();
     let creature = || creatures::find("biped-2").expect("shipped");
     let bare = registry.config("default", creature(), "high-kick").expect("a preset");

@@ -84,7 +84,7 @@ impl LineFile {
         let text = serde_json::to_string(line).map_err(|source| self.failed(source.into()))?;
         let fields = text.strip_suffix('}').unwrap_or(&text);
         self.digest.add(fields.as_bytes());
-        // In one piece: somebody may be reading.
+        // In one piece: another process may be reading.
         let line = format!("{fields}{}\n", seal(self.digest));
         self.file.write_all(line.as_bytes()).map_err(|source| self.failed(source))
     }

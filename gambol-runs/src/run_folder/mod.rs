@@ -141,7 +141,7 @@ pub struct GalleryEntry {
 pub enum GalleryKind {
     /// A new best.
     Champion,
-    /// Everybody.
+    /// One of a whole population.
     Population,
 }
 
@@ -192,7 +192,7 @@ impl RunFolder {
         fs::create_dir_all(path).map_err(|source| FolderError::Create { path: path.into(), source })?;
         let folder = Self { path: path.into() };
         let lock = folder.lock()?;
-        // Somebody may have been faster.
+        // Another process may have been faster.
         if occupied() {
             return Err(exists());
         }

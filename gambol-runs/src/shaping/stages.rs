@@ -96,7 +96,7 @@ impl Stages {
     }
 }
 
-/// Whoever goes back takes as much as can be, and gives up what the later stage had added.
+/// A population that goes back takes as much as can be, and gives up what the later stage had added.
 const BACK: TransferOptions = TransferOptions { transferred: None, allow_loss: true };
 
 impl Curriculum for Stages {

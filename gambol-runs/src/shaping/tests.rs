@@ -171,7 +171,7 @@ fn a_stage_has_a_creature_of_its_own_as_a_whole() {
     .expect("valid");
     let configs: Vec<&RunConfig> = stages.configs().map(|(_, config)| config).collect();
     assert_eq!((&configs[1].creature, &configs[2].creature), (&worm, &config("biped-1").creature));
-    // Who has no legs is coached as one without.
+    // The creature without legs gets the coaching for a body without legs.
     let coached = Registry::default().config("default", worm, "backwards").expect("a preset").movement;
     assert_ne!(
         coached,
@@ -212,7 +212,7 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
     for (name, decision) in [("a", Promote), ("b", Demote), ("a", Promote), ("b", Promote), ("c", Promote)] {
         let planned = stages.next(&legs).expect("a stage");
         assert_eq!(planned.name, name);
-        // Only whoever goes back may give something up.
+        // Only a population that goes back may give something up.
         let went_back = legs.last().is_some_and(|leg| leg.decision == Demote);
         assert_eq!(planned.allow_loss, went_back);
         legs.push(StageRun {

@@ -26,7 +26,7 @@ pub enum TransferError {
     /// The search cannot go on with these settings.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The source has found nobody.
+    /// The source has no champion.
     #[error("{source_name} has no champion yet: all evaluations failed")]
     NoChampion {
         /// The source.
@@ -266,7 +266,7 @@ pub(super) fn check_planned(
     Ok(())
 }
 
-/// What is transferred from a run if nobody says what.
+/// What is transferred from a run by default.
 fn usual(from: &StrategyEntry, to: &StrategyEntry) -> Transferred {
     match from {
         from if from.name() == to.name() => Transferred::Population,

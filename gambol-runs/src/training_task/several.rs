@@ -7,8 +7,8 @@ use tasks::Combine;
 /// The same episodes in several bodies, in each of which every individual is evaluated with the same seed.
 ///
 /// An evaluation is put together of one in each body as one is of trials: the mean or the worst of their fitnesses, the
-/// means of objectives and measurements, the sum of steps. Bodies come one after the other, and whoever fails in one is
-/// not tried in those that follow.
+/// means of objectives and measurements, the sum of steps. Bodies come one after the other, and an individual that
+/// fails in one is not tried in those that follow.
 #[derive(Clone)]
 pub struct SeveralBodies {
     /// At least one.

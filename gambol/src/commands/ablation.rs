@@ -130,7 +130,7 @@ fn drop_term(config: &mut RunConfig, name: &str) {
     config.movement.terms.retain(|term| term.term != name);
 }
 
-/// Rungs that are so many times shorter than training; half of those who ran one go on.
+/// Rungs that are so many times shorter than training; half of the individuals in one go on.
 fn run_rungs(config: &mut RunConfig, shorter: &[u32]) {
     let Some(steps) = config.training_steps.or(config.movement.steps) else { return };
     let rung = |times: &u32| RungSettings { steps: Some((steps / times).max(1)), trials: None, share: 0.5 };

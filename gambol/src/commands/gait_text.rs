@@ -55,7 +55,7 @@ fn verdict(name: &str, report: &GaitReport, registry: &Registry) -> String {
             verdict.reasons.iter().for_each(|reason| line(&mut text, &format!("  {reason}")));
         }
     }
-    // Of a gait that is not judged, nobody else tells.
+    // If the gait is not judged, no reasons name its cheats.
     if report.verdict.is_none() {
         report.cheats.iter().for_each(|cheat| line(&mut text, &format!("  {cheat}")));
     }

@@ -1,4 +1,5 @@
-//! Where the world varies from generation to generation, the champion is who does best without variation, in rapier.
+//! Where the world varies from generation to generation, the champion is the candidate that does best without
+//! variation, in rapier.
 
 use crate::{
     damage::json,
@@ -65,7 +66,7 @@ fn log_champion_and_verify_have_both_figures() -> Outcome {
 
 /// Short episodes alone are reason enough for a champion selection.
 #[test]
-fn whoever_shows_a_run_knows_whether_there_is_a_champion_selection() -> Outcome {
+fn what_shows_a_run_knows_whether_there_is_a_champion_selection() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (name, training_steps, judged) in
         [("rehearsed", "training_steps=30", true), ("whole", "training_steps=null", false)]
@@ -79,7 +80,8 @@ fn whoever_shows_a_run_knows_whether_there_is_a_champion_selection() -> Outcome 
     Ok(())
 }
 
-/// Between two re-evaluations the file has whoever would be champion, and the run goes on as if nobody had asked.
+/// Between two re-evaluations the file has the candidate that would be champion. This does not change how the run goes
+/// on.
 #[test]
 fn a_run_that_ends_between_re_evaluations_has_a_champion_and_goes_on_the_same() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -91,7 +93,7 @@ fn a_run_that_ends_between_re_evaluations_has_a_champion_and_goes_on_the_same() 
     assert!(json(&grown.join("checkpoint"))["content"]["champion"].is_null());
     for generations in ["9", "10", "13", "24"] {
         succeed(gambol("resume").arg(&grown).args(["--no-report", "--threads", "1", "--generations", generations]));
-        // Which may be less than before: those who wait are chosen by the worlds of training.
+        // Which may be less than before: the waiting candidates are chosen by the worlds of training.
         assert!(fitness().is_some(), "after {generations} generations");
     }
     assert_same_run(&whole, &grown);

@@ -74,7 +74,7 @@ fn the_default_preset_gives_the_same_bytes_on_any_number_of_threads_and_after_be
     let path = |name: &str| folder.path().join(name);
     let train = |name: &str, threads: &str| {
         let mut train = easy(&path(name));
-        // More generations than lines fit into a pipe that nobody reads: the run cannot end before it is killed.
+        // More generations than lines fit into a pipe without a reader: the run cannot end before it is killed.
         train.args(["--generations", "130", "--threads", threads]);
         train
     };
@@ -129,7 +129,7 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
         assert_says(&ended.stderr, &[says]);
     }
-    // Where no gaits are judged nobody ever gets to be usable.
+    // Where no gaits are judged, no champion is ever usable.
     for flags in
         [&["running", "--set", "training_steps=null", "--variation", "none"][..], &["running", "--preset", "thesis"]]
     {

@@ -1,4 +1,4 @@
-//! Comparisons: every run is done once, whoever does it, and the parts give the whole.
+//! Comparisons: every run is done once, by whichever process, and the parts give the whole.
 
 use crate::{
     folder::read,
@@ -118,7 +118,7 @@ fn two_processes_share_the_work() -> Outcome {
     let mut other = start(&mut small_of(&shared, 1000));
     let ended = run(small_of(&shared, 1000).arg("--quiet"));
     let other = other.wait()?;
-    // The plan may be written by one while the other looks: then one has to be called again. Nobody breaks a run.
+    // The plan may be written by one while the other looks: then one has to be called again. Neither breaks a run.
     assert!(ended.code == Some(0) || other.success(), "{}", ended.stderr);
     succeed(small_of(&shared, 1000).arg("--quiet"));
     assert_eq!(scores(&shared), scores(&whole));

@@ -88,7 +88,7 @@ fn a_point_of_a_run_with_stages_is_one_of_its_latest_stage() -> Outcome {
     Ok(())
 }
 
-/// Each number in the file is what the task of training gives again, and nobody in it beats another.
+/// Each number in the file is what the task of training gives again, and no individual in it dominates another.
 #[test]
 fn a_front_holds_what_was_measured() -> Outcome {
     for parents_again in ["true", "false"] {

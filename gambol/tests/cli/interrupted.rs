@@ -74,7 +74,7 @@ fn an_interrupted_run_has_saved_its_last_generation_and_says_how_to_go_on() -> O
     Ok(())
 }
 
-/// Somebody in a hurry loses the generations since the last checkpoint, for a while: resumed, they come again.
+/// A second interrupt loses the generations since the last checkpoint, for a while: resumed, they come again.
 #[test]
 fn a_second_interrupt_ends_at_once_and_what_was_saved_is_whole() -> Outcome {
     let folder = tempfile::tempdir()?;

@@ -1,4 +1,4 @@
-//! What the program promises to those who use it: which files, which bytes, which exit codes, which messages.
+//! What the program promises to its users: which files, which bytes, which exit codes, which messages.
 //!
 //! Every test starts the program itself, in a temporary folder, on runs so small that they take a blink.
 

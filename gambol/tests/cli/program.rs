@@ -35,7 +35,7 @@ pub(crate) const LONG: usize = 200;
 
 /// A run of tiny generations, for tests that stop a run which is under way.
 ///
-/// With `--json` and its output in a pipe that nobody reads, it cannot end: a pipe holds 64 KiB, about a hundred lines.
+/// With `--json` and its output in a pipe without a reader, it cannot end: a pipe holds 64 KiB, about a hundred lines.
 /// So a test that has read up to forty lines knows that the run is still there, however slow the machine.
 pub(crate) fn long_run(folder: &Path) -> Command {
     let mut train = gambol("train");

@@ -6,7 +6,7 @@ use std::fs;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-/// The page refers to nothing outside itself. The name of SVG looks like an address, but nobody ever goes there.
+/// The page refers to nothing outside itself. The name of SVG looks like an address, but is never fetched.
 #[track_caller]
 pub(crate) fn assert_stands_alone(page: &str) {
     let page = page.replace("http://www.w3.org/2000/svg", "");

@@ -1,5 +1,5 @@
-//! Reproducing the thesis: every run is done once, whoever does it and however often it is killed, and the page says what
-//! is there and what is missing.
+//! Reproducing the thesis: every run is done once, by whichever process and however often it is killed, and the page
+//! says what is there and what is missing.
 
 use crate::{
     folder::{assert_same_files, read},

@@ -165,7 +165,7 @@ fn populations_are_sent_back() -> Outcome {
 }
 
 #[test]
-fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
+fn a_population_that_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
     let folder = tempfile::tempdir()?;
     let feel = json!({
         "name": "feel", "add_sensors": ["joint-speeds"], "promotion": { "fitness": 1e9 }, "demotion": { "generations": 3 }
@@ -182,7 +182,7 @@ fn who_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome {
         &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); ", "; given up: speed of "],
     );
     succeed(gambol("verify").arg(run_folder.join("stages/03-run/champion.json")));
-    // So does a topology that neat has found; but NEAT itself takes nobody back.
+    // So does a topology that NEAT has found; but NEAT itself takes no population back.
     config["strategy"] = json!({ "neat": { "population": 12 } });
     let weights = json!({
         "name": "weights", "changes": { "strategy": { "cma-es": { "population": 8 } } }, "promotion": { "generations": 3 }
@@ -391,7 +391,7 @@ fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
     succeed(small_run(&path("first"), 22).args(["--seed", "28", "--quiet"]));
-    // It was found since the last re-evaluation, so that the checkpoint has it among those who wait for the next.
+    // It was found since the last re-evaluation, so that the checkpoint has it among the candidates for the next.
     let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
     let generation = file["content"]["generation"].clone();
     assert!(generation.as_u64() > heard["content"]["champion"]["generation"].as_u64());

@@ -32,7 +32,7 @@ fn verify(run: &Path) {
 }
 
 #[test]
-fn rungs_save_steps_and_the_champion_is_one_who_was_evaluated_whole() -> Outcome {
+fn rungs_save_steps_and_the_champion_is_one_that_was_evaluated_whole() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (name, champion_selection) in
         [("with-champion_selection", &["--variation", "light"][..]), ("without", &WITHOUT_SELECTION)]

@@ -26,7 +26,7 @@ fn names(analysis: &Analysis) -> Vec<&str> {
     analysis.methods.iter().map(|method| method.name.as_str()).collect()
 }
 
-/// Over all scenarios: who does better than whom.
+/// Over all scenarios: which methods do better than which others.
 fn overall(analysis: &Analysis, names: &[&str]) -> Vec<String> {
     let Some(overall) = &analysis.primary_standings().overall else {
         return vec!["All runs of a scenario score the same: no difference can be claimed over all scenarios.".into()];

@@ -11,7 +11,7 @@ function axisScale(axis, most) {
 class LineChart {
   // `label`: what a screen reader says. `options`: height, stepped (the line holds its value until the next point), low
   // and high of the y axis if they are fixed, named (names at the ends of the lines), rest (the share of the x axis that
-  // the readout is of while nobody points at another; otherwise where scores are compared).
+  // the readout is of while the user points at no other; otherwise where scores are compared).
   constructor(label, options) {
     this.options = options;
     this.root = element("div");

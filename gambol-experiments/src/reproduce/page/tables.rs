@@ -1,4 +1,5 @@
-//! The tables: who is usable at the end and how long it takes, and the counterparts of the thesis' tables 5.1 and 5.2.
+//! The tables: which champions are usable at the end and how long it takes, and the counterparts of the thesis' tables
+//! 5.1 and 5.2.
 
 use super::{
     super::{
@@ -43,8 +44,8 @@ fn usable_of(outcome: &Outcome, movement: &str) -> String {
     table(
         movement,
         &format!(
-            "<tr><th>creature</th><th class=\"words\">who</th><th>usable</th><th>{measure}: median</th><th>lowest to \
-             highest</th><th>wall clock for {generations} generations</th></tr>"
+            "<tr><th>creature</th><th class=\"words\">source</th><th>usable</th><th>{measure}: median</th><th>lowest \
+             to highest</th><th>wall clock for {generations} generations</th></tr>"
         ),
         &rows,
     )
@@ -67,7 +68,7 @@ pub(super) fn timed(outcome: &Outcome) -> String {
 fn timed_of(outcome: &Outcome, movement: &str) -> String {
     let minutes = &outcome.clock_minutes;
     let mut groups = String::from("<tr><th></th><th></th>");
-    let mut head = String::from("<tr><th>creature</th><th class=\"words\">who</th>");
+    let mut head = String::from("<tr><th>creature</th><th class=\"words\">source</th>");
     for minutes in minutes {
         let plural = if *minutes == 1.0 { "" } else { "s" };
         groups += &format!("<th colspan=\"4\">{minutes} minute{plural}</th>");

@@ -49,7 +49,7 @@ function rowForKey(key, now, rows) {
     PageUp: now + 10, PageDown: now - 10, Home: 0, End: rows.length - 1 }[key];
 }
 
-// Makes a chart a slider over generations for those who cannot point at it.
+// Makes a chart a slider over generations for users who cannot point at it.
 function makeSlider(place, rows, label) {
   place.tabIndex = 0;
   place.dataset.keys = "";

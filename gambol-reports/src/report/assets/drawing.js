@@ -236,7 +236,7 @@ function raiseFor(stage, model, pose) {
   // In water the camera follows up and down, and has the swimmer halfway up the stage.
   if (stage.ground?.water) return pose[1] - stage.height * (stage.groundShare - 0.5) / stage.scale;
   if (stage.ground) {
-    // On uneven ground the camera follows the ground, and whoever falls into a pit.
+    // On uneven ground the camera follows the ground, and a creature that falls into a pit.
     const level = Math.min(levelAround(stage.ground, middleX(model, pose), 2 * model.width), pose[1]);
     return level + Math.max(0, top - level - visible);
   }

@@ -124,7 +124,7 @@ impl Phenotype for Faltering {
 }
 
 #[test]
-fn who_fails_in_one_body_fails_and_is_not_tried_in_the_next() {
+fn an_individual_that_fails_in_one_body_fails_and_is_not_tried_in_the_next() {
     let seed = Seed::of_run(5);
     for engine in EngineChoice::ALL {
         let mut config = config(engine, Combine::Mean);

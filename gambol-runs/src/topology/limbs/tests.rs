@@ -146,7 +146,7 @@ fn every_motor_has_an_output_of_its_own_and_every_gene_a_weight() {
             assert!(outputs[0] >= net.inputs, "{name}: a motor gets an input");
             let counts = |gene: usize| made.shape.weights.iter().any(|tie| mentions(tie, gene));
             assert!((0..made.shape.gene_count()).all(counts), "{name}: a gene counts in no weight");
-            // Every input is heard by somebody.
+            // Every input is the source of a neuron.
             let heard = |input: usize| net.neurons.iter().any(|neuron| neuron.sources.contains(&input));
             assert!((0..net.inputs).all(heard), "{name}");
         }
