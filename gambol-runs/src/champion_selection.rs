@@ -117,8 +117,8 @@ impl ReferenceSelection {
         }
     }
 
-    /// Grades: 0 for whoever is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
-    /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; who
+    /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
+    /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; one that
     /// would not become champion whatever came of it is not looked at.
     fn tiers<G: Genome>(
         &self,

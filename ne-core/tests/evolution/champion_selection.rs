@@ -100,7 +100,7 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     };
     assert_eq!(evolution.champion(), Some(&champion));
     // Of the equals in training the first is candidate; worth 5, it would take over.
-    let next = evolution.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("somebody");
+    let next = evolution.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("a champion");
     assert_eq!((next.genome, next.fitness, next.trained), (genome(4, 0), fitness(5.0), Some(fitness(9.0))));
     assert_eq!(evolution.champion(), Some(&champion), "it was only asked");
     assert_eq!(evolution.candidates().len(), 1);
@@ -255,7 +255,7 @@ fn a_candidate_is_heard_once_however_often_it_was_best() {
     let checkpoint: Checkpoint<Script> = Checkpoint::read(&folder.path().join("checkpoint")).expect("it is whole");
     let resumed = Evolution::resume(Checkpoint { candidates, ..checkpoint }, StopConditions::default())
         .with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone());
-    let champion = resumed.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("somebody");
+    let champion = resumed.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("a champion");
     assert_eq!((champion.generation, champion.trained), (1, Some(fitness(5.0))), "as it was first");
     assert_eq!(*known.heard.lock().expect("no test panics here"), [vec![genome(1, 1), genome(1, 0)]]);
     assert_eq!(evolution.champion_if_re_evaluated().expect("as many evaluations as candidates"), None);

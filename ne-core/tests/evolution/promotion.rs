@@ -28,10 +28,10 @@ fn is_met(rule: &PromotionRule) -> bool {
     let progress = Progress { generations: 7, evaluations: 28, steps: 280, stagnation: 3 };
     let champion = Some(TieredFitness { tier: 1, fitness });
     let moment = StageState { report: &report, evaluations: &evaluations, champion, progress };
-    let nobody = StageState { champion: None, evaluations: &[], ..moment };
-    let needs_somebody =
+    let without = StageState { champion: None, evaluations: &[], ..moment };
+    let needs_a_champion =
         matches!(rule, PromotionRule::Fitness(_) | PromotionRule::Usable | PromotionRule::Measurement(_));
-    assert!(!needs_somebody || !rule.is_met(&nobody), "{rule} with nobody");
+    assert!(!needs_a_champion || !rule.is_met(&without), "{rule} without a champion");
     let decided = rule.decide(&moment);
     assert_eq!(decided == Decision::Promote, rule.is_met(&moment), "{rule}");
     rule.is_met(&moment)
@@ -66,7 +66,7 @@ fn a_rule_is_met_at_its_bound_and_not_before() {
     }
     assert!(is_met(&PromotionRule::Usable));
     let other = MeasurementBound { name: "height".into(), at_least: Some(-1e9), at_most: None };
-    assert!(!is_met(&PromotionRule::Measurement(other)), "nobody was measured so");
+    assert!(!is_met(&PromotionRule::Measurement(other)), "it was not measured");
 }
 
 #[test]
