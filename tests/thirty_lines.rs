@@ -22,7 +22,7 @@ fn a_movement_of_ones_own_is_thirty_lines() {
     let path = root().join("examples/examples/custom_movement.rs");
     let program = fs::read_to_string(&path).expect("the example is there");
     // What is counted is the whole of it.
-    for part in ["impl Movement for ", "check_movement(", "teach(", "fn main("] {
+    for part in ["impl Movement for ", "check_movement(", "train_and_verify(", "fn main("] {
         assert!(program.contains(part), "{} has no `{part}`", path.display());
     }
     let lines = lines_of_code(&program);

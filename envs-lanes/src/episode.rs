@@ -34,7 +34,7 @@ impl LaneEpisode {
         SettingError::check_at_least("steps", steps as usize, 1)?;
         trials.validate().map_err(|error| error.within("trials"))?;
         if let Some(body) = environment.body() {
-            movement.meet(body);
+            movement.bind(body);
         }
         Ok(Self { environment, movement, steps, trials, instructions: Instructions::best() })
     }

@@ -6,7 +6,7 @@
 //! Run it: `cargo run --release -p gambol-examples --example custom_movement`
 
 use gambol::Registry;
-use gambol::complete_run::teach;
+use gambol::complete_run::train_and_verify;
 use std::error::Error;
 use tasks::{Movement, Snapshot, Verdict, conformance::check_movement};
 
@@ -41,6 +41,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut config = registry.config("default", creatures::find("biped-2")?, "high-kick")?;
     config.stop.generations = Some(30);
     let folder = std::env::temp_dir().join(format!("gambol-high-kick-{}", std::process::id()));
-    println!("{:.2} m; watch it: {}", teach(&config, &folder, &registry)?.fitness, folder.display());
+    println!("{:.2} m; watch it: {}", train_and_verify(&config, &folder, &registry)?.fitness, folder.display());
     Ok(())
 }

@@ -112,8 +112,8 @@ fn config(arm: &str, seed: u64, steps: u64, experiment: &Experiment) -> Result<R
         Ok(FrozenTopology::of(&Champion::read(&champion)?))
     };
     match arm {
-        "class-then-weights" => config.companions = CLASS.map(|scale| with_legs(creature, scale)).into(),
-        "dense" | "stranger-dense" => config.controller.limbs = None,
+        "class-then-weights" => config.further_bodies = CLASS.map(|scale| with_legs(creature, scale)).into(),
+        "dense" | "stranger-dense" => config.controller.modular = None,
         "stranger-of-one-body" => config.topology = Some(found("topology-then-weights")?),
         "stranger-of-the-class" => config.topology = Some(found("class-then-weights")?),
         _ => {}

@@ -85,7 +85,7 @@ pub struct Training {
     pub trials: Trials,
     /// How those trials differed.
     pub variation: Variation,
-    /// Bodies that fitness is over: the creature and its companions; 1 without companions.
+    /// Bodies that fitness is over: the creature and its further bodies; 1 without further bodies.
     #[serde(default = "one_body", skip_serializing_if = "is_one_body")]
     pub bodies: usize,
     /// Whether the engine of training gives it, in the champion's world, another fitness than rapier.

@@ -29,9 +29,9 @@ pub enum SetupError {
     /// The topology was made for another creature, or for other sensors.
     #[error("the topology does not fit the creature: {0}")]
     Topology(String),
-    /// A companion cannot be built, or its inputs and outputs are not those of the creature.
-    #[error("companions[{index}] (\"{name}\"): {problem}")]
-    Companion {
+    /// A further body cannot be built, or its inputs and outputs are not those of the creature.
+    #[error("further_bodies[{index}] (\"{name}\"): {problem}")]
+    FurtherBody {
         /// Which, from 0.
         index: usize,
         /// Its name.

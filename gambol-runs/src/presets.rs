@@ -139,7 +139,7 @@ fn bare(creature: Creature, movement: &str) -> RunConfig {
             hidden_scale: 3.0,
             input_range: creatures::DEFAULT_INPUT_RANGE,
             actuation: Actuation::Speed,
-            limbs: None,
+            modular: None,
         },
         topology: None,
         stop: StopConditions { generations: Some(300), ..StopConditions::default() },
@@ -154,6 +154,6 @@ fn bare(creature: Creature, movement: &str) -> RunConfig {
         origin: None,
         sensors: None,
         creature,
-        companions: Vec::new(),
+        further_bodies: Vec::new(),
     }
 }

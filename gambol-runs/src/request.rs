@@ -37,11 +37,11 @@ pub struct Request {
     /// A run or a champion that is gone on from: without a configuration file, sensors and controller are those it learned
     /// with, in place of the preset's.
     pub from: Option<PathBuf>,
-    /// A configuration file laid over the preset. Its `creature` and `companions`, those of its stages too, may be whole
+    /// A configuration file laid over the preset. Its `creature` and `further_bodies`, those of its stages too, may be whole
     /// creatures, names, or paths (seen from the file's folder).
     pub config: Option<PathBuf>,
-    /// Companions of the creature: shipped creatures' names or creature files; if any, in place of the configuration file's.
-    pub companions: Vec<String>,
+    /// Further bodies of the creature: shipped creatures' names or creature files; if any, in place of the configuration file's.
+    pub further_bodies: Vec<String>,
     /// Single settings, `key=value`.
     pub set: Vec<String>,
     /// The engine of training, by name.
@@ -142,9 +142,9 @@ impl Request {
             let topology = FrozenTopology::of(&Champion::read(path)?);
             assembly.lay_over(json!({ "topology": topology }));
         }
-        if !self.companions.is_empty() {
-            let companions = self.companions.iter().map(|name| source::creature(name));
-            assembly.lay_over(json!({ "companions": companions.collect::<Result<Vec<_>, _>>()? }));
+        if !self.further_bodies.is_empty() {
+            let further_bodies = self.further_bodies.iter().map(|name| source::creature(name));
+            assembly.lay_over(json!({ "further_bodies": further_bodies.collect::<Result<Vec<_>, _>>()? }));
         }
         assembly.lay_over(self.choices()?);
         for assignment in &self.set {
@@ -301,19 +301,20 @@ impl Layer {
         Ok(blueprint.creature().clone())
     }
 
-    /// Puts creatures in the place of their names: of the companions of the run, and of the creature and the companions of
+    /// Puts creatures in the place of their names: of the further bodies of the run, and of the creature and the further bodies of
     /// each of its stages.
     fn find_creatures(&mut self) -> Result<(), RequestError> {
         let stages = self.value.get("stages").and_then(Value::as_array).map_or(0, Vec::len);
-        let of_stage =
-            |stage| (format!("/stages/{stage}/changes/companions"), format!("stages[{stage}].changes.companions"));
-        let of_run = ("/companions".to_owned(), "companions".to_owned());
+        let of_stage = |stage| {
+            (format!("/stages/{stage}/changes/further_bodies"), format!("stages[{stage}].changes.further_bodies"))
+        };
+        let of_run = ("/further_bodies".to_owned(), "further_bodies".to_owned());
         for (place, field) in std::iter::once(of_run).chain((0..stages).map(of_stage)) {
             let Some(named) = self.value.pointer(&place).and_then(Value::as_array) else { continue };
             let found = named.iter().enumerate().map(|(index, it)| self.creature(&format!("{field}[{index}]"), it));
             let found = json!(found.collect::<Result<Vec<_>, _>>()?);
-            if let Some(companions) = self.value.pointer_mut(&place) {
-                *companions = found;
+            if let Some(further_bodies) = self.value.pointer_mut(&place) {
+                *further_bodies = found;
             }
         }
         for stage in 0..stages {

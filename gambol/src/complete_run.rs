@@ -39,7 +39,7 @@ pub enum CompleteRunError {
 ///
 /// # Errors
 /// As [`train`] and [`write_report`]; and if every evaluation failed, or the champion does not do the same again.
-pub fn teach(config: &RunConfig, folder: &Path, registry: &Registry) -> Result<Champion, CompleteRunError> {
+pub fn train_and_verify(config: &RunConfig, folder: &Path, registry: &Registry) -> Result<Champion, CompleteRunError> {
     let options =
         TrainOptions { threads: 0, registry: registry.clone(), signal: Default::default(), on_generation: &mut |_| {} };
     let outcome = train(config, folder, options)?;
@@ -94,7 +94,8 @@ mod tests {
         ] {
             let mut config = registry.config("thesis", creatures::find("biped-1")?, movement)?;
             config.stop.generations = Some(1);
-            let message = teach(&config, &folder.path().join(movement), &registry).map(|_| ()).expect_err(movement);
+            let message =
+                train_and_verify(&config, &folder.path().join(movement), &registry).map(|_| ()).expect_err(movement);
             assert!(message.to_string().starts_with(says), "{message}");
         }
         assert!(folder.path().join("failing/report.html").is_file());

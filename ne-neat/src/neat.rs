@@ -142,7 +142,7 @@ impl Neat {
                     individual.copy_from(&self.parents[champion]);
                     proposals.push(Proposal::default());
                 } else {
-                    proposals.push(self.beget(individual, home, &breeders, seed.individual(index as u64)));
+                    proposals.push(self.reproduce(individual, home, &breeders, seed.individual(index as u64)));
                 }
             }
         }
@@ -150,7 +150,7 @@ impl Neat {
     }
 
     /// Writes a child of the breeding species `home`.
-    fn beget(&self, child: &mut NeatGenome, home: usize, breeders: &[&Species], seed: Seed) -> Proposal {
+    fn reproduce(&self, child: &mut NeatGenome, home: usize, breeders: &[&Species], seed: Seed) -> Proposal {
         let NeatSettings { reproduction, crossover, mutation, .. } = &self.settings;
         let mut stream = seed.stream(REPRODUCTION);
         let (first, second) = reproduction.parents(home, breeders, &mut stream);

@@ -13,7 +13,7 @@
 //! | [`GraphShape`] | neurons and their connections, without weights |
 //! | [`GraphNet`] | a net of any graph, feed-forward or recurrent, ready to activate |
 //! | [`Network`] | a net of any kind: what a file stores |
-//! | [`TiedShape`] | a graph whose weights are computed from fewer genes, so that copies of a small net share them |
+//! | [`SharedShape`] | a graph whose weights are computed from fewer genes, so that copies of a small net share them |
 //! | [`Topology`] | a net of any kind without its weights: what a search for weights keeps fixed |
 //!
 //! ```
@@ -51,7 +51,7 @@ mod dense;
 mod graph;
 mod mathematics;
 mod network;
-mod tied;
+mod shared;
 mod topology;
 mod topology_map;
 
@@ -59,6 +59,6 @@ pub use activation::Activation;
 pub use dense::{DenseNet, DenseNetError, DenseShape};
 pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
 pub use network::Network;
-pub use tied::{GenesError, Tie, TiedShape, Turn};
+pub use shared::{GenesError, SharedShape, SharedWeight, Turn};
 pub use topology::{NetworkError, Topology};
 pub use topology_map::TopologyMap;

@@ -1,6 +1,6 @@
 use crate::{
     DenseNet, DenseNetError, DenseShape, GenesError, GraphNet, GraphNetError, GraphNeuron, GraphShape, Network,
-    TiedShape,
+    SharedShape,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
@@ -10,7 +10,7 @@ use std::{fmt, sync::Arc};
 ///
 /// The shapes are shared, so that a clone is cheap.
 ///
-/// In JSON: `{"dense": {…}}`, `{"graph": {…}}` or `{"tied": {…}}`.
+/// In JSON: `{"dense": {…}}`, `{"graph": {…}}` or `{"shared": {…}}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -20,7 +20,7 @@ pub enum Topology {
     /// Any graph, such as one that NEAT has found.
     Graph(Arc<GraphShape>),
     /// A graph whose weights are computed from fewer genes; its nets are graph nets.
-    Tied(Arc<TiedShape>),
+    Shared(Arc<SharedShape>),
 }
 
 /// Why a topology and weights are not a net.
@@ -30,9 +30,9 @@ pub enum NetworkError {
     /// Not a dense net.
     #[error(transparent)]
     Dense(#[from] DenseNetError),
-    /// Not the genes of a tied topology.
+    /// Not the genes of a topology with shared weights.
     #[error(transparent)]
-    Tied(#[from] GenesError),
+    Shared(#[from] GenesError),
     /// Not a graph net.
     #[error(transparent)]
     Graph(#[from] GraphNetError),
@@ -44,7 +44,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.inputs,
             Self::Graph(shape) => shape.inputs,
-            Self::Tied(shape) => shape.net.inputs,
+            Self::Shared(shape) => shape.net.inputs,
         }
     }
 
@@ -53,31 +53,31 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.outputs,
             Self::Graph(shape) => shape.outputs.len(),
-            Self::Tied(shape) => shape.net.outputs.len(),
+            Self::Shared(shape) => shape.net.outputs.len(),
         }
     }
 
-    /// The number of weights, biases included; of a tied topology the number of its genes.
+    /// The number of weights, biases included; of a topology with shared weights the number of its genes.
     pub fn weight_count(&self) -> usize {
         match self {
             Self::Dense(shape) => shape.weight_count(),
             Self::Graph(shape) => shape.weight_count(),
-            Self::Tied(shape) => shape.gene_count(),
+            Self::Shared(shape) => shape.gene_count(),
         }
     }
 
-    /// For each neuron the number of its weights, in the order in which they stand; of a tied topology, for each group of
+    /// For each neuron the number of its weights, in the order in which they stand; of a topology with shared weights, for each group of
     /// genes their number.
     pub fn weights_of_neurons(&self) -> impl Iterator<Item = usize> + '_ {
-        let (dense, graph, tied) = match self {
+        let (dense, graph, shared) = match self {
             Self::Dense(shape) => (Some(shape), None, None),
             Self::Graph(shape) => (None, Some(shape), None),
-            Self::Tied(shape) => (None, None, Some(shape)),
+            Self::Shared(shape) => (None, None, Some(shape)),
         };
         let dense = dense.into_iter().flat_map(|shape| shape.connections());
         let dense = dense.flat_map(|(sources, targets)| std::iter::repeat_n(sources + 1, targets));
         let graph = graph.into_iter().flat_map(|shape| &shape.neurons).map(GraphNeuron::weight_count);
-        dense.chain(graph).chain(tied.into_iter().flat_map(|shape| shape.groups.iter().copied()))
+        dense.chain(graph).chain(shared.into_iter().flat_map(|shape| shape.groups.iter().copied()))
     }
 
     /// Checks the shape.
@@ -88,7 +88,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => shape.validate(),
             Self::Graph(shape) => shape.validate(),
-            Self::Tied(shape) => shape.validate(),
+            Self::Shared(shape) => shape.validate(),
         }
     }
 
@@ -100,7 +100,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => Ok(DenseNet::check_weights(shape, weights)?),
             Self::Graph(shape) => Ok(GraphNet::check_weights(shape, weights)?),
-            Self::Tied(shape) => Ok(shape.check_genes(weights)?),
+            Self::Shared(shape) => Ok(shape.check_genes(weights)?),
         }
     }
 
@@ -112,7 +112,7 @@ impl Topology {
         match self {
             Self::Dense(shape) => DenseNet::from_checked(Arc::clone(shape), weights).into(),
             Self::Graph(shape) => GraphNet::from_checked(Arc::clone(shape), weights).into(),
-            Self::Tied(shape) => GraphNet::from_checked(Arc::clone(&shape.net), &shape.weights(weights)).into(),
+            Self::Shared(shape) => GraphNet::from_checked(Arc::clone(&shape.net), &shape.weights(weights)).into(),
         }
     }
 }
@@ -123,9 +123,9 @@ impl From<DenseShape> for Topology {
     }
 }
 
-impl From<TiedShape> for Topology {
-    fn from(shape: TiedShape) -> Self {
-        Self::Tied(shape.into())
+impl From<SharedShape> for Topology {
+    fn from(shape: SharedShape) -> Self {
+        Self::Shared(shape.into())
     }
 }
 
@@ -140,7 +140,7 @@ impl fmt::Display for Topology {
         match self {
             Self::Dense(shape) => shape.fmt(f),
             Self::Graph(shape) => shape.fmt(f),
-            Self::Tied(shape) => shape.fmt(f),
+            Self::Shared(shape) => shape.fmt(f),
         }
     }
 }
@@ -207,7 +207,7 @@ mod tests {
     #[test]
     fn files_are_checked_and_name_the_kinds() {
         for (text, part) in [
-            (r#"{"cloud": {}}"#, "unknown variant `cloud`, expected one of `dense`, `graph`, `tied`"),
+            (r#"{"cloud": {}}"#, "unknown variant `cloud`, expected one of `dense`, `graph`, `shared`"),
             (r#"{"dense": {"inputs": 0, "hidden": [], "outputs": 1}}"#, "inputs = 0: must be from 1 to 4096"),
             (
                 r#"{"graph": {"inputs": 1, "recurrent": false, "neurons": [], "outputs": [1]}}"#,

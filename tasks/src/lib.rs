@@ -12,7 +12,7 @@
 //! ([`Running`] is one). Movements add up: [`Sum`] weighs several, so a penalty is a movement too.
 //!
 //! What a body is made of, its legs, hinges and masses, an environment may tell as a [`Body`]; a movement that wants to
-//! know is told once, by [`Movement::meet`], and one that does not need not look.
+//! know is told once, by [`Movement::bind`], and one that does not need not look.
 //!
 //! Beside them stand the [`classic`] tasks, XOR and pole balancing, on which strategies are compared, and [`gait`], which
 //! measures what a body does in an episode, audits it for cheats and says whether it is usable.

@@ -76,7 +76,7 @@ impl Pose {
 /// Shows a movement that has met the puppet what it does for so many seconds. It never ends the episode, and is worth the
 /// same when it is shown the same again.
 fn value(mut movement: impl Movement, seconds: f32, pose: impl Fn(f32) -> Pose) -> f64 {
-    movement.meet(&puppet());
+    movement.bind(&puppet());
     let steps = (seconds / TIME_STEP).round() as u16;
     let script: Vec<Snapshot> =
         (0..=steps).map(|step| f32::from(step) * TIME_STEP).map(|time| pose(time).snapshot(time)).collect();
@@ -353,7 +353,7 @@ fn backwards_is_the_way_back_and_so_is_its_headway() {
     let headway = Headway::new(HeadwaySettings { backwards: true }).expect("no limits");
     assert_eq!(value(headway.clone(), 10.0, back), 0.0);
     let mut movement = headway;
-    movement.meet(&puppet());
+    movement.bind(&puppet());
     movement.begin(&Pose::default().snapshot(0.0));
     let ahead = |time: f32| Pose { x: time, ..Pose::default() }.snapshot(time);
     assert_eq!([0.5, 1.0].map(|time| movement.observe(&ahead(time))), [Verdict::GoOn, Verdict::End]);
@@ -369,7 +369,7 @@ fn swimming_is_the_way_of_all_mass_and_not_of_a_part() {
     let mut heavy = puppet();
     heavy.parts[1].mass = 2.0;
     let mut movement = Swimming::default();
-    movement.meet(&heavy);
+    movement.bind(&heavy);
     let start = Pose::default().snapshot(0.0);
     movement.begin(&start);
     let mut reaching = start.clone();

@@ -102,7 +102,7 @@ struct Seen {
 /// Shows a movement that has met this body the script, until it has seen enough. Its value must stay the same on a
 /// second showing.
 fn watch(mut movement: impl Movement, body: &Body, script: &[Snapshot]) -> Seen {
-    movement.meet(body);
+    movement.bind(body);
     let mut show = || {
         movement.begin(&script[0]);
         let mut verdicts = script[1..].iter().map(|now| (now.time, movement.observe(now)));
@@ -158,7 +158,7 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
     for mut movement in movements {
         let name = movement.name().to_owned();
         assert_eq!(check_movement(&*movement), Ok(()), "{name}, unmet");
-        movement.meet(&simple);
+        movement.bind(&simple);
         assert_eq!(check_movement(&*movement), Ok(()), "{name}, met");
         let spec = MovementSpec { steps: Some(10), ..MovementSpec::new(&name) };
         assert_eq!(catalogue.build(&spec).expect("it is in the catalogue").name(), name);
@@ -534,7 +534,7 @@ fn terms_of_a_sum_meet_the_body() {
     let catalogue = MovementCatalogue::default();
     for (term, at) in [("footfalls", 0.9), ("headway", 1.0)] {
         let mut movement = catalogue.build(&spec(term)).expect("it is in the catalogue");
-        movement.meet(&puppet());
+        movement.bind(&puppet());
         movement.begin(&rests[0]);
         let end = rests[1..].iter().find(|now| movement.observe(now) != Verdict::GoOn).expect("it ends");
         assert!((end.time - at).abs() < 1.5 * TIME_STEP, "{term}: {}", end.time);

@@ -42,12 +42,12 @@ struct Lane {
     /// From where to where the part's centre may move before `nearby` must be looked up again, m.
     stay: [f32; 2],
     /// The shapes that are within reach, in the order of the ground.
-    footings: Vec<Footing>,
+    contacts: Vec<Contact>,
 }
 
 /// A part on a shape of the ground.
 #[derive(Clone, Debug)]
-struct Footing {
+struct Contact {
     /// Index of the shape.
     ledge: usize,
     manifold: ContactManifold<(), Impulses>,
@@ -83,7 +83,7 @@ impl<const W: usize> UnevenContact<W> {
             Shape::Circle { radius } => (SharedShape::ball(radius), radius),
             Shape::Capsule { length, radius } => (SharedShape::capsule_y(length * 0.5, radius), length * 0.5 + radius),
         };
-        let lane = Lane { ledges, nearby: Vec::new(), stay: [f32::INFINITY; 2], footings: Vec::new() };
+        let lane = Lane { ledges, nearby: Vec::new(), stay: [f32::INFINITY; 2], contacts: Vec::new() };
         let (lanes, friction) = (vec![lane; W], Lanes::ZERO);
         Self { part, radius, lanes, friction, rows: Vec::new(), active: Vec::new() }
     }
@@ -91,7 +91,7 @@ impl<const W: usize> UnevenContact<W> {
     /// Forgets what a lane's part stood on.
     pub(super) fn reset(&mut self, lane: usize, friction: f32) {
         self.friction.0[lane] = friction;
-        self.lanes[lane].footings.clear();
+        self.lanes[lane].contacts.clear();
         for rows in &mut self.rows {
             rows.reset(lane, friction);
         }
@@ -154,11 +154,11 @@ impl<const W: usize> UnevenContact<W> {
                 spin: body.spin.0[lane],
             };
             if self.lanes[lane].ledges.are_below(placed.pose.translation.y, around) {
-                self.lanes[lane].footings.clear();
+                self.lanes[lane].contacts.clear();
                 continue;
             }
             self.lanes[lane].look_around(placed.pose.translation.x, around);
-            let Lane { ledges, nearby, footings, .. } = &mut self.lanes[lane];
+            let Lane { ledges, nearby, contacts, .. } = &mut self.lanes[lane];
             let mut next = 0;
             for &index in nearby.iter() {
                 let ledge = ledges.ledge(index);
@@ -166,22 +166,22 @@ impl<const W: usize> UnevenContact<W> {
                     continue;
                 }
                 // What is known and stands before it in the order is out of reach by now.
-                while footings.get(next).is_some_and(|footing| footing.ledge < index) {
-                    footings.remove(next);
+                while contacts.get(next).is_some_and(|contact| contact.ledge < index) {
+                    contacts.remove(next);
                 }
-                if footings.get(next).is_none_or(|footing| footing.ledge != index) {
-                    footings.insert(next, Footing::new(index));
+                if contacts.get(next).is_none_or(|contact| contact.ledge != index) {
+                    contacts.insert(next, Contact::new(index));
                 }
-                footings[next].update(&*self.part, ledge, &placed, reach, time_step.0[lane]);
+                contacts[next].update(&*self.part, ledge, &placed, reach, time_step.0[lane]);
                 next += 1;
             }
-            footings.truncate(next);
+            contacts.truncate(next);
             self.assign_rows(lane);
-            let Lane { ledges, footings, .. } = &self.lanes[lane];
-            for footing in footings {
-                if let Some(row) = footing.row {
-                    let ground = ledges.ledge(footing.ledge).place;
-                    footing.fill(&mut self.rows[row], &mut self.active[row], lane, &placed, &ground);
+            let Lane { ledges, contacts, .. } = &self.lanes[lane];
+            for contact in contacts {
+                if let Some(row) = contact.row {
+                    let ground = ledges.ledge(contact.ledge).place;
+                    contact.fill(&mut self.rows[row], &mut self.active[row], lane, &placed, &ground);
                 }
             }
         }
@@ -218,8 +218,8 @@ impl<const W: usize> UnevenContact<W> {
 
     /// Brings the impulses of the last step from the rows to the points they belong to.
     fn remember(&mut self) {
-        for (lane, Lane { footings, .. }) in self.lanes.iter_mut().enumerate() {
-            for Footing { manifold, row, points, .. } in footings {
+        for (lane, Lane { contacts, .. }) in self.lanes.iter_mut().enumerate() {
+            for Contact { manifold, row, points, .. } in contacts {
                 let Some(rows) = row.map(|row| &self.rows[row]) else { continue };
                 for (point, index) in rows.points.iter().zip(points) {
                     let Some(known) = index.and_then(|index| manifold.points.get_mut(index)) else { continue };
@@ -234,14 +234,14 @@ impl<const W: usize> UnevenContact<W> {
     /// part does not use, once all contacts that ended have given theirs back, and solves the first colours first. The
     /// last colour is the first of the rows here.
     fn assign_rows(&mut self, lane: usize) {
-        for begun in 0..self.lanes[lane].footings.len() {
-            let footings = &mut self.lanes[lane].footings;
-            if footings[begun].row.is_some() || footings[begun].points[0].is_none() {
+        for begun in 0..self.lanes[lane].contacts.len() {
+            let contacts = &mut self.lanes[lane].contacts;
+            if contacts[begun].row.is_some() || contacts[begun].points[0].is_none() {
                 continue;
             }
-            let taken = |row: usize| footings.iter().any(|footing| footing.row == Some(row));
+            let taken = |row: usize| contacts.iter().any(|contact| contact.row == Some(row));
             let free = (0..).find(|&row| !taken(row));
-            footings[begun].row = free;
+            contacts[begun].row = free;
             while free.is_some_and(|row| row >= self.rows.len()) {
                 self.add_row();
             }
@@ -270,7 +270,7 @@ impl Lane {
     }
 }
 
-impl Footing {
+impl Contact {
     fn new(index: usize) -> Self {
         Self { ledge: index, manifold: ContactManifold::default(), row: None, points: [None; 2] }
     }

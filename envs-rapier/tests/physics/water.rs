@@ -130,7 +130,7 @@ fn wave(direction: f32, time_step: f32) -> f64 {
     let settings = PhysicsSettings { time_step, ..settings(Water::default()) };
     let mut apod = swimmer("apod", settings, Variation::default());
     let mut movement = Swimming::default();
-    movement.meet(apod.body().expect("it has one"));
+    movement.bind(apod.body().expect("it has one"));
     apod.reset(Seed::of_run(1)).expect("builds");
     movement.begin(apod.snapshot());
     // Head, back to tail; joints in the file go from the middle forwards, then from the middle backwards.

@@ -211,9 +211,9 @@ pub(super) fn settings(config: &RunConfig, registry: &Registry) -> Vec<Fact> {
         let objectives = config.movement.objectives.iter().map(|term| format!("{} × {}", term.weight, term.term));
         facts.insert(2, Fact::new("Objectives", objectives.collect::<Vec<_>>().join(", ")));
     }
-    if !config.companions.is_empty() {
-        let names: Vec<&str> = config.companions.iter().map(|companion| companion.name.as_str()).collect();
-        facts.insert(1, Fact::new("Companions in training", names.join(", ")));
+    if !config.further_bodies.is_empty() {
+        let names: Vec<&str> = config.further_bodies.iter().map(|further_body| further_body.name.as_str()).collect();
+        facts.insert(1, Fact::new("further_bodies in training", names.join(", ")));
     }
     facts.extend(config.strategy.population().map(|population| Fact::new("Population", population)));
     facts

@@ -39,7 +39,7 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ. With any, with shortened training episodes or companions, the champion is chosen without variation, in one trial.
+    /// How trials differ. With any, with shortened training episodes or further bodies, the champion is chosen without variation, in one trial.
     pub variation: Variation,
     /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
@@ -82,19 +82,19 @@ pub struct RunConfig {
     /// Further bodies in which every individual is evaluated in training, each with the creature's inputs and outputs; at
     /// most 15, none by default. What they come to is combined as trials are; the champion is chosen in `creature` alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub companions: Vec<Creature>,
+    pub further_bodies: Vec<Creature>,
 }
 
 impl RunConfig {
-    /// In how many bodies every individual is evaluated in training: in `creature` and its companions.
+    /// In how many bodies every individual is evaluated in training: in `creature` and its further bodies.
     pub fn bodies(&self) -> usize {
-        1 + self.companions.len()
+        1 + self.further_bodies.len()
     }
 
     /// Whether a champion selection chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
     /// that the best of a generation need not be the best in one whole episode of `creature`.
     pub fn has_champion_selection(&self) -> bool {
-        !self.variation.is_none() || self.training_steps.is_some() || !self.companions.is_empty()
+        !self.variation.is_none() || self.training_steps.is_some() || !self.further_bodies.is_empty()
     }
 }
 
@@ -115,10 +115,10 @@ pub struct ControllerSettings {
     /// What an output means to its motor.
     #[serde(default)]
     pub actuation: Actuation,
-    /// A copy of one small net for each limb, with the clocks of the limbs like this; `null`: one net for the whole body,
+    /// A modular controller: a copy of one small net for each limb, with shared weights, and with the clocks of the limbs like this; `null`: one net for the whole body,
     /// which sees every sensor. Joints hear hidden neurons alone, or the sensors if there are none.
     #[serde(default)]
-    pub limbs: Option<LimbPhases>,
+    pub modular: Option<LimbPhases>,
 }
 
 /// How far the clocks of limbs run ahead of each other before evolution changes it.
@@ -152,7 +152,7 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
-    /// With variation, shortened training episodes or companions: with each checkpoint so many of the best of the generation, and the best of
+    /// With variation, shortened training episodes or further bodies: with each checkpoint so many of the best of the generation, and the best of
     /// each generation since the last, are evaluated in one whole episode of the creature without variation, and the best of
     /// them may become champion; from 1 to 1000, default 23.
     #[serde(default = "default_candidates")]

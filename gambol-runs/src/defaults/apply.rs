@@ -19,7 +19,7 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     controller.hidden_activation = Activation::Tanh;
     controller.output_activation = Activation::Tanh;
     controller.hidden_scale = 1.0;
-    controller.limbs = defaults.limbs;
+    controller.modular = defaults.modular;
     controller.actuation = Actuation::Angle { gain: defaults.gain };
     config.physics.motor_gain = MOTOR_GAIN;
     config.sensors = Some(sensors(&config.creature.sensors, &defaults));

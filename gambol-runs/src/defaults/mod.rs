@@ -54,7 +54,7 @@ pub struct MovementDefaults {
     /// Terms added to the fitness.
     pub terms: Vec<TermSpec>,
     /// How limbs share a net; `None`: one net moves all joints.
-    pub limbs: Option<LimbPhases>,
+    pub modular: Option<LimbPhases>,
     /// Of the motors' angle law, 1/s.
     pub gain: f32,
     /// Of the clock that the net senses, unless the creature's file has one, s.
@@ -77,7 +77,7 @@ impl MovementDefaults {
             steps: None,
             training_steps: None,
             terms: Vec::new(),
-            limbs: Some(LimbPhases::Alternating),
+            modular: Some(LimbPhases::Alternating),
             gain: if walks { 10.0 } else { 20.0 },
             period: if walks { body.pendulum(0.5) } else { 0.5 },
             from_landing: false,

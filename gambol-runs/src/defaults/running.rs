@@ -48,7 +48,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         terms: if legs == 0 { terms(&CRAWLING) } else { on_legs },
         // Two legs run best if one net moves them both: they skip, the same leg always first, and a skip bears a stumble that
         // an even stride does not.
-        limbs: (!is_biped).then_some(LimbPhases::Alternating),
+        modular: (!is_biped).then_some(LimbPhases::Alternating),
         period,
         // Many legs bridge bumps by themselves.
         variation: (1..=4).contains(&legs).then(Variation::bumpy),

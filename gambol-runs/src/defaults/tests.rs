@@ -25,7 +25,7 @@ fn limbs_leap_together_or_alternate_and_bipeds_leap_and_run_with_one_net() {
         ("tetrapod-2", "jumping", together),
         ("apod", "jumping", alternating),
     ] {
-        assert_eq!(config(creature, movement).controller.limbs, limbs, "{creature} {movement}");
+        assert_eq!(config(creature, movement).controller.modular, limbs, "{creature} {movement}");
     }
 }
 
@@ -81,15 +81,15 @@ fn any_crate_can_say_what_the_default_preset_adds_for_a_movement() {
     let mut registry = Registry::default();
     let creature = || creatures::find("biped-2").expect("shipped");
     let bare = registry.config("default", creature(), "high-kick").expect("a preset");
-    assert_eq!((bare.movement.terms.len(), bare.controller.limbs), (0, Some(LimbPhases::Alternating)));
+    assert_eq!((bare.movement.terms.len(), bare.controller.modular), (0, Some(LimbPhases::Alternating)));
     registry.defaults.add("high-kick", |body: &BodyFacts| MovementDefaults {
         steps: Some(100),
         period: body.pendulum(1.0),
-        limbs: None,
+        modular: None,
         ..MovementDefaults::unknown(body)
     });
     let config = registry.config("default", creature(), "high-kick").expect("a preset");
-    assert_eq!((config.movement.steps, config.controller.limbs), (Some(100), None));
+    assert_eq!((config.movement.steps, config.controller.modular), (Some(100), None));
     assert_eq!(
         registry.config("defualt", creature(), "running").expect_err("none").to_string(),
         "there is no preset \"defualt\"; did you mean \"default\"? (there are: default, thesis, stanley-2002)"

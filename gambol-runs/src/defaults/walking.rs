@@ -11,6 +11,6 @@ pub(super) fn walking(body: &BodyFacts) -> MovementDefaults {
     };
     // Two legs with knees walk best if one net moves them both.
     let is_biped_with_knees = (1..=2).contains(&body.legs) && body.joints > 1;
-    let limbs = usual.limbs.filter(|_| !is_biped_with_knees);
-    MovementDefaults { steps: Some(1000), training_steps: Some(500), terms, limbs, ..usual }
+    let modular = usual.modular.filter(|_| !is_biped_with_knees);
+    MovementDefaults { steps: Some(1000), training_steps: Some(500), terms, modular, ..usual }
 }

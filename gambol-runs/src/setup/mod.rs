@@ -1,6 +1,6 @@
 //! From a configuration to the things a run is made of.
 
-mod companions;
+mod further_bodies;
 
 use crate::{
     Registry,
@@ -85,7 +85,7 @@ impl Setup {
         let entry = registry.strategies.of(&config.strategy)?;
         let mut weight_names = None;
         let topology = match &config.topology {
-            None => match config.controller.limbs {
+            None => match config.controller.modular {
                 None => shape.into(),
                 Some(phases) => {
                     let environment = episode.environment();
@@ -127,12 +127,12 @@ impl Setup {
             let judged: Vec<&str> = registry.movements.judged().collect();
             let allowed = format!(
                 "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
-                 shortened training episodes or companions",
+                 shortened training episodes or further_bodies",
                 judged.join(", ")
             );
             return Err(SettingError::new("stop.tier", "a tier (--until usable)", allowed).into());
         }
-        let task = companions::with_companions(config, task, [senses, motors], registry)?;
+        let task = further_bodies::with_further_bodies(config, task, [senses, motors], registry)?;
         let task = match config.training_steps {
             Some(steps) => task.shortened(steps),
             None => task,

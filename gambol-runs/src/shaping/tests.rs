@@ -63,7 +63,7 @@ fn every_creature_does_the_same_with_more_senses() {
         for hidden in [vec![], vec![5], vec![4, 3]] {
             let dense = |config: &RunConfig| {
                 let mut config = config.clone();
-                (config.controller.limbs, config.controller.hidden) = (None, hidden.clone());
+                (config.controller.modular, config.controller.hidden) = (None, hidden.clone());
                 config
             };
             assert_same_behaviour(creature.name, &setup(&dense(&old)), &setup(&dense(&new)));
@@ -305,7 +305,7 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): \"rotation of torso\", ",
         ),
         (
-            two(json!({ "name": "b", "changes": { "controller": { "limbs": "alternating" } } })),
+            two(json!({ "name": "b", "changes": { "controller": { "modular": "alternating" } } })),
             "stages[1] (\"b\"): 58 of 58 weights: what was learned with it would be lost; keep it, or allow it with ",
         ),
         (

@@ -8,7 +8,7 @@
 
 use crate::config::{ControllerSettings, LimbPhases};
 use creatures::{Blueprint, Motors, Senses, Source};
-use ne_net::{GraphNeuron, GraphShape, Tie, TiedShape, Turn};
+use ne_net::{GraphNeuron, GraphShape, SharedShape, SharedWeight, Turn};
 use std::f32::consts::PI;
 
 /// A limb: what shares a copy of the net.
@@ -90,7 +90,7 @@ impl Genes {
 /// A topology of limbs, and what each of its genes is for.
 pub(crate) struct Limbs {
     /// The topology.
-    pub(crate) topology: TiedShape,
+    pub(crate) topology: SharedShape,
     /// The name of each gene: equal names in two topologies mean the same, whatever else is in them.
     pub(crate) names: Vec<String>,
 }
@@ -153,22 +153,22 @@ pub(crate) fn topology(
             let mut neuron = |first: usize, hidden_sources: usize, activation, sign: f32| {
                 let sights: &[(usize, Sight, usize)] = if hidden_sources > 0 { &[] } else { sights };
                 let mut sources: Vec<usize> = sights.iter().map(|&(input, _, _)| input).collect();
-                weights.push(Tie::Sum(vec![(first, sign), (first + 1, sign * limb.place)]));
+                weights.push(SharedWeight::Sum(vec![(first, sign), (first + 1, sign * limb.place)]));
                 for &(_, sight, slot) in sights {
                     let gene = first + 2 + slot;
                     let turn_of = |gene| Turn { factor: sign, ..turn(gene) };
                     weights.push(match sight {
-                        Sight::ClockSine => Tie::Sine(turn_of(gene)),
-                        Sight::ClockCosine => Tie::Cosine(turn_of(gene - 1)),
-                        Sight::Joint => Tie::Sum(vec![(gene, sign * limb.sign)]),
-                        Sight::Whole | Sight::Foot => Tie::Sum(vec![(gene, sign)]),
-                        Sight::Tilt => Tie::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
-                        Sight::Feet(share) => Tie::Sum(vec![(gene, sign * share)]),
+                        Sight::ClockSine => SharedWeight::Sine(turn_of(gene)),
+                        Sight::ClockCosine => SharedWeight::Cosine(turn_of(gene - 1)),
+                        Sight::Joint => SharedWeight::Sum(vec![(gene, sign * limb.sign)]),
+                        Sight::Whole | Sight::Foot => SharedWeight::Sum(vec![(gene, sign)]),
+                        Sight::Tilt => SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
+                        Sight::Feet(share) => SharedWeight::Sum(vec![(gene, sign * share)]),
                     });
                 }
                 for index in 0..hidden_sources {
                     sources.push(first_hidden_node + index);
-                    weights.push(Tie::Sum(vec![(first + 2 + index, sign)]));
+                    weights.push(SharedWeight::Sum(vec![(first + 2 + index, sign)]));
                 }
                 neurons.push(GraphNeuron { activation, bias: true, sources });
                 inputs + neurons.len() - 1
@@ -185,7 +185,7 @@ pub(crate) fn topology(
         }
     }
     let net = GraphShape { inputs, recurrent: false, neurons, outputs: output_of };
-    Limbs { topology: TiedShape { net: net.into(), groups: genes.groups, weights }, names: genes.names }
+    Limbs { topology: SharedShape { net: net.into(), groups: genes.groups, weights }, names: genes.names }
 }
 
 /// What a limb sees.

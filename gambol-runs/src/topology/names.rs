@@ -5,7 +5,7 @@ use ne_net::{DenseShape, GraphShape, Topology};
 
 /// The name of each weight of a topology, in the order of its weights; equal names in two nets mean the same connection.
 ///
-/// Of a tied topology, whose genes only its maker can name, the numbers of the genes.
+/// Of a topology with shared weights, whose genes only its maker can name, the numbers of the genes.
 pub(crate) fn of_weights(topology: &Topology, inputs: &[String], outputs: &[String]) -> Vec<String> {
     match topology {
         Topology::Dense(shape) => dense(shape, inputs, outputs),

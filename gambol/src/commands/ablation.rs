@@ -22,14 +22,14 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant {
         name: "one net for the whole body",
         change: |config| {
-            config.controller.limbs = None;
+            config.controller.modular = None;
             config.controller.hidden = vec![10];
         },
     },
-    Variant { name: "limbs begin together", change: |config| config.controller.limbs = Some(LimbPhases::Together) },
+    Variant { name: "limbs begin together", change: |config| config.controller.modular = Some(LimbPhases::Together) },
     Variant {
         name: "limbs begin alternating",
-        change: |config| config.controller.limbs = Some(LimbPhases::Alternating),
+        change: |config| config.controller.modular = Some(LimbPhases::Alternating),
     },
     Variant {
         name: "no clock",

@@ -26,7 +26,7 @@ use tasks::gait::Goal;
 Examples:
   gambol bench gaits                                         14 scenarios, 10 seeds each, until usable or 10 s
   gambol bench gaits --whole --seconds 60 --seeds 3          how good gaits are after a minute
-  gambol bench gaits --creatures biped-1 --movements running --set controller.limbs=null
+  gambol bench gaits --creatures biped-1 --movements running --set controller.modular=null
   gambol bench gaits --creatures examples/creatures/hopper.json --seconds 30 --robust
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height.
@@ -64,7 +64,7 @@ pub(super) struct Gaits {
     /// with a text, only those whose names contain it, such as "the term"
     #[arg(long, value_name = "TEXT", num_args = 0..=1, default_missing_value = "")]
     ablate: Option<String>,
-    /// One setting, such as controller.limbs=null; can be given several times
+    /// One setting, such as controller.modular=null; can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Count physics steps in place of seconds: the same on every machine

@@ -20,7 +20,7 @@ use tasks::gait::Judgement;
 const LINE_EVERY: Duration = Duration::from_secs(5);
 
 pub(super) struct Show {
-    manner: Manner,
+    output: Output,
     /// Units of fitness, by the names of movements.
     registry: Registry,
     /// The unit of what is trained now.
@@ -35,7 +35,7 @@ pub(super) struct Show {
     judged: bool,
 }
 
-enum Manner {
+enum Output {
     Quiet,
     Json,
     Bar(ProgressBar),
@@ -46,16 +46,16 @@ impl Show {
     pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, registry: &Registry) -> Self {
         let staged = !config.stages.is_empty();
         let limit = config.stop.generations.filter(|_| !staged);
-        let manner = if quiet {
-            Manner::Quiet
+        let output = if quiet {
+            Output::Quiet
         } else if json {
-            Manner::Json
+            Output::Json
         } else if io::stderr().is_terminal() {
-            Manner::Bar(bar(limit))
+            Output::Bar(bar(limit))
         } else {
-            Manner::Lines
+            Output::Lines
         };
-        if matches!(manner, Manner::Bar(_) | Manner::Lines) {
+        if matches!(output, Output::Bar(_) | Output::Lines) {
             let population = config
                 .strategy
                 .population()
@@ -65,7 +65,7 @@ impl Show {
             eprintln!("{creature} learns {movement}{bodies}: {population}seed {}", config.seed);
         }
         Self {
-            manner,
+            output,
             registry: registry.clone(),
             unit: unit_of(registry, &config.movement.name),
             staged,
@@ -84,11 +84,11 @@ impl Show {
         self.judged = planned.config.has_champion_selection();
         let (number, name) = (planned.stage + 1, &planned.name);
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
-        match &self.manner {
-            Manner::Quiet => {}
-            Manner::Json => print_json(&json!({ "stage": { "number": number, "name": name } })),
-            Manner::Bar(bar) => bar.println(format!("stage {number} of {stages}, {name}{origin}")),
-            Manner::Lines => eprintln!("stage {number} of {stages}, {name}{origin}"),
+        match &self.output {
+            Output::Quiet => {}
+            Output::Json => print_json(&json!({ "stage": { "number": number, "name": name } })),
+            Output::Bar(bar) => bar.println(format!("stage {number} of {stages}, {name}{origin}")),
+            Output::Lines => eprintln!("stage {number} of {stages}, {name}{origin}"),
         }
     }
 
@@ -105,14 +105,14 @@ impl Show {
             }
             false => format!("best {champion}, mean {mean}, {rate:.0} evaluations/s"),
         };
-        match &self.manner {
-            Manner::Quiet => {}
-            Manner::Json => print_json(&json!({ "generation": report })),
-            Manner::Bar(bar) => {
+        match &self.output {
+            Output::Quiet => {}
+            Output::Json => print_json(&json!({ "generation": report })),
+            Output::Bar(bar) => {
                 bar.set_position(report.generation);
                 bar.set_message(message);
             }
-            Manner::Lines => {
+            Output::Lines => {
                 let last = self.limit == Some(report.generation);
                 if last || self.last_line.is_none_or(|last| last.elapsed() >= LINE_EVERY) {
                     let of = self.limit.map_or_else(String::new, |limit| format!("/{limit}"));
@@ -125,7 +125,7 @@ impl Show {
 
     /// No generation will come any more.
     pub(super) fn end(&self) {
-        if let Manner::Bar(bar) = &self.manner {
+        if let Output::Bar(bar) = &self.output {
             bar.finish_and_clear();
         }
     }
@@ -134,14 +134,14 @@ impl Show {
     pub(super) fn result(&self, outcome: &Outcome, verdict: Option<&Judgement>, seconds: f64, report: bool) {
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
-        if matches!(self.manner, Manner::Json) {
+        if matches!(self.output, Output::Json) {
             let trained = champion.as_ref().and_then(|champion| champion.trained);
             print_json(&json!({ "result": {
                 "folder": folder.path(), "reason": reason, "progress": progress, "fitness": fitness,
                 "trained": trained, "verdict": verdict, "seconds": seconds,
             }}));
         }
-        if matches!(self.manner, Manner::Quiet | Manner::Json) {
+        if matches!(self.output, Output::Quiet | Output::Json) {
             return;
         }
         // A reader that went away (`| head`) does not make a run that went well a failure.

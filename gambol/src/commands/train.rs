@@ -31,7 +31,7 @@ Examples:
   gambol train biped-1 running --strategy neat
   gambol train biped-1 running --variation none --engine rapier
   gambol train biped-1 running --strategy ga --topology-from runs/biped-1-running/champion.json
-  gambol train tetrapod-2 running --companion examples/creatures/tetrapod-2-longer-legs.json
+  gambol train tetrapod-2 running --further-body examples/creatures/tetrapod-2-longer-legs.json
   gambol train apod running --set strategy.cma-es.population=200 --set physics.time_step=0.01
   gambol train biped-2 running --set 'movement.terms=[{\"term\":\"energy\",\"weight\":-0.001}]'
   gambol train tetrapod-1 running --strategy nsga2 \\
@@ -52,7 +52,7 @@ pub(crate) struct Train {
     /// A further body that the same net has to move in training: a name or a creature file; can be given several times. It
     /// must sense and move the same as the creature, for which the champion is chosen
     #[arg(long, value_name = "NAME|FILE")]
-    companion: Vec<String>,
+    further_body: Vec<String>,
     /// Where to start from: default, thesis (the reference algorithm), or stanley-2002 (NEAT as in its paper)
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
@@ -207,7 +207,7 @@ impl Train {
         let request = Request {
             creature: creature.clone(),
             movement: movement.clone(),
-            companions: self.companion.clone(),
+            further_bodies: self.further_body.clone(),
             preset: preset.clone(),
             strategy: strategy.clone(),
             topology_from: topology_from.clone(),
@@ -259,9 +259,15 @@ impl Train {
 /// The error, with the file it is in: the configuration file, if that alone gives the same error.
 fn located(error: &str, request: Request, registry: &Registry) -> String {
     let file = request.config.clone();
-    let alone =
-        Request { companions: Vec::new(), set: Vec::new(), engine: None, variation: None, terrain: None, ..request }
-            .resolve(registry);
+    let alone = Request {
+        further_bodies: Vec::new(),
+        set: Vec::new(),
+        engine: None,
+        variation: None,
+        terrain: None,
+        ..request
+    }
+    .resolve(registry);
     let same = alone.is_ok_and(|config| Setup::new(&config, registry).is_err_and(|found| found.to_string() == error));
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }

@@ -187,7 +187,7 @@ fn the_net_of_limbs_can_be_kept_and_left_out() -> Outcome {
     train.args(["--generations", "2", "--quiet", "--topology-from", text(&champion)]);
     succeed(&mut train);
     let whole =
-        ["--generations", "2", "--quiet", "--set", "controller.limbs=null", "--set", "controller.actuation=speed"];
+        ["--generations", "2", "--quiet", "--set", "controller.modular=null", "--set", "controller.actuation=speed"];
     succeed(easy(&path("whole")).args(whole));
     for name in ["limbs", "again", "whole"] {
         assert_says(&succeed(gambol("verify").arg(path(name).join("champion.json"))), &["identical: "]);

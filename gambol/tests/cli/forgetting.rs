@@ -12,7 +12,7 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 fn train(strategy: &str, sensors: &str, out: &Path) -> Command {
     let mut train = gambol("train");
     train.args(["biped-1", "running", "--strategy", strategy, "--generations", "4", "--population", "12"]);
-    train.args(["--set", "movement.steps=40", "--set", "controller.limbs=null", "--no-report", "--quiet"]);
+    train.args(["--set", "movement.steps=40", "--set", "controller.modular=null", "--no-report", "--quiet"]);
     train.args(["--set", &format!("sensors={sensors}")]).arg("--out").arg(out);
     train
 }

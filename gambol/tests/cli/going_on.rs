@@ -18,7 +18,7 @@ fn config(run: &Path) -> Value {
 fn what_is_set_is_changed_in_what_was_learned_with_and_nothing_else() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
-    let learned = ["controller.limbs=null", "controller.hidden=[5]", "controller.actuation=speed"];
+    let learned = ["controller.modular=null", "controller.hidden=[5]", "controller.actuation=speed"];
     let sensors = r#"sensors=["joint-angles","foot-contacts"]"#;
     let mut first = small_run(&path("first"), 2);
     succeed(first.arg("--quiet").args(learned.iter().chain(&[sensors]).flat_map(|set| ["--set", set])));

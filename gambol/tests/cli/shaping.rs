@@ -432,7 +432,7 @@ fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     let path = |name: &str| folder.path().join(name);
     // It cannot get any finer, so every generation is followed by a restart. The genes of a net without limbs are its weights.
     let one_start = ["--set", "strategy.cma-es.starts=1"];
-    let coarse = ["--quiet", "--set", "strategy.cma-es.least_deviation=0.5", "--set", "controller.limbs=null"];
+    let coarse = ["--quiet", "--set", "strategy.cma-es.least_deviation=0.5", "--set", "controller.modular=null"];
     succeed(small_run(&path("first"), 3).args(coarse).args(one_start));
     let from = |out: &str, more: &[&str]| {
         let mut train = gambol("train");
@@ -453,7 +453,7 @@ fn a_search_that_has_begun_anew_goes_on_from_its_champion() -> Outcome {
     assert!(!path("third").exists());
     // A run in stages does not end there.
     let mut config = three_stages();
-    config["controller"] = json!({ "limbs": null });
+    config["controller"] = json!({ "modular": null });
     config["strategy"]["cma-es"]["least_deviation"] = json!(0.5);
     config["strategy"]["cma-es"]["starts"] = json!(1);
     config["stop"] = json!({ "generations": 4 });

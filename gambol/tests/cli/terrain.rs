@@ -14,7 +14,7 @@ fn a_run_on_a_terrain_keeps_it_and_its_champion_is_identical() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     let sensors = "sensors=[\"joint-angles\",\"height-above-ground\",\"foot-slip\",{\"next-gap\":{\"length\":3}}]";
-    let settings = ["--set", sensors, "--set", "variation.terrain=true", "--set", "controller.limbs=null"];
+    let settings = ["--set", sensors, "--set", "variation.terrain=true", "--set", "controller.modular=null"];
     let mut train = small_run_of("tetrapod-2", "running", &path, 3);
     succeed(train.args(["--terrain", "mixture:0.3"]).args(settings));
     for file in ["config.json", "champion.json"] {

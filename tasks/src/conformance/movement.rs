@@ -27,13 +27,13 @@ pub const MEASURES: Promise =
     Promise::new("movement", "measurements are finite and have the same names, once each, in every episode");
 
 /// Any body will do.
-pub const MEETS: Promise = Promise::new(
+pub const BINDS: Promise = Promise::new(
     "movement",
-    "`meet` takes any body, changes neither name nor unit, and changes nothing when the same body is met again",
+    "`bind` takes any body, changes neither name nor unit, and changes nothing when it is bound to the same body again",
 );
 
 /// All of them.
-pub const PROMISES: &[Promise] = &[LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES, MEETS];
+pub const PROMISES: &[Promise] = &[LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES, BINDS];
 
 /// Checks a movement by showing it bodies that stand, walk, jump, spin, rock and fall: first without telling it whose
 /// movement it watches, then having had it meet bodies with legs, without, and without any limbs.
@@ -44,13 +44,13 @@ pub fn check_movement(movement: &dyn Movement) -> Result<(), Violation> {
     check_watching(movement, &stories())?;
     for (name, body) in bodies() {
         let stories = stories_of(&body, name);
-        let met = MEETS.check(|| meets(movement, &body, &stories))?;
+        let met = BINDS.check(|| binds(movement, &body, &stories))?;
         check_watching(&*met, &stories)?;
     }
     Ok(())
 }
 
-/// Every promise but [`MEETS`].
+/// Every promise but [`BINDS`].
 fn check_watching(movement: &dyn Movement, stories: &[Story]) -> Result<(), Violation> {
     LABELS.check(|| labels(movement, stories))?;
     let alone = DETERMINISTIC.check(|| {
@@ -85,15 +85,15 @@ fn check_watching(movement: &dyn Movement, stories: &[Story]) -> Result<(), Viol
 }
 
 /// A clone that has met the body.
-fn meets(movement: &dyn Movement, body: &Body, stories: &[Story]) -> Result<Box<dyn Movement>, String> {
+fn binds(movement: &dyn Movement, body: &Body, stories: &[Story]) -> Result<Box<dyn Movement>, String> {
     let labels = |of: &dyn Movement| (of.name().to_owned(), of.unit().to_owned());
     let mut met = movement.boxed_clone();
-    met.meet(body);
+    met.bind(body);
     if labels(&*met) != labels(movement) {
         return Err(format!("{:?} at first, {:?} afterwards", labels(movement), labels(&*met)));
     }
     let mut again = met.boxed_clone();
-    again.meet(body);
+    again.bind(body);
     for story in stories {
         let once = watch(&mut *met.boxed_clone(), story, Asked::EachStep);
         watch(&mut *again.boxed_clone(), story, Asked::EachStep).same(&once, &format!("{}, twice", story.name))?;

@@ -28,7 +28,7 @@ impl Movement for Carrying {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.body_length = Some(body.body_length);
     }
 

@@ -29,7 +29,7 @@ impl Movement for Climbing {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         let with_shape = |part: usize| (part, body.parts[part].clone());
         self.feet = match body.legless || body.legs.is_empty() {
             true => (0..body.parts.len()).map(with_shape).collect(),

@@ -22,7 +22,7 @@ pub(super) struct Flight {
 }
 
 impl Flights {
-    pub(super) fn meet(&mut self, body: &Body) {
+    pub(super) fn bind(&mut self, body: &Body) {
         self.feet.clear();
         if !body.legless && !body.legs.is_empty() {
             self.feet.resize(body.parts.len(), false);

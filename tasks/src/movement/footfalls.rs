@@ -50,7 +50,7 @@ impl Movement for Footfalls {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         let leg = |foot: usize| Leg {
             foot,
             corners: body.parts[foot].corners.clone(),

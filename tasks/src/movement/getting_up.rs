@@ -97,7 +97,7 @@ impl Movement for GettingUp {
         "1"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         // A body that lies on its back counts as legless: no leg is on the ground.
         let length = |leg: &Vec<usize>| leg.iter().map(|&part| f64::from(body.parts[part].length())).sum::<f64>();
         self.rise = RISE * body.legs.iter().map(length).fold(0.0, f64::max);

@@ -52,7 +52,7 @@ impl Movement for Haste {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.speed = self.settings.speed * body.body_length;
     }
 

@@ -49,7 +49,7 @@ impl Movement for Headway {
         "1"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.least = LEAST_SPEED * PERIOD * body.body_length;
     }
 

@@ -37,8 +37,8 @@ impl Movement for Hopping {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
-        self.flights.meet(body);
+    fn bind(&mut self, body: &Body) {
+        self.flights.bind(body);
         self.body_length = Some(body.body_length);
     }
 

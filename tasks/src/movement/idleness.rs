@@ -30,7 +30,7 @@ impl Movement for Idleness {
         "1"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.joints = body.actuated().map(|hinge| Joint { hinge: hinge.clone(), range: None }).collect();
     }
 

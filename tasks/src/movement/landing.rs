@@ -52,8 +52,8 @@ impl Movement for Landing {
         "s"
     }
 
-    fn meet(&mut self, body: &Body) {
-        self.leap.meet(body);
+    fn bind(&mut self, body: &Body) {
+        self.leap.bind(body);
         (self.body_length, self.start_height) = (body.body_length, body.start_height);
         self.high = if body.legless { LEGLESS_RISE * body.body_length } else { RISE * body.start_height };
     }

@@ -70,7 +70,7 @@ impl Movement for Leap {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.enough = if body.legless { ENOUGH_LEGLESS * body.body_length } else { ENOUGH * body.start_height };
         self.masses = body.parts.iter().map(|part| part.mass).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };

@@ -21,8 +21,8 @@ impl Movement for LongJump {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
-        self.flights.meet(body);
+    fn bind(&mut self, body: &Body) {
+        self.flights.bind(body);
     }
 
     fn begin(&mut self, start: &Snapshot) {

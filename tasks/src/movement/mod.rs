@@ -89,7 +89,7 @@ pub trait Movement: MovementClone + Send + Sync {
 
     /// Whose movement it will watch, told once and before anything else, if the environment knows. Most movements need
     /// not know.
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         let _ = body;
     }
 

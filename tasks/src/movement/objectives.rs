@@ -34,10 +34,10 @@ impl Movement for Objectives {
         self.movement.unit()
     }
 
-    fn meet(&mut self, body: &Body) {
-        self.movement.meet(body);
+    fn bind(&mut self, body: &Body) {
+        self.movement.bind(body);
         for (_, objective) in &mut self.objectives {
-            objective.meet(body);
+            objective.bind(body);
         }
     }
 

@@ -75,7 +75,7 @@ impl Movement for Posture {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.legless = body.legless || body.legs.is_empty();
         self.uneven_ground = body.uneven_ground;
         self.others = body.parts_without_feet();

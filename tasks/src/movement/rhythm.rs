@@ -69,7 +69,7 @@ impl Movement for Rhythm {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.hinges = body.actuated().cloned().collect();
         // One more than a stride has: their number is rounded.
         let looks = (self.settings.period * MOST_LOOKS) as usize + 1;

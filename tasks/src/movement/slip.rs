@@ -34,7 +34,7 @@ impl Movement for Slip {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         let foot = |index: usize| Foot { index, part: body.parts[index].clone(), ..Foot::default() };
         self.feet = if body.legless { Vec::new() } else { body.feet().map(foot).collect() };
     }

@@ -86,7 +86,7 @@ impl Movement for Standing {
         "s"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.body_length = Some(body.body_length);
     }
 

@@ -50,9 +50,9 @@ impl Movement for Sum {
         self.terms[0].1.unit()
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         for (_, movement) in &mut self.terms {
-            movement.meet(body);
+            movement.bind(body);
         }
     }
 

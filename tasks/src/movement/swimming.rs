@@ -23,7 +23,7 @@ impl Movement for Swimming {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         let mass: f64 = body.parts.iter().map(|part| f64::from(part.mass)).sum();
         self.shares = body.parts.iter().map(|part| f64::from(part.mass) / mass).collect();
     }

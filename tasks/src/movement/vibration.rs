@@ -35,7 +35,7 @@ impl Movement for Vibration {
         "1/s"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.joints = body.actuated().map(|hinge| Joint { hinge: hinge.clone(), ..Joint::default() }).collect();
     }
 

@@ -77,7 +77,7 @@ impl Movement for Walking {
         "m"
     }
 
-    fn meet(&mut self, body: &Body) {
+    fn bind(&mut self, body: &Body) {
         self.body_length = Some(body.body_length);
     }
 

@@ -39,9 +39,9 @@ enum Flaw {
     MeasuresNan,
     MeasuresAtHeightsOnly,
     Panics,
-    MeetsBodiesWithLegsOnly,
-    MeetingIsCounted,
-    MeetingGivesAName,
+    BindsBodiesWithLegsOnly,
+    BindingIsCounted,
+    BindingGivesAName,
     InfiniteOnceMet,
     KeepsTheSumOnceMet,
 }
@@ -73,7 +73,7 @@ impl Movement for Flawed {
         match self.flaw {
             Flaw::NameWithSpace => "mean height",
             Flaw::NameCounts if self.begun > 0 => "mean-height-1",
-            Flaw::MeetingGivesAName if self.met > 0 => "mean-height-of-a-friend",
+            Flaw::BindingGivesAName if self.met > 0 => "mean-height-of-a-friend",
             _ => "mean-height",
         }
     }
@@ -82,8 +82,8 @@ impl Movement for Flawed {
         if self.is(Flaw::NoUnit) { "" } else { "m" }
     }
 
-    fn meet(&mut self, body: &Body) {
-        assert!(!(self.is(Flaw::MeetsBodiesWithLegsOnly) && body.legs.is_empty()), "on purpose");
+    fn bind(&mut self, body: &Body) {
+        assert!(!(self.is(Flaw::BindsBodiesWithLegsOnly) && body.legs.is_empty()), "on purpose");
         self.met += 1;
         self.body_length = body.body_length.into();
     }
@@ -122,7 +122,7 @@ impl Movement for Flawed {
         let watched = if self.is(Flaw::CountsAllClones) { WATCHED.load(Ordering::Relaxed) } else { 0 };
         let steps = if self.is(Flaw::DividesByZeroAtFirst) { self.steps } else { self.steps.max(1) };
         let met = match self.flaw {
-            Flaw::MeetingIsCounted => f64::from(self.met),
+            Flaw::BindingIsCounted => f64::from(self.met),
             Flaw::InfiniteOnceMet if self.met > 0 => f64::INFINITY,
             _ => self.body_length,
         };
@@ -163,9 +163,9 @@ fn broken_movements_are_caught() {
         (MEASURES, "a sum of two of the same name", twice),
         (MEASURES, "measures NaN", check(Flaw::MeasuresNan)),
         (MEASURES, "measures at heights only", check(Flaw::MeasuresAtHeightsOnly)),
-        (MEETS, "meets bodies with legs only", check(Flaw::MeetsBodiesWithLegsOnly)),
-        (MEETS, "meeting is counted", check(Flaw::MeetingIsCounted)),
-        (MEETS, "meeting gives it a name", check(Flaw::MeetingGivesAName)),
+        (BINDS, "binds bodies with legs only", check(Flaw::BindsBodiesWithLegsOnly)),
+        (BINDS, "binding is counted", check(Flaw::BindingIsCounted)),
+        (BINDS, "binding gives it a name", check(Flaw::BindingGivesAName)),
         (FINITE, "infinite once it has met a body", check(Flaw::InfiniteOnceMet)),
         (FORGETS, "begin keeps the sum once it has met a body", check(Flaw::KeepsTheSumOnceMet)),
     ];

@@ -25,7 +25,7 @@ struct Made {
     senses: Senses,
     motors: Motors,
     limbs: Vec<Limb>,
-    shape: TiedShape,
+    shape: SharedShape,
     names: Vec<String>,
 }
 
@@ -51,7 +51,7 @@ impl Made {
     }
 
     /// The ties of each limb's copy, as they follow each other.
-    fn copies(&self) -> Vec<(&Limb, &[Tie])> {
+    fn copies(&self) -> Vec<(&Limb, &[SharedWeight])> {
         let kinds = self.limbs.iter().map(|limb| limb.kind).max().unwrap_or(0) + 1;
         let in_order = (0..kinds).flat_map(|kind| self.limbs.iter().filter(move |limb| limb.kind == kind));
         let (mut neurons, mut ties) = (&self.shape.net.neurons[..], &self.shape.weights[..]);
@@ -116,11 +116,11 @@ fn has_foot(blueprint: &Blueprint, limb: &Limb) -> bool {
 }
 
 /// Whether a gene counts in a weight.
-fn mentions(tie: &Tie, gene: usize) -> bool {
+fn mentions(tie: &SharedWeight, gene: usize) -> bool {
     let has = |terms: &[(usize, f32)]| terms.iter().any(|&(mine, _)| mine == gene);
     match tie {
-        Tie::Sum(terms) => has(terms),
-        Tie::Sine(turn) | Tie::Cosine(turn) => turn.genes.contains(&gene) || has(&turn.phase_genes),
+        SharedWeight::Sum(terms) => has(terms),
+        SharedWeight::Sine(turn) | SharedWeight::Cosine(turn) => turn.genes.contains(&gene) || has(&turn.phase_genes),
     }
 }
 
@@ -160,7 +160,7 @@ fn limbs_of_one_kind_share_all_genes_but_their_phases() {
         let copies = made.copies();
         let genes = made.genes(false);
         let weights_of = |genes: &[f32]| -> Vec<Vec<f32>> {
-            let shape = |ties: &[Tie]| TiedShape { weights: ties.to_vec(), ..made.shape.clone() };
+            let shape = |ties: &[SharedWeight]| SharedShape { weights: ties.to_vec(), ..made.shape.clone() };
             copies.iter().map(|(_, ties)| shape(ties).weights(genes)).collect()
         };
         let before = weights_of(&genes);

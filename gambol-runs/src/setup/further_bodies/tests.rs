@@ -19,7 +19,7 @@ fn config(engine: EngineChoice, combine: Combine) -> RunConfig {
     config.movement.steps = Some(60);
     config.training_steps = Some(50);
     config.trials = Trials { count: 2, combine };
-    config.companions = [0.7, 1.6].map(|times| heavier(&creature, times)).into();
+    config.further_bodies = [0.7, 1.6].map(|times| heavier(&creature, times)).into();
     RunConfig { engine, ..config }
 }
 
@@ -33,9 +33,9 @@ fn refusal(config: &RunConfig) -> String {
 
 /// A run of the same kind in each body alone.
 fn alone(config: &RunConfig) -> Vec<TrainingTask> {
-    let bodies = std::iter::once(&config.creature).chain(&config.companions);
+    let bodies = std::iter::once(&config.creature).chain(&config.further_bodies);
     let config =
-        |creature: &Creature| RunConfig { creature: creature.clone(), companions: Vec::new(), ..config.clone() };
+        |creature: &Creature| RunConfig { creature: creature.clone(), further_bodies: Vec::new(), ..config.clone() };
     bodies.map(|creature| setup(&config(creature)).task).collect()
 }
 
@@ -159,38 +159,37 @@ fn the_champion_is_judged_in_the_creature_alone() {
     let own = alone(&config)[0].evaluate(&mut net.clone(), reference.seed);
     let judged = reference.task.evaluate(&mut net.clone(), reference.seed);
     assert_eq!(judged.outcome, own.outcome);
-    config.companions.clear();
+    config.further_bodies.clear();
     assert!(setup(&config).reference.is_none());
 }
 
 #[test]
-fn companions_are_as_many_as_allowed_and_fit_the_creature() {
+fn further_bodies_are_as_many_as_allowed_and_fit_the_creature() {
     let config = config(EngineChoice::Lanes, Combine::Mean);
-    let with = |companions: Vec<Creature>| refusal(&RunConfig { companions, ..config.clone() });
+    let with = |further_bodies: Vec<Creature>| refusal(&RunConfig { further_bodies, ..config.clone() });
     let find = |name: &str| creatures::find(name).expect("shipped");
     assert_eq!(with(vec![find("biped-2"); 15]), "fine");
-    assert_eq!(with(vec![find("biped-2"); 16]), "companions = 16 creatures: must be at most 15 creatures");
+    assert_eq!(with(vec![find("biped-2"); 16]), "further_bodies = 16 creatures: must be at most 15 creatures");
     let message = with(vec![find("biped-2"), find("biped-1")]);
-    let begins =
-        "companions[1] (\"biped-1\"): one net cannot move it and the creature: it has 11 inputs, the creature has 13";
+    let begins = "further_bodies[1] (\"biped-1\"): one net cannot move it and the creature: it has 11 inputs, the creature has 13";
     assert!(message.starts_with(begins), "{message}");
     let mut colliding = find("biped-2");
     colliding.self_collision = true;
     let message = with(vec![colliding.clone()]);
-    assert!(message.starts_with("companions[0] (\"biped-2\"): engine: "), "{message}");
+    assert!(message.starts_with("further_bodies[0] (\"biped-2\"): engine: "), "{message}");
     assert!(message.ends_with("train it with --engine rapier"), "{message}");
-    let in_rapier = RunConfig { engine: EngineChoice::Rapier, companions: vec![colliding], ..config.clone() };
+    let in_rapier = RunConfig { engine: EngineChoice::Rapier, further_bodies: vec![colliding], ..config.clone() };
     assert_eq!(refusal(&in_rapier), "fine");
     let mut torn = find("biped-2");
     torn.joints.pop();
     let message = with(vec![torn]);
-    assert!(message.starts_with("companions[0] (\"biped-2\"): creature: "), "{message}");
+    assert!(message.starts_with("further_bodies[0] (\"biped-2\"): creature: "), "{message}");
     // The same motors in another order would be driven by the wrong outputs.
     let mut crossed = find("biped-2");
     crossed.joints.swap(0, 2);
     let message = with(vec![crossed]);
     let order =
-        "companions[0] (\"biped-2\"): one net cannot move it and the creature: its inputs are in another order: ";
+        "further_bodies[0] (\"biped-2\"): one net cannot move it and the creature: its inputs are in another order: ";
     assert!(message.starts_with(order), "{message}");
 }
 
@@ -199,14 +198,14 @@ fn without_sensors_of_the_run_those_of_each_creature_count() {
     let mut config = config(EngineChoice::Lanes, Combine::Mean);
     config.sensors = None;
     assert_eq!(refusal(&config), "fine");
-    config.companions[1].sensors.push(Sensor::JointSpeeds);
+    config.further_bodies[1].sensors.push(Sensor::JointSpeeds);
     let message = refusal(&config);
-    assert!(message.starts_with("companions[1] (\"biped-2 x 1.6\"): one net cannot move it"), "{message}");
+    assert!(message.starts_with("further_bodies[1] (\"biped-2 x 1.6\"): one net cannot move it"), "{message}");
     assert!(message.ends_with(" is not among the creature's"), "{message}");
-    let sensors = config.companions[1].sensors.clone();
-    config.companions[1].sensors.truncate(1);
+    let sensors = config.further_bodies[1].sensors.clone();
+    config.further_bodies[1].sensors.truncate(1);
     let message = refusal(&config);
-    assert!(message.ends_with(" is not among the companion's"), "{message}");
+    assert!(message.ends_with(" is not among the further body's"), "{message}");
     // Those of the run hold for all.
     config.sensors = Some(sensors);
     assert_eq!(refusal(&config), "fine");

@@ -10,50 +10,50 @@ use crate::{
 use creatures::{Channel, Creature};
 use ne_core::SettingError;
 
-/// The most companions a creature can have.
-const MOST_COMPANIONS: usize = 15;
+/// The most further bodies a creature can have.
+const MOST_FURTHER_BODIES: usize = 15;
 
-/// The task of a configuration in its creature and its companions; `alone` is that in its creature, which has these inputs
+/// The task of a configuration in its creature and its further bodies; `alone` is that in its creature, which has these inputs
 /// and outputs.
 ///
 /// # Errors
-/// If there are too many companions, or one cannot be built, or senses or moves something else than the creature.
-pub(crate) fn with_companions(
+/// If there are too many further bodies, or one cannot be built, or senses or moves something else than the creature.
+pub(crate) fn with_further_bodies(
     config: &RunConfig,
     alone: TrainingTask,
     channels: [&[Channel]; 2],
     registry: &Registry,
 ) -> Result<TrainingTask, SetupError> {
-    let count = config.companions.len();
-    if count > MOST_COMPANIONS {
-        let allowed = format!("at most {MOST_COMPANIONS} creatures");
-        return Err(SettingError::new("companions", format!("{count} creatures"), allowed).into());
+    let count = config.further_bodies.len();
+    if count > MOST_FURTHER_BODIES {
+        let allowed = format!("at most {MOST_FURTHER_BODIES} creatures");
+        return Err(SettingError::new("further_bodies", format!("{count} creatures"), allowed).into());
     }
     if count == 0 {
         return Ok(alone);
     }
-    let companion = |(index, creature): (usize, &Creature)| {
+    let further_body = |(index, creature): (usize, &Creature)| {
         let parts = EpisodeParts { creature, ..config.episode_parts() };
         let built = parts.build_both(config.engine, registry).and_then(|(episode, task)| {
             let environment = episode.environment();
             let own = [environment.senses().channels(), environment.motors().channels()];
             check_channels(own, channels).map(|()| task)
         });
-        built.map_err(|problem| SetupError::Companion {
+        built.map_err(|problem| SetupError::FurtherBody {
             index,
             name: creature.name.clone(),
             problem: Box::new(problem),
         })
     };
-    let others = config.companions.iter().enumerate().map(companion).collect::<Result<_, _>>()?;
+    let others = config.further_bodies.iter().enumerate().map(further_body).collect::<Result<_, _>>()?;
     Ok(TrainingTask::Several(Box::new(SeveralBodies::new(alone, others, config.trials.combine))))
 }
 
-/// Checks that a companion has the inputs and outputs of the creature, by name and in order.
+/// Checks that a further body has the inputs and outputs of the creature, by name and in order.
 fn check_channels(own: [&[Channel]; 2], creatures: [&[Channel]; 2]) -> Result<(), SetupError> {
     for (what, (own, creatures)) in ["inputs", "outputs"].into_iter().zip(own.into_iter().zip(creatures)) {
         let own: Vec<String> = own.iter().map(|channel| channel.name.clone()).collect();
-        if let Some(difference) = difference("companion", what, &own, creatures) {
+        if let Some(difference) = difference("further body", what, &own, creatures) {
             return Err(SetupError::Channels(difference));
         }
     }

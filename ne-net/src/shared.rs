@@ -9,31 +9,31 @@ use std::{f32::consts::FRAC_PI_2, fmt, sync::Arc};
 /// weights, and what is built is the whole net. The nets are ordinary graph nets.
 ///
 /// ```
-/// use ne_net::{Activation, GraphNeuron, GraphShape, Tie, TiedShape, Topology};
+/// use ne_net::{Activation, GraphNeuron, GraphShape, SharedWeight, SharedShape, Topology};
 ///
 /// // Two neurons, each with an input of its own, and one weight for both, in the second with its sign turned.
 /// let neuron = |input| GraphNeuron { activation: Activation::Linear, bias: false, sources: vec![input] };
 /// let net = GraphShape { inputs: 2, recurrent: false, neurons: vec![neuron(0), neuron(1)], outputs: vec![2, 3] };
-/// let weights = vec![Tie::Sum(vec![(0, 1.0)]), Tie::Sum(vec![(0, -1.0)])];
-/// let topology = Topology::from(TiedShape { net: net.into(), groups: vec![1], weights });
+/// let weights = vec![SharedWeight::Sum(vec![(0, 1.0)]), SharedWeight::Sum(vec![(0, -1.0)])];
+/// let topology = Topology::from(SharedShape { net: net.into(), groups: vec![1], weights });
 /// assert_eq!(topology.weight_count(), 1);
 /// assert_eq!(topology.network(&[0.5]).weights(), [0.5, -0.5]);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "UncheckedTiedShape")]
-pub struct TiedShape {
+#[serde(try_from = "UncheckedSharedShape")]
+pub struct SharedShape {
     /// The net.
     pub net: Arc<GraphShape>,
     /// The genes, in groups that belong together: the number of each.
     pub groups: Vec<usize>,
     /// For each weight of the net, in their order, how it is computed.
-    pub weights: Vec<Tie>,
+    pub weights: Vec<SharedWeight>,
 }
 
 /// How a weight is computed from genes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
-pub enum Tie {
+pub enum SharedWeight {
     /// The sum of genes, each times a factor; nothing summed up is a weight of 0.
     Sum(Vec<(usize, f32)>),
     /// Of two genes, the weights of the sine and of the cosine of a clock, the one of the sine after the clock was put
@@ -72,7 +72,7 @@ fn sum(terms: &[(usize, f32)], genes: &[f32]) -> f32 {
     terms.iter().map(|&(gene, factor)| factor * genes[gene]).sum()
 }
 
-impl Tie {
+impl SharedWeight {
     fn weight(&self, genes: &[f32]) -> f32 {
         let weight = match self {
             Self::Sum(terms) => sum(terms, genes),
@@ -92,7 +92,7 @@ impl Tie {
     }
 }
 
-/// Why numbers are not the genes of a tied topology.
+/// Why numbers are not the genes of a topology with shared weights.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum GenesError {
     /// There are too many or too few.
@@ -115,7 +115,7 @@ pub enum GenesError {
     },
 }
 
-impl TiedShape {
+impl SharedShape {
     /// The number of genes.
     pub fn gene_count(&self) -> usize {
         self.groups.iter().sum()
@@ -144,7 +144,7 @@ impl TiedShape {
         }
     }
 
-    /// Checks the net and the ties.
+    /// Checks the net and the shared weights.
     ///
     /// # Errors
     /// Names the field and what is allowed.
@@ -154,7 +154,7 @@ impl TiedShape {
         if found != expected {
             return Err(SettingError::new(
                 "weights",
-                format!("{found} ties"),
+                format!("{found} shared weights"),
                 format!("{expected}, one for each weight"),
             ));
         }
@@ -173,7 +173,7 @@ impl TiedShape {
                     return Err(SettingError::new(field(), factor, "a finite factor"));
                 }
             }
-            if let Tie::Sine(turn) | Tie::Cosine(turn) = tie
+            if let SharedWeight::Sine(turn) | SharedWeight::Cosine(turn) = tie
                 && !turn.phase.is_finite()
             {
                 return Err(SettingError::new(format!("weights[{index}].phase"), turn.phase, "finite"));
@@ -184,25 +184,25 @@ impl TiedShape {
 }
 
 /// The net and the number of genes: `9 inputs, 3 hidden, 8 outputs, 78 connections from 12 genes`.
-impl fmt::Display for TiedShape {
+impl fmt::Display for SharedShape {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} from {} genes", self.net, self.gene_count())
     }
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields, rename = "TiedShape")]
-struct UncheckedTiedShape {
+#[serde(deny_unknown_fields, rename = "SharedShape")]
+struct UncheckedSharedShape {
     net: GraphShape,
     groups: Vec<usize>,
-    weights: Vec<Tie>,
+    weights: Vec<SharedWeight>,
 }
 
-impl TryFrom<UncheckedTiedShape> for TiedShape {
+impl TryFrom<UncheckedSharedShape> for SharedShape {
     type Error = SettingError;
 
-    fn try_from(unchecked: UncheckedTiedShape) -> Result<Self, SettingError> {
-        let UncheckedTiedShape { net, groups, weights } = unchecked;
+    fn try_from(unchecked: UncheckedSharedShape) -> Result<Self, SettingError> {
+        let UncheckedSharedShape { net, groups, weights } = unchecked;
         let shape = Self { net: net.into(), groups, weights };
         shape.validate()?;
         Ok(shape)
@@ -216,15 +216,15 @@ mod tests {
     use ne_core::Phenotype;
 
     /// One neuron that hears a clock, sine first.
-    fn clock(weights: Vec<Tie>, groups: Vec<usize>) -> TiedShape {
+    fn clock(weights: Vec<SharedWeight>, groups: Vec<usize>) -> SharedShape {
         let neuron = GraphNeuron { activation: Activation::Linear, bias: false, sources: vec![0, 1] };
         let net = GraphShape { inputs: 2, recurrent: false, neurons: vec![neuron], outputs: vec![2] };
-        TiedShape { net: net.into(), groups, weights }
+        SharedShape { net: net.into(), groups, weights }
     }
 
-    fn turned(phase: f32) -> TiedShape {
+    fn turned(phase: f32) -> SharedShape {
         let turn = Turn { genes: [0, 1], factor: 1.0, phase, phase_genes: vec![(2, 0.5)] };
-        clock(vec![Tie::Sine(turn.clone()), Tie::Cosine(turn)], vec![2, 1])
+        clock(vec![SharedWeight::Sine(turn.clone()), SharedWeight::Cosine(turn)], vec![2, 1])
     }
 
     #[test]
@@ -263,12 +263,13 @@ mod tests {
 
     #[test]
     fn errors_name_the_field() {
-        let error = |weights: Vec<Tie>| clock(weights, vec![1]).validate().expect_err("invalid").to_string();
-        let sum = |gene, factor| Tie::Sum(vec![(gene, factor)]);
-        assert_eq!(error(vec![sum(0, 1.0)]), "weights = 1 ties: must be 2, one for each weight");
+        let error = |weights: Vec<SharedWeight>| clock(weights, vec![1]).validate().expect_err("invalid").to_string();
+        let sum = |gene, factor| SharedWeight::Sum(vec![(gene, factor)]);
+        assert_eq!(error(vec![sum(0, 1.0)]), "weights = 1 shared weights: must be 2, one for each weight");
         assert_eq!(error(vec![sum(0, 1.0), sum(1, 1.0)]), "weights[1] = gene 1: must be a gene below 1");
         assert_eq!(error(vec![sum(0, f32::NAN), sum(0, 1.0)]), "weights[0] = NaN: must be a finite factor");
-        let none = clock(vec![Tie::Sum(vec![]), Tie::Sum(vec![])], vec![]).validate().expect_err("no genes");
+        let none =
+            clock(vec![SharedWeight::Sum(vec![]), SharedWeight::Sum(vec![])], vec![]).validate().expect_err("no genes");
         assert_eq!(none.to_string(), "groups = 0 genes: must be from 1 to 16777216 genes");
         let genes = |genes: &[f32]| turned(0.0).check_genes(genes).expect_err("invalid").to_string();
         assert_eq!(
