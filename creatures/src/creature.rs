@@ -3,12 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::look::is_zero;
-use crate::{CreatureError, Look, Sensor, Shape, parse};
-
-/// What the `format` field of a creature file says.
-pub const FORMAT: &str = "gambol creature";
-/// The version of the file format that this crate reads and writes.
-pub const VERSION: u32 = 1;
+use crate::{Look, Sensor, Shape};
 
 /// A creature as its file says it: parts, joints, sensors and looks.
 ///
@@ -126,8 +121,8 @@ impl Creature {
     pub fn new(name: &str) -> Self {
         Self {
             schema: None,
-            format: FORMAT.to_owned(),
-            version: VERSION,
+            format: crate::format::FORMAT.to_owned(),
+            version: crate::format::VERSION,
             name: name.to_owned(),
             title: String::new(),
             description: String::new(),
@@ -137,16 +132,6 @@ impl Creature {
             sensors: Sensor::defaults(),
             self_collision: false,
         }
-    }
-
-    /// Reads a creature file. Only its form is checked here; [`Blueprint::new`](crate::Blueprint::new) checks the rest.
-    ///
-    /// # Errors
-    /// [`CreatureError::Syntax`] for text that is no JSON, [`CreatureError::NotACreature`] and
-    /// [`CreatureError::Version`] for other files, [`CreatureError::Field`] and [`CreatureError::UnknownName`] for
-    /// fields that do not fit the format.
-    pub fn from_json(text: &str) -> Result<Self, CreatureError> {
-        parse::creature(text)
     }
 
     /// Writes the creature file, indented; [`from_json`](Self::from_json) gives the same creature back. Numbers that

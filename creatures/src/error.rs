@@ -1,7 +1,8 @@
 //! What can be wrong with a creature file as a whole.
 
+use crate::Problem;
+use crate::format::{FORMAT, VERSION};
 use crate::names::did_you_mean;
-use crate::{FORMAT, Problem, VERSION};
 
 /// Why a creature could not be read or used. Each message is whole and names the place; the file's name is the
 /// caller's to add.

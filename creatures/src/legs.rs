@@ -1,6 +1,6 @@
 //! Legs and other limbs, found in the tree of parts.
 
-use crate::{BodyPart, Hinge};
+use crate::body_part::{BodyPart, Hinge};
 
 /// The limbs, one for each actuated part (other than the torso) on which nothing hangs, in the order of these parts: from the
 /// last part up for as long as the parts are actuated, short of the torso, and told from the body outwards.

@@ -49,6 +49,7 @@
 //! degrees, everything else radians.
 
 mod blueprint;
+mod body_part;
 mod body_view;
 pub mod bounds;
 mod channel;
@@ -56,6 +57,7 @@ mod check;
 mod colour;
 mod creature;
 mod error;
+mod format;
 mod landings;
 mod legs;
 pub mod look;
@@ -71,13 +73,15 @@ mod shape;
 mod shipped;
 mod terrain;
 
-pub use blueprint::{Blueprint, BodyPart, Hinge};
+pub use blueprint::Blueprint;
+pub use body_part::{BodyPart, Hinge};
 pub use body_view::BodyView;
 pub use bounds::Bounds;
 pub use channel::Channel;
 pub use colour::Colour;
-pub use creature::{Creature, FORMAT, Joint, Motor, Part, VERSION};
+pub use creature::{Creature, Joint, Motor, Part};
 pub use error::{CreatureError, UnknownName};
+pub use format::{FORMAT, VERSION};
 pub use landings::Landings;
 pub use look::{Decoration, Form, Look};
 pub use motors::{Actuation, Drive, Motors};

@@ -5,8 +5,21 @@ use serde_json::Value;
 use serde_json::error::Category;
 
 use crate::error::UnknownName;
+use crate::format::{FORMAT, VERSION};
 use crate::names::{nearest, shortened};
-use crate::{Creature, CreatureError, FORMAT, VERSION};
+use crate::{Creature, CreatureError};
+
+impl Creature {
+    /// Reads a creature file. Only its form is checked here; [`Blueprint::new`](crate::Blueprint::new) checks the rest.
+    ///
+    /// # Errors
+    /// [`CreatureError::Syntax`] for text that is no JSON, [`CreatureError::NotACreature`] and
+    /// [`CreatureError::Version`] for other files, [`CreatureError::Field`] and [`CreatureError::UnknownName`] for
+    /// fields that do not fit the format.
+    pub fn from_json(text: &str) -> Result<Self, CreatureError> {
+        creature(text)
+    }
+}
 
 /// Read before everything else, so that a file of another kind or of a later version is not blamed for its fields.
 #[derive(Deserialize)]
@@ -15,7 +28,7 @@ struct Header {
     version: Option<Value>,
 }
 
-pub(crate) fn creature(text: &str) -> Result<Creature, CreatureError> {
+fn creature(text: &str) -> Result<Creature, CreatureError> {
     let header: Header = from_json(text, false)?;
     match &header.format {
         Some(Value::String(format)) => check_format(format)?,

@@ -3,9 +3,9 @@ use crate::{
     instructions::{Instructions, Work},
     lanes::Lanes,
     net::LaneNet,
-    profile::{Laps, Part},
     senses::{Clocks, LaneSenses},
     solver::LaneWorld,
+    stopwatch::{Laps, Part},
 };
 use creatures::{Actuation, Landings, Motors};
 use envs_core::{ActuatedHinge, PushSchedule, Settled};

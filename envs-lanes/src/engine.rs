@@ -15,9 +15,6 @@ pub struct LaneEngine {
 /// A creature in the lane solver, alone.
 pub type LaneEnvironment = CreatureEnvironment<LaneEngine>;
 
-/// The name of the engine, as configurations and errors have it.
-pub const ENGINE: &str = "lanes";
-
 impl LaneEngine {
     pub(crate) fn world(&self) -> &LaneWorld<1> {
         &self.world

@@ -1,5 +1,5 @@
-use crate::{engine::LaneEnvironment, instructions::Instructions, stage};
-use ne_core::{Evaluation, Phenotype, Seed, SettingError, Task, Threads};
+use crate::{engine::LaneEnvironment, instructions::Instructions};
+use ne_core::SettingError;
 use tasks::{Environment, Movement, Trials};
 
 /// A creature, a movement and trials, for a whole population at once: the task that [`tasks::Episode`] is for one
@@ -16,9 +16,6 @@ pub struct LaneEpisode {
     pub(crate) trials: Trials,
     instructions: Instructions,
 }
-
-/// So many individuals that in most of a batch all lanes are busy.
-const BATCH: usize = 256;
 
 impl LaneEpisode {
     /// Episodes of `steps` steps (at least 1).
@@ -71,38 +68,5 @@ impl LaneEpisode {
     pub fn with_fewer_trials(&self, count: u32) -> Self {
         let trials = Trials { count: self.trials.count.min(count).max(1), ..self.trials };
         Self { trials, ..self.clone() }
-    }
-}
-
-impl Task for LaneEpisode {
-    fn inputs(&self) -> usize {
-        self.environment.inputs()
-    }
-
-    fn outputs(&self) -> usize {
-        self.environment.outputs()
-    }
-
-    /// As [`tasks::Episode`] does.
-    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-        let mut evaluations = self.evaluate_batch(&mut [phenotype], seed);
-        evaluations.remove(0)
-    }
-
-    fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
-        self.evaluate_spread(phenotypes, seed, &())
-    }
-
-    fn evaluate_spread(
-        &self,
-        phenotypes: &mut [&mut dyn Phenotype],
-        seed: Seed,
-        threads: &dyn Threads,
-    ) -> Vec<Evaluation> {
-        stage::evaluate(self, phenotypes, seed, threads)
-    }
-
-    fn batch_size(&self) -> usize {
-        BATCH
     }
 }

@@ -54,12 +54,14 @@ mod recording;
 mod senses;
 mod solver;
 mod stage;
+mod stopwatch;
 
-pub use engine::{ENGINE, LaneEngine, LaneEnvironment};
+pub use engine::{LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;
 pub use instructions::Instructions;
-pub use profile::Profile;
 pub use recording::{Play, play};
+pub use solver::ENGINE;
+pub use stopwatch::Profile;
 
 /// Creatures side by side: a register of AVX-512, and several of those of smaller processors, which have time for it.
 pub const LANES: usize = 16;

@@ -4,7 +4,7 @@
 //! trial is played in which lane is chance, and changes no result: a lane knows nothing of its neighbours, and the
 //! trials of an individual are added up in their order once all have been played.
 
-use crate::{LANES, LaneEngine, LaneEpisode, batch::Batch};
+use crate::{LANES, batch::Batch, engine::LaneEngine, episode::LaneEpisode};
 use envs_core::Settled;
 use ne_core::{Evaluation, Failure, Phenotype, Seed, Task, Threads};
 use ne_net::{DenseNet, GraphNet, Network, Topology};
@@ -15,10 +15,46 @@ use std::{
     sync::atomic::{AtomicU32, AtomicU64, AtomicUsize, Ordering::Relaxed},
     sync::{Mutex, PoisonError},
 };
-use tasks::{Movement, Outcome, Snapshot, Tally, Trial, Verdict};
+use tasks::{Environment, Movement, Outcome, Snapshot, Tally, Trial, Verdict};
+
+/// So many individuals that in most of a batch all lanes are busy.
+const BATCH: usize = 256;
+
+impl Task for LaneEpisode {
+    fn inputs(&self) -> usize {
+        self.environment().inputs()
+    }
+
+    fn outputs(&self) -> usize {
+        self.environment().outputs()
+    }
+
+    /// As [`tasks::Episode`] does.
+    fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
+        let mut evaluations = self.evaluate_batch(&mut [phenotype], seed);
+        evaluations.remove(0)
+    }
+
+    fn evaluate_batch(&self, phenotypes: &mut [&mut dyn Phenotype], seed: Seed) -> Vec<Evaluation> {
+        self.evaluate_spread(phenotypes, seed, &())
+    }
+
+    fn evaluate_spread(
+        &self,
+        phenotypes: &mut [&mut dyn Phenotype],
+        seed: Seed,
+        threads: &dyn Threads,
+    ) -> Vec<Evaluation> {
+        evaluate(self, phenotypes, seed, threads)
+    }
+
+    fn batch_size(&self) -> usize {
+        BATCH
+    }
+}
 
 /// Evaluates these controllers.
-pub(crate) fn evaluate(
+fn evaluate(
     episode: &LaneEpisode,
     phenotypes: &mut [&mut dyn Phenotype],
     seed: Seed,

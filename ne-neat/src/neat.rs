@@ -3,10 +3,8 @@ use crate::{
     innovation::Innovations,
     mutation::{Proposal, apply},
     speciation::{Species, assign, breeders, offspring},
-    state::State,
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, SpeciesReport, Statistic, Strategy};
-use serde::{Deserialize, Serialize};
 
 const FIRST_GENERATION: Purpose = Purpose::new("neat first generation");
 const REPRODUCTION: Purpose = Purpose::new("neat reproduction");
@@ -34,8 +32,7 @@ const REPRESENTATIVES: Purpose = Purpose::new("neat representatives");
 ///
 /// Source: Stanley & Miikkulainen, *Evolving Neural Networks through Augmenting Topologies*, Evolutionary Computation
 /// 10(2), 2002.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(into = "State", try_from = "State")]
+#[derive(Clone, Debug)]
 pub struct Neat {
     pub(crate) settings: NeatSettings,
     pub(crate) layout: Layout,

@@ -2,7 +2,7 @@ use crate::{
     ConnectionGene, GenomeError, Neat, NeatGenome, NeatSettings, NodeGene, innovation::Innovations, speciation::Species,
 };
 use ne_core::{Fitness, SettingError};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
 use std::collections::BTreeMap;
 
 /// Why a saved [`Neat`] cannot go on.
@@ -139,6 +139,18 @@ struct Genes {
 impl From<&NeatGenome> for Genes {
     fn from(genome: &NeatGenome) -> Self {
         Self { nodes: genome.nodes().to_vec(), connections: genome.connections().to_vec() }
+    }
+}
+
+impl Serialize for Neat {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        State::from(self.clone()).serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Neat {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        State::deserialize(deserializer)?.try_into().map_err(D::Error::custom)
     }
 }
 

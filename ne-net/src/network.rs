@@ -1,4 +1,4 @@
-use crate::{DenseNet, GraphNet, Topology};
+use crate::{DenseNet, GraphNet};
 use ne_core::Phenotype;
 use serde::{Deserialize, Serialize};
 
@@ -16,14 +16,6 @@ pub enum Network {
 }
 
 impl Network {
-    /// The net without its weights.
-    pub fn topology(&self) -> Topology {
-        match self {
-            Self::Dense(net) => Topology::Dense(net.shape().clone()),
-            Self::Graph(net) => Topology::Graph(net.shape().clone()),
-        }
-    }
-
     /// The weights, in the order the shape documents.
     pub fn weights(&self) -> &[f32] {
         match self {

@@ -117,6 +117,16 @@ impl Topology {
     }
 }
 
+impl Network {
+    /// The net without its weights.
+    pub fn topology(&self) -> Topology {
+        match self {
+            Self::Dense(net) => Topology::Dense(net.shape().clone()),
+            Self::Graph(net) => Topology::Graph(net.shape().clone()),
+        }
+    }
+}
+
 impl From<DenseShape> for Topology {
     fn from(shape: DenseShape) -> Self {
         Self::Dense(shape.into())

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use super::numbers::{check as check_number, check_pair};
 use super::tree::Ends;
-use crate::blueprint::to_local;
+use crate::body_part::to_local;
 use crate::bounds::{ANCHOR_DISTANCE, ANGLE, POSITION, SIZE, TOP_SPEED, TOP_TORQUE};
 use crate::names::shortened;
 use crate::{Creature, Joint, Part, Problem};

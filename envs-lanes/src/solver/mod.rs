@@ -32,4 +32,5 @@ mod softness;
 mod uneven;
 mod world;
 
+pub use order::ENGINE;
 pub(crate) use world::LaneWorld;

@@ -1,8 +1,10 @@
 //! What rapier's solver does only for larger creatures, and what lanes leave to it.
 
-use crate::engine::ENGINE;
 use creatures::{Blueprint, Shape};
 use envs_core::{EnvironmentError, Ground, GroundShape, PhysicsSettings};
+
+/// The name of the engine, as configurations and errors have it.
+pub const ENGINE: &str = "lanes";
 
 fn refuse(what: impl Into<String>) -> EnvironmentError {
     EnvironmentError::Unsupported { engine: ENGINE, what: what.into() }

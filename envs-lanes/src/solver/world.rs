@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     lanes::{Lanes, Mask},
-    profile::{Laps, Part},
+    stopwatch::{Laps, Part},
 };
 use creatures::Blueprint;
 use envs_core::{Conditions, EnvironmentError, Ground, PhysicsSettings};
