@@ -7,23 +7,23 @@ use std::{collections::BTreeSet, process::Command};
 /// Each crate and those it may use. Fewer is fine; one more is a change of the architecture, to be drawn there first.
 #[rustfmt::skip]
 const ARROWS: &[(&str, &[&str])] = &[
-    ("creatures",       &[]),
+    ("gambol-creatures",       &[]),
     ("ne-core",         &[]),
     ("ne-net",          &["ne-core"]),
     ("ne-fixed",        &["ne-core", "ne-net"]),
     ("ne-statistics",   &["ne-core"]),
-    ("tasks",           &["ne-core"]),
-    ("envs-core",       &["ne-core", "tasks", "creatures"]),
-    ("envs-rapier",     &["ne-core", "tasks", "creatures", "envs-core"]),
-    ("envs-lanes",      &["ne-core", "ne-net", "tasks", "creatures", "envs-core"]),
+    ("gambol-tasks",           &["ne-core"]),
+    ("envs-core",       &["ne-core", "gambol-tasks", "gambol-creatures"]),
+    ("envs-rapier",     &["ne-core", "gambol-tasks", "gambol-creatures", "envs-core"]),
+    ("envs-lanes",      &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-core"]),
     ("ne-neat",         &["ne-core", "ne-net"]),
-    ("gambol-runs",     &["ne-core", "ne-net", "ne-fixed", "ne-neat", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes"]),
-    ("gambol-reports",  &["ne-core", "ne-net", "ne-neat", "tasks", "creatures", "envs-core", "envs-rapier", "gambol-runs"]),
-    ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-statistics", "tasks", "creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-experiments"]),
+    ("gambol-runs",     &["ne-core", "ne-net", "ne-fixed", "ne-neat", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes"]),
+    ("gambol-reports",  &["ne-core", "ne-net", "ne-neat", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs"]),
+    ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-experiments"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
-    ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "tasks"]),
+    ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "gambol-tasks"]),
     ("gambol-tests",    &[]),
 ];
 

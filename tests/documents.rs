@@ -98,7 +98,7 @@ fn every_example_is_in_the_table_of_the_readme() {
 /// The architecture is drawn with the paths of the code; were none found, the test above would promise nothing.
 #[test]
 fn paths_are_found_where_they_stand() {
-    let text = "see `ne-core/src/lib.rs`, `tasks/src/*.rs`, `cargo test -p tasks`, `config.json`, `f32/f64` and\n\
+    let text = "see `ne-core/src/lib.rs`, `tasks/src/*.rs`, `cargo test -p gambol-tasks`, `config.json`, `f32/f64` and\n\
                 ```\n`ne-core/in/a/block`\n```\n[here](docs/x.md#part), [there](https://example.org), [below](#below)";
     assert_eq!(paths(text, &beginnings()), ["ne-core/src/lib.rs", "tasks/src/"]);
     assert_eq!(linked(text).collect::<Vec<_>>(), ["docs/x.md"]);

@@ -1,7 +1,7 @@
 //! The published JSON Schema is the derived one, and every shipped file keeps to it.
 //!
 //! After a change of the format, write it anew:
-//! `GAMBOL_WRITE_SCHEMA=1 cargo test -p creatures --features schema --test schema`
+//! `GAMBOL_WRITE_SCHEMA=1 cargo test -p gambol-creatures --features schema --test schema`
 #![cfg(feature = "schema")]
 
 use serde_json::{Value, json};

@@ -1,5 +1,5 @@
 //! Pole balancing: one decision (0.02 s of simulated time) without a net, and a whole evaluation of 1,000 decisions by a
-//! controller that costs next to nothing: `cargo bench -p tasks`.
+//! controller that costs next to nothing: `cargo bench -p gambol-tasks`.
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use ne_core::{Phenotype, Seed, Task};
