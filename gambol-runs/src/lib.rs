@@ -54,6 +54,7 @@ pub mod gait;
 pub mod obstacles;
 pub mod perturbation;
 pub mod presets;
+mod program_name;
 mod recorder;
 pub mod reference;
 mod registry;
@@ -72,5 +73,6 @@ pub mod training;
 pub mod training_task;
 pub mod trajectory;
 
+pub use program_name::{program_name, set_program_name};
 pub use registry::{Registry, UnknownPreset};
 pub use setup::Setup;

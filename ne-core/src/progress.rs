@@ -10,6 +10,6 @@ pub struct Progress {
     pub evaluations: u64,
     /// Steps of work done.
     pub steps: u64,
-    /// Generations since the champion was found; with a [`ChampionSelection`], as of the last re-evaluation.
+    /// Generations since the champion was found; with a [champion selection](crate::champion_selection), as of the last re-evaluation.
     pub stagnation: u64,
 }

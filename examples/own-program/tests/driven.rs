@@ -31,6 +31,8 @@ fn every_command_knows_the_movement_and_its_verdict() {
     let folder = tempfile::tempdir().expect("a folder");
     let here = folder.path();
     assert!(said(here, 0, &["movements"]).contains("high-kick"));
+    let help = said(here, 0, &["resume", "--help"]);
+    assert!(help.contains("own-program resume runs/") && !help.contains("gambol resume"), "{help}");
 
     let train = ["train", "biped-2", "high-kick", "--generations", "40", "--seed", "3"];
     said(here, 0, &[&train[..], &["--out", "whole"]].concat());

@@ -111,17 +111,17 @@ pub(super) struct ChampionData {
     /// For each frame the parts that press on the ground, as the bits of a hexadecimal number.
     contacts: Vec<String>,
     network: Option<NetworkData>,
-    /// Mean forward speed of the torso over the whole replay; for running only.
+    /// Mean forward speed of the torso over the whole replay, of a gait that is judged by the way it makes.
     #[serde(skip)]
     pub(super) body_lengths_per_second: Option<f64>,
 }
 
 impl ChampionData {
-    pub(super) fn new(champion: &Champion, recording: &Recording, body_length: f32) -> Self {
+    pub(super) fn new(champion: &Champion, recording: &Recording, body_length: f32, covers_distance: bool) -> Self {
         let time_step = champion.physics.time_step;
         let ends = recording.snapshots.first().zip(recording.snapshots.last());
         let speed = ends
-            .filter(|(_, last)| champion.movement.name == "running" && last.time > 0.0)
+            .filter(|(_, last)| covers_distance && last.time > 0.0)
             .map(|(first, last)| f64::from((last.torso().x - first.torso().x) / last.time / body_length));
         Self {
             body_lengths_per_second: speed,

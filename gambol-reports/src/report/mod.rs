@@ -16,7 +16,7 @@ use crate::{drawing::DrawingError, sheet};
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
 use gait::GaitData;
-use gambol_runs::Registry;
+use gambol_runs::{Registry, program_name};
 use gambol_runs::{
     champion::Champion,
     episode_parts::SetupError,
@@ -29,6 +29,7 @@ use ground::GroundData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{io, path::Path};
+use tasks::gait::View;
 
 /// Why a report cannot be made.
 #[derive(Debug, thiserror::Error)]
@@ -157,7 +158,7 @@ pub fn write_replay(
         history: Vec::new(),
         species: Vec::new(),
         statistics: Vec::new(),
-        champion: Some(ChampionData::new(champion, &recording, body_length)),
+        champion: Some(ChampionData::new(champion, &recording, body_length, covers_distance(champion, registry))),
         ground: GroundData::new(stage.environment().ground(), DRAWN),
         gait: gait_data(champion, registry)?,
         front: None,
@@ -205,7 +206,13 @@ fn champion_data(champion: &Champion, registry: &Registry) -> Result<ChampionDat
     let episode = champion.episode(registry)?;
     let recording = play(&episode, champion.network.clone(), champion.seed, episode.steps());
     let body_length = episode.environment().blueprint().body_length();
-    Ok(ChampionData::new(champion, &recording, body_length))
+    Ok(ChampionData::new(champion, &recording, body_length, covers_distance(champion, registry)))
+}
+
+/// Whether the gaits of its movement are judged by the way they make forwards on the ground.
+fn covers_distance(champion: &Champion, registry: &Registry) -> bool {
+    let rules = registry.movements.rules(&champion.movement.name);
+    rules.is_some_and(|rules| rules.view() == View::default())
 }
 
 /// The champion's first seconds, small.
@@ -226,7 +233,7 @@ fn front_data(folder: &RunFolder, stills: &Stills<'_>) -> Result<Option<FrontDat
         return Ok(None);
     }
     let front = Front::read(&folder.front()).map_err(FolderError::from)?;
-    let command = format!("gambol replay {} --trajectory gait.csv --point", folder.path().display());
+    let command = format!("{} replay {} --trajectory gait.csv --point", program_name(), folder.path().display());
     Ok(FrontData::new(&front, stills, command))
 }
 
@@ -239,13 +246,13 @@ fn spread<'a, T>(items: &[&'a T], count: usize) -> Vec<&'a T> {
 }
 
 fn commands(folder: &RunFolder) -> Vec<Command> {
-    let path = folder.path().display();
+    let (program, path) = (program_name(), folder.path().display());
     [
-        ("Repeat this run", format!("gambol train --config {path}/config.json --out again")),
-        ("Go on training", format!("gambol resume {path} --generations 1000")),
-        ("Measure the gait", format!("gambol gait {path}")),
-        ("Prove the champion", format!("gambol verify {path}/champion.json")),
-        ("Take the trajectory", format!("gambol replay {path}/champion.json --trajectory gait.csv")),
+        ("Repeat this run", format!("{program} train --config {path}/config.json --out again")),
+        ("Go on training", format!("{program} resume {path} --generations 1000")),
+        ("Measure the gait", format!("{program} gait {path}")),
+        ("Prove the champion", format!("{program} verify {path}/champion.json")),
+        ("Take the trajectory", format!("{program} replay {path}/champion.json --trajectory gait.csv")),
     ]
     .map(|(what, command)| Command { what: what.into(), command })
     .into()

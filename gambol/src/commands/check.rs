@@ -2,6 +2,7 @@ use super::{Outcome, balance};
 use crate::{
     Registry, Setup,
     champion::{CHAMPION_FORMAT, Champion},
+    program_name,
     request::Request,
     shaping::Stages,
     source,
@@ -49,7 +50,9 @@ impl Check {
         let value: Value = serde_json::from_str(&text).unwrap_or_else(unreadable);
         match value.get("format").and_then(Value::as_str) {
             Some(CHAMPION_FORMAT) => check_champion(path, registry)?,
-            Some(CHECKPOINT_FORMAT) => return Err("a checkpoint is checked by: gambol resume FOLDER".into()),
+            Some(CHECKPOINT_FORMAT) => {
+                return Err(format!("a checkpoint is checked by: {} resume FOLDER", program_name()).into());
+            }
             Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?)?,
             _ if !value.is_object() || value.get("parts").is_some() => {
                 check_creature(path, source::creature_file(path)?)?
@@ -99,7 +102,7 @@ fn check_champion(path: &Path, registry: &Registry) -> Result<(), Box<dyn Error>
     champion.episode(registry).map_err(|error| format!("{}: {error}", path.display()))?;
     let (creature, movement) = (&champion.creature.name, &champion.movement.name);
     say!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness)?;
-    say!("  to prove that it still does the same: gambol verify {}", path.display())?;
+    say!("  to prove that it still does the same: {} verify {}", program_name(), path.display())?;
     Ok(())
 }
 

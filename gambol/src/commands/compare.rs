@@ -2,6 +2,7 @@ use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry,
     compare::{ComparisonFolder, Method, Part, PlanRequest, Progress, WorkOptions, merge, table, work, write_outcome},
+    program_name,
 };
 use clap::Args;
 use ne_core::{StopConditions, StopSignal};
@@ -109,7 +110,12 @@ impl Compare {
             return Ok(ExitCode::from(INTERRUPTED));
         }
         if self.part != Part::ALL {
-            say!("part {} is done; when all are: gambol merge {} ... --out DIR", self.part, self.out.display())?;
+            say!(
+                "part {} is done; when all are: {} merge {} ... --out DIR",
+                self.part,
+                program_name(),
+                self.out.display()
+            )?;
             return Ok(ExitCode::SUCCESS);
         }
         if left > 0 {

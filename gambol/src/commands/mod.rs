@@ -29,10 +29,10 @@ mod robust;
 mod train;
 mod verify;
 
-use crate::Registry;
-use clap::{Parser, Subcommand};
+use crate::{Registry, program_name, set_program_name};
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 use ne_core::StopSignal;
-use std::{error::Error, io, process::ExitCode};
+use std::{error::Error, io, path::Path, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
 type Outcome = Result<ExitCode, Box<dyn Error>>;
@@ -54,7 +54,11 @@ pub fn program(registry: &Registry) -> ExitCode {
     let closing = tracing_subscriber::fmt::format::FmtSpan::CLOSE;
     let lines = tracing_subscriber::fmt().with_env_filter(log).with_span_events(closing).with_writer(io::stderr);
     let _ = lines.try_init();
-    match Program::parse().command.run(registry) {
+    set_program_name(&name_of_process());
+    let command = named(Program::command(), program_name()).name(program_name());
+    // clap has checked the command line; what it gives it can read.
+    let program = Program::from_arg_matches(&command.get_matches());
+    match program.unwrap_or_else(|error| error.exit()).command.run(registry) {
         Ok(code) => code,
         // What reads our output has seen enough.
         Err(error)
@@ -67,6 +71,23 @@ pub fn program(registry: &Registry) -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// What this program is called: the name of its file.
+fn name_of_process() -> String {
+    let path = std::env::args_os().next().map(std::path::PathBuf::from);
+    let name = path.as_deref().and_then(Path::file_stem).and_then(std::ffi::OsStr::to_str);
+    name.unwrap_or("gambol").to_owned()
+}
+
+/// A command whose help has the program's name in its examples.
+fn named(command: clap::Command, name: &str) -> clap::Command {
+    let examples = command.get_after_help().map(|help| help.to_string().replace("gambol ", &format!("{name} ")));
+    let command = match examples {
+        Some(examples) => command.after_help(examples),
+        None => command,
+    };
+    command.mut_subcommands(|command| named(command, name))
 }
 
 /// Makes Ctrl-C end the work after the generations under way; twice, at once.

@@ -1,6 +1,6 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
-use crate::Registry;
+use crate::{Registry, program_name};
 use crate::{
     champion::Champion,
     config::{Origin, RunConfig},
@@ -175,7 +175,7 @@ impl Show {
             say!("report    {}", folder.report().display())?;
         }
         if *reason == StopReason::Interrupted {
-            say!("go on     gambol resume {}", folder.path().display())?;
+            say!("go on     {} resume {}", program_name(), folder.path().display())?;
         }
         Ok(())
     }

@@ -1,8 +1,8 @@
 use super::{
     Outcome,
-    train::{Limits, Manner, carry_out},
+    train::{Limits, RunFlags, carry_out},
 };
-use crate::{Registry, run_folder::RunFolder, shaping, training};
+use crate::{Registry, program_name, run_folder::RunFolder, shaping, training};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -20,22 +20,22 @@ pub(crate) struct Resume {
     #[command(flatten)]
     limits: Limits,
     #[command(flatten)]
-    manner: Manner,
+    flags: RunFlags,
 }
 
 impl Resume {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
         if let Some(run) = shaping::run_of_stage(&self.folder) {
-            let (stage, run) = (self.folder.display(), run.display());
+            let (program, stage, run) = (program_name(), self.folder.display(), run.display());
             return Err(format!(
-                "{stage} is a stage of the run in {run}, which goes on as a whole: gambol resume {run}"
+                "{stage} is a stage of the run in {run}, which goes on as a whole: {program} resume {run}"
             )
             .into());
         }
         config.stop = self.limits.beyond(config.stop);
         let stop = Some(config.stop);
-        carry_out(&self.manner, &config, registry.clone(), |options, stage_progress| match config.stages.is_empty() {
+        carry_out(&self.flags, &config, registry.clone(), |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::resume(&self.folder, stop, options)?),
             false => Ok(shaping::resume_stages(&self.folder, stop, stage_progress, options)?),
         })

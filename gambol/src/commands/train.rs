@@ -101,7 +101,7 @@ pub(crate) struct Train {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
     #[command(flatten)]
-    manner: Manner,
+    flags: RunFlags,
 }
 
 /// When a run ends.
@@ -135,7 +135,7 @@ pub(super) struct Limits {
 
 /// How a run is carried out and shown; none of it changes what is found.
 #[derive(Args, Clone, Copy)]
-pub(super) struct Manner {
+pub(super) struct RunFlags {
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
     #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
@@ -231,14 +231,14 @@ impl Train {
         let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
         if let Some(source) = &self.from {
             config.origin = None;
-            return carry_out(&self.manner, &config, registry, |options, _| {
+            return carry_out(&self.flags, &config, registry, |options, _| {
                 Ok(shaping::train_from(&config, source, transferred, self.allow_loss, &folder, options)?)
             });
         }
         if let Err(error) = Setup::new(&config, &registry) {
             return Err(located(&error.to_string(), request, &registry).into());
         }
-        carry_out(&self.manner, &config, registry, |options, stage_progress| match config.stages.is_empty() {
+        carry_out(&self.flags, &config, registry, |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::train(&config, &folder, options)?),
             false => Ok(shaping::train_stages(&config, &folder, stage_progress, options)?),
         })
@@ -285,17 +285,17 @@ fn unused_folder(config: &RunConfig) -> PathBuf {
 
 /// Runs what `start` starts, with progress shown, Ctrl-C caught, and a report at the end.
 pub(super) fn carry_out(
-    manner: &Manner,
+    flags: &RunFlags,
     config: &RunConfig,
     registry: Registry,
     start: impl FnOnce(TrainOptions<'_>, StageProgress<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
 ) -> Outcome {
     let signal = StopSignal::default();
     super::stop_on_interrupt(&signal)?;
-    let show = RefCell::new(Show::new(manner.quiet, manner.json, config, &registry));
+    let show = RefCell::new(Show::new(flags.quiet, flags.json, config, &registry));
     let began = Instant::now();
     let options = TrainOptions {
-        threads: manner.threads,
+        threads: flags.threads,
         registry: registry.clone(),
         signal,
         on_generation: &mut |generation| show.borrow_mut().generation(generation),
@@ -309,14 +309,14 @@ pub(super) fn carry_out(
     show.end();
     let outcome = ended?;
     let seconds = began.elapsed().as_secs_f64();
-    if !manner.no_report {
+    if !flags.no_report {
         report::write_report(&outcome.folder, &registry, Some(outcome.reason))?;
     }
     let until_usable = config.stop.tier.is_some();
     // Judging takes a whole episode, which quiet runs save.
-    let judged = outcome.champion.as_ref().filter(|_| !manner.quiet || until_usable);
+    let judged = outcome.champion.as_ref().filter(|_| !flags.quiet || until_usable);
     let verdict = judged.and_then(|champion| verdict(champion, &registry));
-    show.result(&outcome, verdict.as_ref(), seconds, !manner.no_report);
+    show.result(&outcome, verdict.as_ref(), seconds, !flags.no_report);
     let usable = verdict.is_some_and(|verdict| verdict.usable);
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
