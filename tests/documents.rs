@@ -83,6 +83,42 @@ fn every_path_in_the_documents_exists() {
     assert!(missing.is_empty(), "named, but not there:\n{}", missing.join("\n"));
 }
 
+/// The name by which a link finds a heading: lower case, hyphens for spaces, no other signs.
+fn anchor(heading: &str) -> String {
+    let letters = heading.trim_start_matches('#').trim().to_lowercase();
+    let kept = |letter: &char| letter.is_alphanumeric() || " -_".contains(*letter);
+    letters.chars().filter(kept).map(|letter| if letter == ' ' { '-' } else { letter }).collect()
+}
+
+/// Where links to a document can lead: its headings, and places with a name of their own.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let headings = text.lines().filter(|line| line.starts_with('#')).map(anchor);
+    let named = text.split("id=\"").skip(1).filter_map(|rest| rest.split('"').next()).map(str::to_owned);
+    headings.chain(named).collect()
+}
+
+#[test]
+fn every_section_that_a_link_names_exists() {
+    let read = |path: &Path| fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let mut missing = Vec::new();
+    let mut links = 0;
+    for document in documents() {
+        let text = read(&document);
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', ' ']).next());
+        for (path, section) in targets.filter(|target| !target.contains(':')).filter_map(|link| link.split_once('#')) {
+            let target = if path.is_empty() { document.clone() } else { document.with_file_name(path) };
+            if target.extension().is_some_and(|ending| ending == "md") {
+                links += 1;
+                if !anchors(&read(&target)).contains(section) {
+                    missing.push(format!("{}: {path}#{section}", document.display()));
+                }
+            }
+        }
+    }
+    assert!(links >= 30, "only {links} links to sections");
+    assert!(missing.is_empty(), "named, but not there:\n{}", missing.join("\n"));
+}
+
 #[test]
 fn every_example_is_in_the_table_of_the_readme() {
     let readme = fs::read_to_string(root().join("README.md")).expect("it is there");
@@ -102,6 +138,7 @@ fn paths_are_found_where_they_stand() {
                 ```\n`ne-core/in/a/block`\n```\n[here](docs/x.md#part), [there](https://example.org), [below](#below)";
     assert_eq!(paths(text, &beginnings()), ["ne-core/src/lib.rs", "tasks/src/"]);
     assert_eq!(linked(text).collect::<Vec<_>>(), ["docs/x.md"]);
+    assert_eq!(anchor("## What `usable` means, and why"), "what-usable-means-and-why");
     let architecture = fs::read_to_string(root().join("ARCHITECTURE.md")).expect("it is there");
     assert!(paths(&architecture, &beginnings()).len() >= 10, "ARCHITECTURE.md names hardly any path");
 }

@@ -1,4 +1,4 @@
-use crate::{WeightVector, chance::symmetric, normal::Normal};
+use crate::{Distribution, WeightVector, chance::symmetric, normal::Normal};
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,8 @@ pub enum Initialization {
         /// From 0 to 1000; 1 keeps the spread of sources that have deviation 1.
         scale: f64,
     },
+    /// Each weight drawn from a [`Distribution`], whatever its neuron: `{"distributed": {"cauchy": {"scale": 0.2}}}`.
+    Distributed(Distribution),
 }
 
 impl Initialization {
@@ -32,6 +34,7 @@ impl Initialization {
         match *self {
             Self::Uniform { limit } => SettingError::check_range("uniform.limit", limit, 0.0, 1000.0),
             Self::ScaledGaussian { scale } => SettingError::check_range("scaled-gaussian.scale", scale, 0.0, 1000.0),
+            Self::Distributed(distribution) => distribution.validate().map_err(|error| error.within("distributed")),
         }
     }
 
@@ -43,6 +46,9 @@ impl Initialization {
             Self::Uniform { limit } => {
                 let limit = limit as f32;
                 weights.iter_mut().for_each(|weight| *weight = symmetric(stream) * limit);
+            }
+            Self::Distributed(distribution) => {
+                weights.iter_mut().for_each(|weight| *weight = distribution.draw(stream));
             }
             Self::ScaledGaussian { scale } => {
                 let normal = Normal::new();
@@ -89,8 +95,19 @@ mod tests {
     }
 
     #[test]
+    fn weights_of_a_distribution_are_drawn_whatever_their_neuron() {
+        let weights = drawn(Initialization::Distributed(Distribution::Exponential { mean: 0.5 }));
+        let mean = weights.iter().map(|weight| f64::from(weight.abs())).sum::<f64>() / weights.len() as f64;
+        assert!((mean - 0.5).abs() < 0.01, "{mean}");
+    }
+
+    #[test]
     fn errors_name_the_field() {
         for (initialization, message) in [
+            (
+                Initialization::Distributed(Distribution::Normal { deviation: f64::NAN }),
+                "distributed.normal.deviation = NaN: must be from 0 to 1000",
+            ),
             (Initialization::Uniform { limit: -1.0 }, "uniform.limit = -1: must be from 0 to 1000"),
             (Initialization::ScaledGaussian { scale: 1e4 }, "scaled-gaussian.scale = 10000: must be from 0 to 1000"),
         ] {

@@ -18,10 +18,10 @@
 //!
 //! | part of conventional neuroevolution | choices |
 //! |---|---|
-//! | [`Initialization`] | uniform, Gaussian scaled by fan-in |
+//! | [`Initialization`] | uniform, Gaussian scaled by fan-in, any [`Distribution`] |
 //! | selection of parents | [`Selection`](ne_core::Selection), or any [`Selector`](ne_core::Selector) of yours |
 //! | [`CrossoverChoice`] | [`OnePoint`], [`TwoPoint`], [`UniformCrossover`], [`Arithmetic`], or your [`Crossover`] |
-//! | [`MutationChoice`] | [`UniformMutation`], [`GaussianMutation`], [`SelfAdaptiveMutation`], or your [`Mutation`] |
+//! | [`MutationChoice`] | [`UniformMutation`], [`GaussianMutation`], [`SelfAdaptiveMutation`], [`DistributedMutation`], or your [`Mutation`] |
 //! | [`StagnationBoost`] | larger mutations when a population stagnates |
 //!
 //! ```
@@ -58,6 +58,7 @@ mod cma_es;
 mod conventional;
 mod cosyne;
 mod crossover;
+mod distribution;
 mod diversity;
 mod genome;
 mod growing;
@@ -74,9 +75,12 @@ pub use cma_es::{CmaEs, CmaEsSettings, CovarianceModel, Restart};
 pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost};
 pub use cosyne::{Cosyne, CosyneSettings, Permutation};
 pub use crossover::{Arithmetic, Crossover, CrossoverChoice, OnePoint, TwoPoint, UniformCrossover};
+pub use distribution::Distribution;
 pub use genome::{WeightVector, WeightVectorError};
 pub use initialization::Initialization;
-pub use mutation::{GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation};
+pub use mutation::{
+    DistributedMutation, GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation,
+};
 pub use nsga2::{Nsga2, Nsga2Settings};
 pub use open_es::{Adam, OpenEs, OpenEsSettings};
 pub use setting::Setting;

@@ -1,9 +1,9 @@
-use super::{GaussianMutation, Mutation, SelfAdaptiveMutation, UniformMutation};
+use super::{DistributedMutation, GaussianMutation, Mutation, SelfAdaptiveMutation, UniformMutation};
 use crate::Setting;
 use ne_core::{RandomStream, SettingError};
 use serde::{Deserialize, Serialize};
 
-/// One of the three mutation operators, chosen at run time: how a configuration file names it.
+/// One of the four mutation operators, chosen at run time: how a configuration file names it.
 ///
 /// In JSON the name with its settings: `{"gaussian": {"rate": 0.1, "deviation": 0.2}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,8 @@ pub enum MutationChoice {
     Gaussian(GaussianMutation),
     /// Normally distributed changes whose deviation evolves.
     SelfAdaptive(SelfAdaptiveMutation),
+    /// Changes of another distribution, such as Cauchy.
+    Distributed(DistributedMutation),
 }
 
 impl Setting for MutationChoice {
@@ -23,6 +25,7 @@ impl Setting for MutationChoice {
             Self::Uniform(mutation) => mutation.validate().map_err(|error| error.within("uniform")),
             Self::Gaussian(mutation) => mutation.validate().map_err(|error| error.within("gaussian")),
             Self::SelfAdaptive(mutation) => mutation.validate().map_err(|error| error.within("self-adaptive")),
+            Self::Distributed(mutation) => mutation.validate().map_err(|error| error.within("distributed")),
         }
     }
 }
@@ -33,6 +36,7 @@ impl Mutation for MutationChoice {
             Self::Uniform(mutation) => mutation.mutate(weights, deviation, strength, stream),
             Self::Gaussian(mutation) => mutation.mutate(weights, deviation, strength, stream),
             Self::SelfAdaptive(mutation) => mutation.mutate(weights, deviation, strength, stream),
+            Self::Distributed(mutation) => mutation.mutate(weights, deviation, strength, stream),
         }
     }
 
@@ -41,6 +45,7 @@ impl Mutation for MutationChoice {
             Self::Uniform(mutation) => mutation.initial_deviation(),
             Self::Gaussian(mutation) => mutation.initial_deviation(),
             Self::SelfAdaptive(mutation) => mutation.initial_deviation(),
+            Self::Distributed(mutation) => mutation.initial_deviation(),
         }
     }
 }
@@ -58,6 +63,11 @@ mod tests {
         assert_eq!(mutate(MutationChoice::Uniform(uniform)), mutated(&uniform, weights.clone(), 0.1, 2.0, 1));
         let gaussian = GaussianMutation::default();
         assert_eq!(mutate(MutationChoice::Gaussian(gaussian)), mutated(&gaussian, weights.clone(), 0.1, 2.0, 1));
+        let distributed = DistributedMutation::default();
+        assert_eq!(
+            mutate(MutationChoice::Distributed(distributed)),
+            mutated(&distributed, weights.clone(), 0.1, 2.0, 1)
+        );
         let adaptive = SelfAdaptiveMutation::default();
         assert_eq!(mutate(MutationChoice::SelfAdaptive(adaptive)), mutated(&adaptive, weights.clone(), 0.1, 2.0, 1));
         assert_eq!(MutationChoice::SelfAdaptive(adaptive).initial_deviation(), 0.3);
@@ -72,6 +82,10 @@ mod tests {
             (
                 r#"{"self-adaptive":{"rate":-1.0,"initial":0.3,"minimum":0.01,"maximum":2.0,"learning_rate":null}}"#,
                 "self-adaptive.rate = -1: must be from 0 to 1",
+            ),
+            (
+                r#"{"distributed":{"rate":0.1,"distribution":{"exponential":{"mean":-1.0}}}}"#,
+                "distributed.distribution.exponential.mean = -1: must be from 0 to 1000",
             ),
         ] {
             let choice: MutationChoice = serde_json::from_str(text).expect("deserialises");

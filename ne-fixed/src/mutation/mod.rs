@@ -1,12 +1,14 @@
-//! Mutation: the contract and three operators.
+//! Mutation: the contract and four operators.
 
 mod choice;
+mod distributed;
 mod gaussian;
 mod self_adaptive;
 mod uniform;
 
 pub use {
-    choice::MutationChoice, gaussian::GaussianMutation, self_adaptive::SelfAdaptiveMutation, uniform::UniformMutation,
+    choice::MutationChoice, distributed::DistributedMutation, gaussian::GaussianMutation,
+    self_adaptive::SelfAdaptiveMutation, uniform::UniformMutation,
 };
 
 use crate::Setting;
