@@ -49,6 +49,7 @@ fn check_page(browser: &mut Browser, page: &Path, kind: &Kind) {
     for width in WIDTHS {
         browser.open(page, width);
         assert_eq!(texts(&browser.evaluate(BLANK_CANVASES)), [""; 0], "canvases without a drawing, {width} px");
+        assert_eq!(texts(&browser.evaluate(CROPPED_PICTURES)), [""; 0], "pictures that are cut off, {width} px");
         let overhang = "document.documentElement.scrollWidth - document.documentElement.clientWidth";
         assert_eq!(browser.evaluate(overhang), 0, "wider than {width} px");
         check_keyboard(browser);
@@ -155,6 +156,19 @@ const BLANK_CANVASES: &str = r#"(async () => {
     if (!drawn) blank.push(canvas.id || canvas.parentElement.className);
   }
   return blank;
+})()"#;
+
+/// Pictures that are larger than what they stand in, or not there.
+const CROPPED_PICTURES: &str = r#"(async () => {
+  const cropped = [];
+  for (const picture of document.querySelectorAll("img")) {
+    if (!picture.checkVisibility()) continue;
+    await picture.decode().catch(() => {});
+    const { clientWidth, clientHeight } = picture.parentElement;
+    const fits = picture.naturalWidth > 0 && picture.width <= clientWidth + 1 && picture.height <= clientHeight + 1;
+    if (!fits) cropped.push(`${picture.alt}: ${picture.width} x ${picture.height} in ${clientWidth} x ${clientHeight}`);
+  }
+  return cropped;
 })()"#;
 
 /// Where the replay is, over a second.

@@ -101,7 +101,7 @@ function buildFitness(run) {
   const size = sizes.every(size => size === sizes[0]) ? `${count(sizes[0], "evaluation", "evaluations")} each`
     : `${fixed(Math.min(...sizes), 0)} to ${fixed(Math.max(...sizes), 0)} evaluations`;
   if (sizes[0]) text.push(` of ${size}`);
-  const judged = run.summary?.judged ? " The champion is chosen by a champion_selection: in a whole episode without variation, in rapier." : "";
+  const judged = run.summary?.judged ? " The champion is chosen by a champion selection: in a whole episode without variation, in rapier." : "";
   document.getElementById("fitness-intro").textContent = text.join("") + "." + judged;
   new FitnessChart(run);
 }
