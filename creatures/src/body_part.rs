@@ -41,8 +41,8 @@ pub struct Hinge {
     /// Smallest and largest angle of the child against the parent, rad, relative to the start pose: at most 0, at
     /// least 0, no more than 2π apart.
     pub limits: [f32; 2],
-    /// What drives it, if anything does. The net does not move the motor of a hinge that is not actuated: hold it
-    /// still.
+    /// What drives it; without a motor it is limp. That of a hinge that is not actuated holds still, with its top torque
+    /// at most.
     pub motor: Option<Motor>,
     /// Whether its motor is an output of the net: it has one, and its child has an actuated tag.
     pub actuated: bool,

@@ -98,7 +98,7 @@ pub struct Joint {
     /// Smallest and largest angle of the child against the parent, degrees, relative to the start pose: from at most 0
     /// to at least 0, between -180 and 180, no more than 340 apart.
     pub limits: [f32; 2],
-    /// What drives it; the hinge turns freely between its limits if absent.
+    /// What drives it; the hinge turns freely between its limits if absent. It holds still if the child is not actuated.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motor: Option<Motor>,
 }

@@ -116,7 +116,7 @@ impl RapierWorld {
             .contacts_enabled(false)
             .limits(JointAxis::AngX, [-half_range, half_range])
             .softness(SpringCoefficients::new(settings.joint_frequency, settings.joint_damping_ratio));
-        if let Some(motor) = hinge.motor.filter(|_| hinge.actuated) {
+        if let Some(motor) = hinge.motor {
             joint = joint
                 .motor_model(JointAxis::AngX, MotorModel::ForceBased)
                 .motor_velocity(JointAxis::AngX, 0.0, settings.motor_gain)

@@ -198,7 +198,7 @@ impl<const W: usize> Joint<W> {
             child_anchor: hinge.child_anchor,
             frame: if turned == 0.0 { None } else { Some([cos, sin]) },
             limits: Limits::new(hinge.limits),
-            motor: hinge.actuated.then_some(motor),
+            motor: hinge.motor.map(|_| motor),
             anchors: [Row::NONE; 2],
             limit: LimitRow { row: Row::NONE, lowest: Lanes::ZERO, highest: Lanes::ZERO, any: false },
         }

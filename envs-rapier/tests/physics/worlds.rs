@@ -134,3 +134,29 @@ fn a_varied_time_step_changes_the_time_of_a_step() {
     }
     assert!(times[0] != times[1] && times[1] != times[2], "{times:?}");
 }
+
+/// How far the last joint of a biped moves while the others are restless; its lower leg has a tag that is not actuated.
+fn passive_swing(motor: bool) -> f32 {
+    let mut creature = creatures::find("biped-1").expect("shipped");
+    let joint = creature.joints.last_mut().expect("has joints");
+    joint.motor = joint.motor.filter(|_| motor);
+    let child = joint.child.clone();
+    let part = creature.parts.iter_mut().find(|part| part.name == child).expect("is a part");
+    part.tag = "cast".to_owned();
+    let blueprint = Blueprint::new(creature).expect("valid");
+    let hinge = blueprint.hinges().len() - 1;
+    assert!(!blueprint.hinges()[hinge].actuated);
+    let mut environment = gauge::environment(blueprint.clone(), PhysicsSettings::default());
+    let program = restless(1, environment.outputs(), 100);
+    let mut widest = 0.0_f32;
+    gauge::run(&mut environment, &program, |environment| {
+        widest = widest.max(joint_angle(&blueprint, environment.snapshot(), hinge).abs());
+    });
+    widest
+}
+
+#[test]
+fn a_motor_that_the_net_does_not_move_holds_still() {
+    let (held, limp) = (passive_swing(true), passive_swing(false));
+    assert!(held < 0.5 * limp, "{held} rad with its motor, {limp} rad without");
+}
