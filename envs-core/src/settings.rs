@@ -99,13 +99,18 @@ impl PhysicsSettings {
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
+        let counts = [
+            ("solver_iterations", self.solver_iterations, 1.0, 32.0),
+            ("internal_iterations", self.internal_iterations, 1.0, 32.0),
+            ("continuous_collision_substeps", self.continuous_collision_substeps, 0.0, 8.0),
+        ];
+        for (field, count, low, high) in counts {
+            SettingError::check_range(field, f64::from(count), low, high)?;
+        }
         let ranges = [
             ("time_step", self.time_step, 0.001, 0.05),
             ("gravity", self.gravity, 0.0, 100.0),
             ("ground_friction", self.ground_friction, 0.0, 10.0),
-            ("solver_iterations", self.solver_iterations as f32, 1.0, 32.0),
-            ("internal_iterations", self.internal_iterations as f32, 1.0, 32.0),
-            ("continuous_collision_substeps", self.continuous_collision_substeps as f32, 0.0, 8.0),
             ("prediction_distance", self.prediction_distance, 0.001, 1.0),
             ("joint_frequency", self.joint_frequency, 1.0, 1e7),
             ("joint_damping_ratio", self.joint_damping_ratio, 0.01, 100.0),

@@ -7,6 +7,7 @@ use crate::{
     suggest,
 };
 use creatures::Terrain;
+use ne_core::digest::Digest;
 use serde_json::{Map, Value, json};
 
 /// Why a configuration is not one. The message names the field, and the nearest valid name where a name is wrong.
@@ -158,8 +159,16 @@ fn spell_out(layer: &mut Value) {
     }
 }
 
-/// Reads the fields of a configuration file: one with some of the fields, or the `config.json` of another run.
-pub(super) fn parse(text: &str) -> Result<Value, ConfigError> {
+/// What a configuration file says.
+pub(super) struct FileContent {
+    /// Its fields.
+    pub(super) fields: Value,
+    /// Whether a digest stands in it that its fields do not have: somebody has edited what a run wrote.
+    pub(super) edited: bool,
+}
+
+/// Reads a configuration file: one with some of the fields, or the `config.json` of another run.
+pub(super) fn parse(text: &str) -> Result<FileContent, ConfigError> {
     let layer: Value = serde_json::from_str(text).map_err(|error| {
         let full = error.to_string();
         let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
@@ -172,10 +181,10 @@ pub(super) fn parse(text: &str) -> Result<Value, ConfigError> {
 }
 
 /// The fields of a file, which may stand in the envelope of a run's own `config.json`.
-fn unwrapped(mut layer: Value) -> Result<Value, ConfigError> {
+fn unwrapped(mut layer: Value) -> Result<FileContent, ConfigError> {
     let wrong = |field: &str, message: String| Err(ConfigError::Field { field: field.into(), message });
     let Some(fields) = layer.as_object_mut().filter(|fields| fields.contains_key("content")) else {
-        return Ok(layer);
+        return Ok(FileContent { fields: layer, edited: false });
     };
     match (fields.get("format"), fields.get("version")) {
         (Some(format), _) if format != CONFIG_FORMAT => {
@@ -184,7 +193,12 @@ fn unwrapped(mut layer: Value) -> Result<Value, ConfigError> {
         (_, Some(version)) if *version != CONFIG_VERSION => {
             wrong("version", format!("is {version}, this Gambol reads version {CONFIG_VERSION}"))
         }
-        _ => Ok(fields.remove("content").unwrap_or_default()),
+        _ => {
+            let content = fields.remove("content").unwrap_or_default();
+            let digest = Digest::of_json(&content).to_string();
+            let edited = fields.get("digest").and_then(Value::as_str).is_some_and(|written| written != digest);
+            Ok(FileContent { fields: content, edited })
+        }
     }
 }
 

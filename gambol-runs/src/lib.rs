@@ -68,6 +68,7 @@ pub mod source;
 pub mod stage;
 pub mod strategies;
 pub mod suggest;
+pub mod texts;
 mod topology;
 pub mod training;
 pub mod training_task;

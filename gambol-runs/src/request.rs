@@ -13,10 +13,13 @@ use crate::{
 };
 use creatures::{Blueprint, Creature, CreatureError, Terrain, UnknownTerrain};
 use envs_rapier::Variation;
-use ne_core::archive::ArchiveError;
+use ne_core::{
+    archive::ArchiveError,
+    bounded_read::{LARGEST_TEXT, read_text},
+};
 use serde_json::{Value, json};
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -199,9 +202,19 @@ impl Request {
         if let Some(name) = &self.movement {
             return check(name).map_err(RequestError::Unknown);
         }
-        match layer.and_then(|layer| Some((layer, layer.text("/movement/name")?))) {
-            Some((layer, name)) => check(name).map_err(|message| layer.wrong("movement.name", message)),
-            None => Err(RequestError::Missing("say which movement (see: gambol movements)")),
+        let wrong = |layer: &Layer, field, found| {
+            let message = format!("must be a name (there are: {}), found {found}", known().join(", "));
+            Err(layer.wrong(field, message))
+        };
+        let said = layer.and_then(|layer| Some((layer, layer.value.get("movement")?)));
+        let named = said.map(|(layer, movement)| (layer, movement, movement.get("name")));
+        match named {
+            Some((layer, _, Some(Value::String(name)))) => {
+                check(name).map_err(|message| layer.wrong("movement.name", message))
+            }
+            Some((layer, _, Some(found))) => wrong(layer, "movement.name", found),
+            Some((layer, found, None)) if !found.is_object() => wrong(layer, "movement", found),
+            _ => Err(RequestError::Missing("say which movement (see: gambol movements)")),
         }
     }
 
@@ -282,9 +295,15 @@ struct Layer {
 
 impl Layer {
     fn read(path: &Path) -> Result<Self, RequestError> {
-        let text = fs::read_to_string(path).map_err(|source| RequestError::Read { path: path.into(), source })?;
-        let value = assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
-        Ok(Self { path: path.into(), value })
+        let text = read_text(path, LARGEST_TEXT).map_err(|source| RequestError::Read { path: path.into(), source })?;
+        let file = assembly::parse(&text).map_err(|source| RequestError::File { path: path.into(), source })?;
+        if file.edited {
+            tracing::warn!(
+                "{} was changed after a run wrote it: its digest does not fit; it is used as it is",
+                path.display()
+            );
+        }
+        Ok(Self { path: path.into(), value: file.fields })
     }
 
     /// The creature that a field of this file names, or is.
@@ -326,10 +345,6 @@ impl Layer {
             }
         }
         Ok(())
-    }
-
-    fn text(&self, pointer: &str) -> Option<&str> {
-        self.value.pointer(pointer).and_then(Value::as_str)
     }
 
     /// The error that a field of this file is wrong.

@@ -1,8 +1,9 @@
 //! Finding a creature by its name or its file.
 
 use creatures::{Blueprint, Creature, CreatureError, UnknownCreature};
+use ne_core::bounded_read::{LARGEST_TEXT, read_text};
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -48,7 +49,7 @@ pub fn creature(name_or_path: &str) -> Result<Creature, SourceError> {
 /// # Errors
 /// If the file cannot be read or is not valid.
 pub fn creature_file(path: &Path) -> Result<Creature, SourceError> {
-    let text = fs::read_to_string(path).map_err(|source| SourceError::Read { path: path.into(), source })?;
+    let text = read_text(path, LARGEST_TEXT).map_err(|source| SourceError::Read { path: path.into(), source })?;
     let blueprint = Blueprint::from_json(&text)
         .map_err(|source| SourceError::Invalid { path: path.into(), source: Box::new(source) })?;
     Ok(blueprint.creature().clone())

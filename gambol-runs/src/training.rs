@@ -96,7 +96,7 @@ pub enum TrainError {
 
 fn resume_hint(folder: &RunFolder) -> String {
     if folder.checkpoint().is_file() || folder.stages().is_dir() {
-        format!("; go on with: {} resume {}", crate::program_name(), folder.path().display())
+        format!("; go on with: {} resume {}", crate::program_name(), crate::texts::shell_word(folder.path()))
     } else {
         String::new()
     }

@@ -10,11 +10,13 @@
 //! temporary file beside it, flushed to the disk and renamed: whatever happens meanwhile, the old or the new file is
 //! there, whole.
 
-use crate::digest::Digest;
+use crate::{
+    bounded_read::{self, LARGEST_DATA},
+    digest::Digest,
+};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::Value;
 use std::{
-    fs,
     io::{self, Write},
     path::{Path, PathBuf},
 };
@@ -165,7 +167,8 @@ pub struct Digests {
 /// As [`read`], without `Damaged`; `Content` only if a field around the content is missing or wrong.
 pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value, Digests), ArchiveError> {
     // As bytes: should they not be UTF-8, the parser says where.
-    let bytes = fs::read(path).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
+    let bytes =
+        bounded_read::read(path, LARGEST_DATA).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
     let value: Value = serde_json::from_slice(&bytes).map_err(|error| malformed(path, &error))?;
     let header = |field: &str| value.get(field);
     let found_format = header("format").and_then(Value::as_str).unwrap_or("unknown").to_owned();

@@ -98,6 +98,8 @@ mod threads;
 #[cfg(feature = "evolution")]
 pub mod archive;
 #[cfg(feature = "evolution")]
+pub mod bounded_read;
+#[cfg(feature = "evolution")]
 mod champion;
 #[cfg(feature = "evolution")]
 pub mod champion_selection;

@@ -91,6 +91,11 @@ impl StopSignal {
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
+
+    /// What holds the request: true once a stop is asked for. For handlers of signals, which may do no more than set it.
+    pub fn switch(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
+    }
 }
 
 impl StopConditions {

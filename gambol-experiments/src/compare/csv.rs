@@ -1,6 +1,7 @@
 //! The raw data as CSV.
 
 use super::{Analysis, RunResult};
+use gambol_runs::texts::csv_cell;
 use std::fmt::Write;
 
 /// A row for each run:
@@ -11,7 +12,7 @@ pub(super) fn scores(analysis: &Analysis) -> String {
     let header = "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds\n";
     let mut text = String::from(header);
     for run in &analysis.runs {
-        let name = [&run.method, &run.scenario].map(|name| quoted(name)).join(",");
+        let name = [&run.method, &run.scenario].map(|name| csv_cell(name)).join(",");
         let scores = [run.score_at_equal_evaluations, run.score_at_equal_steps].map(field).join(",");
         let (evaluations, steps, seconds) = (field(run.evaluations), field(run.steps), field(run.seconds));
         // Writing to a string cannot fail.
@@ -26,7 +27,7 @@ pub(super) fn scores(analysis: &Analysis) -> String {
 pub(super) fn curves(results: &[RunResult]) -> String {
     let mut text = String::from("method,scenario,seed,evaluations,steps,seconds,best\n");
     for run in results {
-        let name = [&run.method, &run.scenario].map(|name| quoted(name)).join(",");
+        let name = [&run.method, &run.scenario].map(|name| csv_cell(name)).join(",");
         for point in &run.points {
             let (evaluations, steps, seconds, best) =
                 (point.evaluations, point.steps, point.seconds, field(point.best));
@@ -40,10 +41,6 @@ fn field(value: Option<impl ToString>) -> String {
     value.map_or_else(String::new, |value| value.to_string())
 }
 
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -53,7 +50,7 @@ mod tests {
     };
 
     #[test]
-    fn raw_data_has_no_substitutes_and_is_quoted() {
+    fn raw_data_has_no_substitutes_and_is_csv_cell() {
         let plan = plan(&["a, \"b\""], &["s"], 2);
         let name = "a, \"b\"";
         let results = [

@@ -1,6 +1,7 @@
 //! The results as CSV.
 
 use super::{Judged, Outcome};
+use gambol_runs::texts::csv_cell;
 use std::fmt::Write;
 
 /// A row for each run: `preset,creature,movement,seed,generations`, then
@@ -51,11 +52,7 @@ fn judged(champion: Option<&Judged>) -> String {
     let Judged { fitness, generation, distance_m, rise_m, usable, reasons } = champion;
     let [distance, rise] = [distance_m, rise_m].map(|metres| metres.map_or_else(String::new, |m| m.to_string()));
     let usable = if *usable { "yes" } else { "no" };
-    format!("{fitness},{generation},{distance},{rise},{usable},{}", quoted(&reasons.join("; ")))
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
+    format!("{fitness},{generation},{distance},{rise},{usable},{}", csv_cell(&reasons.join("; ")))
 }
 
 #[cfg(test)]

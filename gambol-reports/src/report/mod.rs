@@ -16,7 +16,7 @@ use crate::{drawing::DrawingError, sheet};
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
 use gait::GaitData;
-use gambol_runs::{Registry, program_name};
+use gambol_runs::{Registry, program_name, texts::shell_word};
 use gambol_runs::{
     champion::Champion,
     episode_parts::SetupError,
@@ -233,7 +233,7 @@ fn front_data(folder: &RunFolder, stills: &Stills<'_>) -> Result<Option<FrontDat
         return Ok(None);
     }
     let front = Front::read(&folder.front()).map_err(FolderError::from)?;
-    let command = format!("{} replay {} --trajectory gait.csv --point", program_name(), folder.path().display());
+    let command = format!("{} replay {} --trajectory gait.csv --point", program_name(), shell_word(folder.path()));
     Ok(FrontData::new(&front, stills, command))
 }
 
@@ -246,13 +246,14 @@ fn spread<'a, T>(items: &[&'a T], count: usize) -> Vec<&'a T> {
 }
 
 fn commands(folder: &RunFolder) -> Vec<Command> {
-    let (program, path) = (program_name(), folder.path().display());
+    let (program, path) = (program_name(), shell_word(folder.path()));
+    let (config, champion) = (shell_word(&folder.config()), shell_word(&folder.champion()));
     [
-        ("Repeat this run", format!("{program} train --config {path}/config.json --out again")),
+        ("Repeat this run", format!("{program} train --config {config} --out again")),
         ("Go on training", format!("{program} resume {path} --generations 1000")),
         ("Measure the gait", format!("{program} gait {path}")),
-        ("Prove the champion", format!("{program} verify {path}/champion.json")),
-        ("Take the trajectory", format!("{program} replay {path}/champion.json --trajectory gait.csv")),
+        ("Prove the champion", format!("{program} verify {champion}")),
+        ("Take the trajectory", format!("{program} replay {champion} --trajectory gait.csv")),
     ]
     .map(|(what, command)| Command { what: what.into(), command })
     .into()

@@ -7,11 +7,12 @@
 use crate::run_folder::FolderError;
 use ne_core::{
     archive::{self, ArchiveError},
+    bounded_read,
     digest::Digest,
 };
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
-    fs::{self, File, OpenOptions},
+    fs::{File, OpenOptions},
     io::{self, Write},
     path::{Path, PathBuf},
 };
@@ -117,7 +118,7 @@ fn parsed<T: DeserializeOwned>(path: &Path, index: usize, line: &[u8], digest: &
 }
 
 fn contents(path: &Path) -> Result<Vec<u8>, ArchiveError> {
-    match fs::read(path) {
+    match bounded_read::read(path, bounded_read::LARGEST_DATA) {
         Ok(bytes) => Ok(bytes),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Vec::new()),
         Err(source) => Err(ArchiveError::Read { path: path.into(), source }),

@@ -48,7 +48,7 @@ pub enum FolderError {
     #[error(
         "{} already exists{}; choose another folder with --out{}", path.display(),
         if path.is_dir() { " and is not empty" } else { " and is no folder" },
-        if path.join("config.json").is_file() { format!(", or go on with: {} resume {}", crate::program_name(), path.display()) } else { String::new() }
+        if path.join("config.json").is_file() { format!(", or go on with: {} resume {}", crate::program_name(), crate::texts::shell_word(path)) } else { String::new() }
     )]
     Exists {
         /// The folder.

@@ -1,7 +1,9 @@
 //! Trajectories as CSV: a row for each step and part, the start included.
 
 use super::Recording;
+use crate::texts::{csv_cell, literal};
 use std::{
+    borrow::Cow,
     collections::HashMap,
     io::{self, Write},
 };
@@ -78,7 +80,7 @@ impl Recording {
         for (step, snapshot) in self.snapshots.iter().enumerate() {
             for ((shape, motor), part) in body.parts.iter().zip(&motor_of).zip(&snapshot.parts) {
                 let (time, contact) = (snapshot.time, u8::from(part.touching));
-                let (name, angle) = (quoted(&shape.name), part.angle());
+                let (name, angle) = (csv_cell(&shape.name), part.angle());
                 write!(out, "{step},{time},{name},{},{},{angle},{contact}", part.x, part.y)?;
                 write!(out, ",{},{},{}", part.vx, part.vy, part.spin)?;
                 match motor.and_then(|motor| self.torques.get(step)?.get(motor)) {
@@ -90,10 +92,6 @@ impl Recording {
         }
         Ok(())
     }
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
 /// Reads what [`Recording::write_csv`] writes, for this body. Columns may be in any order, and there may be others; so may the
@@ -109,7 +107,10 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
     let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", PLACES.join(","))))?;
     let places = columns(&header, PLACES)?;
     let (speeds, torque) = further_columns(&header)?;
-    let indices: HashMap<&str, usize> = names.iter().copied().zip(0..).collect();
+    // As they are, or as they are written where a spreadsheet would compute them.
+    let written = names.iter().map(|name| literal(name)).zip(0..);
+    let indices: HashMap<Cow<'_, str>, usize> =
+        written.chain(names.iter().map(|&name| Cow::Borrowed(name)).zip(0..)).collect();
     let motors: Vec<bool> = (0..names.len()).map(|part| body.actuated().any(|hinge| hinge.child == part)).collect();
     let mut reader = Reader { names: &names, snapshots: vec![], lines: vec![], torques: vec![], seen: vec![] };
     let mut last_line = header.line;

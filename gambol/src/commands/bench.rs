@@ -77,7 +77,7 @@ impl Strategies {
         let mut measured = Vec::new();
         for entrant in entrants().iter().filter(|one| wanted(one.settings.name(), one.task)) {
             if !self.json {
-                eprintln!("{} on {}", entrant.settings.name(), entrant.task.name());
+                tell!("{} on {}", entrant.settings.name(), entrant.task.name());
             }
             measured.push(measure(entrant, self.seeds)?);
         }

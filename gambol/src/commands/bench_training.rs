@@ -66,7 +66,7 @@ impl Training {
         let mut runs = Vec::new();
         for creature in creatures {
             if !self.json {
-                eprintln!("{creature} learns running");
+                tell!("{creature} learns running");
             }
             runs.push(self.measure(creature, threads, registry)?);
         }

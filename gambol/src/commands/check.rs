@@ -6,16 +6,19 @@ use crate::{
     request::Request,
     shaping::Stages,
     source,
+    texts::shell_word,
 };
 use clap::Args;
 use creatures::{Blueprint, Creature, DEFAULT_INPUT_RANGE, Motors, Senses};
 use envs_core::{Conditions, Engine, Ground, PhysicsSettings};
 use envs_lanes::LaneEngine;
-use ne_core::CHECKPOINT_FORMAT;
+use ne_core::{
+    CHECKPOINT_FORMAT,
+    bounded_read::{LARGEST_DATA, read_text},
+};
 use serde_json::{Map, Value};
 use std::{
     error::Error,
-    fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -44,7 +47,7 @@ impl Check {
             check_creature(path, source::creature(name)?)?;
             return Ok(ExitCode::SUCCESS);
         }
-        let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+        let text = read_text(path, LARGEST_DATA).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         // What is not even JSON is left to the readers of creatures and configurations, which say where.
         let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };
         let value: Value = serde_json::from_str(&text).unwrap_or_else(unreadable);
@@ -102,7 +105,7 @@ fn check_champion(path: &Path, registry: &Registry) -> Result<(), Box<dyn Error>
     champion.episode(registry).map_err(|error| format!("{}: {error}", path.display()))?;
     let (creature, movement) = (&champion.creature.name, &champion.movement.name);
     say!("{}: a valid champion, {creature} {movement}, fitness {}", path.display(), champion.fitness)?;
-    say!("  to prove that it still does the same: {} verify {}", program_name(), path.display())?;
+    say!("  to prove that it still does the same: {} verify {}", program_name(), shell_word(path))?;
     Ok(())
 }
 

@@ -3,6 +3,7 @@ use crate::{
     Registry,
     compare::{ComparisonFolder, Method, Part, PlanRequest, Progress, WorkOptions, merge, table, work, write_outcome},
     program_name,
+    texts::shell_word,
 };
 use clap::Args;
 use ne_core::{StopConditions, StopSignal};
@@ -87,13 +88,13 @@ impl Compare {
         let plan = request.plan(registry)?;
         let folder = ComparisonFolder::create(&self.out, &plan)?;
         let signal = StopSignal::default();
-        super::stop_on_interrupt(&signal)?;
+        super::interrupt::stop_on_interrupt(&signal)?;
         let began = Instant::now();
         let show = |progress: &Progress| {
             if !self.quiet {
                 let Progress { run, best, done, all } = progress;
                 let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));
-                eprintln!("{done}/{all} after {:.0} s: {run}: {best}", began.elapsed().as_secs_f64());
+                tell!("{done}/{all} after {:.0} s: {run}: {best}", began.elapsed().as_secs_f64());
             }
         };
         let options = WorkOptions {
@@ -114,7 +115,7 @@ impl Compare {
                 "part {} is done; when all are: {} merge {} ... --out DIR",
                 self.part,
                 program_name(),
-                self.out.display()
+                shell_word(&self.out)
             )?;
             return Ok(ExitCode::SUCCESS);
         }

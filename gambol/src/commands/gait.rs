@@ -10,10 +10,12 @@ use crate::{
 use clap::Args;
 use creatures::Blueprint;
 use envs_core::Ground;
-use ne_core::archive;
+use ne_core::{
+    archive,
+    bounded_read::{LARGEST_DATA, read_text},
+};
 use std::{
     error::Error,
-    fs,
     path::{Path, PathBuf},
     process::ExitCode,
 };
@@ -132,7 +134,7 @@ fn of_trajectory(
     registry: &Registry,
 ) -> Result<Measured, Box<dyn Error>> {
     let blueprint = Blueprint::new(source::creature(creature)?)?;
-    let text = fs::read_to_string(path).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
+    let text = read_text(path, LARGEST_DATA).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
     let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;
     let trajectory = read.trajectory(&body).map_err(|error| located(path, &read, &error))?;

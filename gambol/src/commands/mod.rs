@@ -1,13 +1,8 @@
 //! The commands of the program: each is a file.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
-/// Prints a line; a reader that went away (`| head`) is an error for `main`, not a panic.
-macro_rules! say {
-    ($($text:tt)*) => {{
-        use std::io::Write;
-        writeln!(std::io::stdout().lock(), $($text)*)
-    }};
-}
+#[macro_use]
+mod terminal;
 
 mod ablation;
 mod balance;
@@ -19,6 +14,7 @@ mod compare;
 mod film;
 mod gait;
 mod gait_text;
+mod interrupt;
 mod list;
 mod progress;
 mod replay;
@@ -31,7 +27,6 @@ mod verify;
 
 use crate::{Registry, program_name, set_program_name};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
-use ne_core::StopSignal;
 use std::{error::Error, io, path::Path, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
@@ -53,7 +48,8 @@ pub fn program(registry: &Registry) -> ExitCode {
     // A program that logs already goes on as it does.
     let closing = tracing_subscriber::fmt::format::FmtSpan::CLOSE;
     let lines = tracing_subscriber::fmt().with_env_filter(log).with_span_events(closing).with_writer(io::stderr);
-    let _ = lines.try_init();
+    // A line that cannot be written is lost; telling so would have to write it.
+    let _ = lines.log_internal_errors(false).try_init();
     set_program_name(&name_of_process());
     let command = named(Program::command(), program_name()).name(program_name());
     // clap has checked the command line; what it gives it can read.
@@ -67,7 +63,7 @@ pub fn program(registry: &Registry) -> ExitCode {
             ExitCode::SUCCESS
         }
         Err(error) => {
-            eprintln!("error: {error}");
+            tell!("error: {error}");
             ExitCode::FAILURE
         }
     }
@@ -88,18 +84,6 @@ fn named(command: clap::Command, name: &str) -> clap::Command {
         None => command,
     };
     command.mut_subcommands(|command| named(command, name))
-}
-
-/// Makes Ctrl-C end the work after the generations under way; twice, at once.
-fn stop_on_interrupt(signal: &StopSignal) -> Result<(), ctrlc::Error> {
-    let on_interrupt = signal.clone();
-    ctrlc::set_handler(move || {
-        if on_interrupt.is_set() {
-            std::process::exit(i32::from(INTERRUPTED));
-        }
-        eprintln!("\nfinishing this generation, then saving; Ctrl-C once more to stop at once");
-        on_interrupt.stop();
-    })
 }
 
 /// ` in 3 bodies`, where there are several.
@@ -125,7 +109,7 @@ Exit codes:
   2    the command line was not understood
   3    verify: the replay is not what the champion file says; gait: the gait is not usable;
        train and resume with --until usable: no usable gait was found
-  130  a run was interrupted; it is saved and can be resumed
+  130  a run was interrupted (Ctrl-C, SIGTERM, SIGHUP); it is saved and can be resumed
 
 Set GAMBOL_LOG=debug to see what the libraries do, and how long each generation, evaluation, re-evaluation,
 checkpoint and report takes."

@@ -1,17 +1,19 @@
 //! What a user sees of a run: a bar on a terminal, now and then a line elsewhere, JSON for programs.
 
+use super::terminal::printable;
 use crate::{Registry, program_name};
 use crate::{
     champion::Champion,
     config::{Origin, RunConfig},
     shaping::PlannedStage,
+    texts::shell_word,
     training::Outcome,
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use ne_core::{GenerationReport, StopReason};
 use serde_json::json;
 use std::{
-    io::{self, IsTerminal, Write},
+    io::{self, IsTerminal},
     time::{Duration, Instant},
 };
 use tasks::gait::Judgement;
@@ -62,7 +64,7 @@ impl Show {
                 .map_or_else(String::new, |population| format!("population {population}, "));
             let (creature, movement) = (&config.creature.name, &config.movement.name);
             let bodies = super::in_bodies(config.bodies());
-            eprintln!("{creature} learns {movement}{bodies}: {population}seed {}", config.seed);
+            tell!("{creature} learns {movement}{bodies}: {population}seed {}", config.seed);
         }
         Self {
             output,
@@ -87,8 +89,8 @@ impl Show {
         match &self.output {
             Output::Quiet => {}
             Output::Json => print_json(&json!({ "stage": { "number": number, "name": name } })),
-            Output::Bar(bar) => bar.println(format!("stage {number} of {stages}, {name}{origin}")),
-            Output::Lines => eprintln!("stage {number} of {stages}, {name}{origin}"),
+            Output::Bar(bar) => bar.println(printable(&format!("stage {number} of {stages}, {name}{origin}"))),
+            Output::Lines => tell!("stage {number} of {stages}, {name}{origin}"),
         }
     }
 
@@ -116,7 +118,7 @@ impl Show {
                 let last = self.limit == Some(report.generation);
                 if last || self.last_line.is_none_or(|last| last.elapsed() >= LINE_EVERY) {
                     let of = self.limit.map_or_else(String::new, |limit| format!("/{limit}"));
-                    eprintln!("generation {}{of}: {message}", report.generation);
+                    tell!("generation {}{of}: {message}", report.generation);
                     self.last_line = Some(Instant::now());
                 }
             }
@@ -137,7 +139,7 @@ impl Show {
         if matches!(self.output, Output::Json) {
             let trained = champion.as_ref().and_then(|champion| champion.trained);
             print_json(&json!({ "result": {
-                "folder": folder.path(), "reason": reason, "progress": progress, "fitness": fitness,
+                "folder": folder.path().display().to_string(), "reason": reason, "progress": progress, "fitness": fitness,
                 "trained": trained, "verdict": verdict, "seconds": seconds,
             }}));
         }
@@ -175,7 +177,7 @@ impl Show {
             say!("report    {}", folder.report().display())?;
         }
         if *reason == StopReason::Interrupted {
-            say!("go on     {} resume {}", program_name(), folder.path().display())?;
+            say!("go on     {} resume {}", program_name(), shell_word(folder.path()))?;
         }
         Ok(())
     }
@@ -220,5 +222,5 @@ fn bar(limit: Option<u64>) -> ProgressBar {
 
 /// A reader that went away (`| head`) is no reason to end a run.
 fn print_json(value: &serde_json::Value) {
-    let _ = writeln!(io::stdout().lock(), "{value}");
+    let _ = say!("{value}");
 }

@@ -100,24 +100,33 @@ impl Replay {
     }
 
     /// Nothing may be overwritten unasked, and the files must be different ones.
-    fn check_outputs(&self, champion: &PathBuf) -> Result<(), String> {
+    fn check_outputs(&self, champion: &Path) -> Result<(), String> {
         let outputs =
             [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot), ("champion", &self.save)];
         let outputs: Vec<_> = outputs.iter().filter_map(|(what, path)| Some((what, path.as_ref()?))).collect();
-        let file = |path: &PathBuf| path.canonicalize().ok();
         for (index, &(what, path)) in outputs.iter().enumerate() {
             if path.exists() && !self.force {
                 return Err(format!("{} exists; say --force to overwrite it", path.display()));
             }
-            if file(path).is_some_and(|path| Some(path) == file(champion)) {
+            if same_file(path, champion) {
                 return Err(format!("{} is the champion itself", champion.display()));
             }
-            if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| *other == path) {
+            if let Some((other, _)) = outputs[..index].iter().find(|(_, other)| same_file(other, path)) {
                 return Err(format!("{} cannot be both the {other} and the {what}", path.display()));
             }
         }
         Ok(())
     }
+}
+
+/// Whether two paths name one file, which need not be there yet.
+fn same_file(one: &Path, other: &Path) -> bool {
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        path.canonicalize()
+            .or_else(|_| Ok::<_, std::io::Error>(folder.canonicalize()?.join(path.file_name().unwrap_or_default())))
+    };
+    one == other || matches!((place(one), place(other)), (Ok(one), Ok(other)) if one == other)
 }
 
 /// The steps of so many seconds.

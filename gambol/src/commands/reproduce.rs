@@ -99,7 +99,7 @@ impl Thesis {
         let plan = request.plan(registry)?;
         let folder = ReproductionFolder::create(&self.out, &plan)?;
         let signal = StopSignal::default();
-        super::stop_on_interrupt(&signal)?;
+        super::interrupt::stop_on_interrupt(&signal)?;
         let began = Instant::now();
         let show = |progress: &Progress| {
             if !self.quiet {
@@ -111,7 +111,7 @@ impl Thesis {
                         format!("fitness {:.2}, {usable}", champion.fitness)
                     }
                 };
-                eprintln!("{done}/{all} after {:.0} s: {run}: {verdict}", began.elapsed().as_secs_f64());
+                tell!("{done}/{all} after {:.0} s: {run}: {verdict}", began.elapsed().as_secs_f64());
             }
         };
         let options = crate::reproduce::WorkOptions {

@@ -2,7 +2,7 @@ use super::{
     Outcome,
     train::{Limits, RunFlags, carry_out},
 };
-use crate::{Registry, program_name, run_folder::RunFolder, shaping, training};
+use crate::{Registry, program_name, run_folder::RunFolder, shaping, texts::shell_word, training};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -27,9 +27,10 @@ impl Resume {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
         if let Some(run) = shaping::run_of_stage(&self.folder) {
-            let (program, stage, run) = (program_name(), self.folder.display(), run.display());
+            let (program, stage, word) = (program_name(), self.folder.display(), shell_word(&run));
+            let run = run.display();
             return Err(format!(
-                "{stage} is a stage of the run in {run}, which goes on as a whole: {program} resume {run}"
+                "{stage} is a stage of the run in {run}, which goes on as a whole: {program} resume {word}"
             )
             .into());
         }

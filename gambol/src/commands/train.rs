@@ -291,7 +291,7 @@ pub(super) fn carry_out(
     start: impl FnOnce(TrainOptions<'_>, StageProgress<'_>) -> Result<training::Outcome, Box<dyn std::error::Error>>,
 ) -> Outcome {
     let signal = StopSignal::default();
-    super::stop_on_interrupt(&signal)?;
+    super::interrupt::stop_on_interrupt(&signal)?;
     let show = RefCell::new(Show::new(flags.quiet, flags.json, config, &registry));
     let began = Instant::now();
     let options = TrainOptions {

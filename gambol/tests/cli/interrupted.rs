@@ -13,6 +13,7 @@ use gambol::{
 use serde_json::Value;
 use std::{
     io::{BufRead, BufReader, Read},
+    path::Path,
     process::{Child, Command, Stdio},
 };
 
@@ -22,7 +23,12 @@ type Outcome = Result<(), Box<dyn std::error::Error>>;
 const INTERRUPTED: Option<i32> = Some(130);
 
 fn interrupt(child: &Child) {
-    let status = Command::new("sh").args(["-c", "kill -INT \"$1\"", "sh", &child.id().to_string()]).status();
+    send(child, "INT");
+}
+
+fn send(child: &Child, signal: &str) {
+    let kill = format!("kill -{signal} \"$1\"");
+    let status = Command::new("sh").args(["-c", &kill, "sh", &child.id().to_string()]).status();
     assert!(status.expect("there is a shell").success());
 }
 
@@ -48,7 +54,9 @@ fn an_interrupted_run_has_saved_its_last_generation_and_says_how_to_go_on() -> O
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     let mut train = gambol("train");
-    train.args(["biped-1", "running", "--population", "4", "--set", "movement.steps=20", "--no-report"]);
+    train.args(["biped-1", "running", "--set", "movement.steps=100", "--no-report"]);
+    // Generations of some tenths of a second: what is told while one ends is told in time.
+    train.args(["--population", "4000"]);
     // No machine gets that far before it is interrupted.
     train.args(["--set", "record.checkpoint_every=1000000", "--generations", "1000000", "--out"]).arg(&path);
     let mut child = train.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
@@ -111,5 +119,69 @@ fn a_run_interrupted_before_its_first_generation_is_a_run_all_the_same() -> Outc
     succeed(gambol("report").arg(&broken));
     succeed(gambol("resume").arg(&broken));
     assert_same_run(&whole, &broken);
+    Ok(())
+}
+
+/// A run that would not end by itself, whose standard error is a pipe: as in `gambol train ... 2>&1 | tee log`.
+fn endless_run(path: &Path) -> Command {
+    let mut train = gambol("train");
+    train.args(["biped-1", "running", "--population", "4", "--set", "movement.steps=20", "--no-report"]);
+    train.args(["--generations", "1000000", "--out"]).arg(path);
+    train.stdout(Stdio::piped()).stderr(Stdio::piped());
+    train
+}
+
+/// Waits for the first generation, with a pipe that is then closed.
+fn begun(command: &mut Command) -> std::io::Result<Child> {
+    let mut child = command.spawn()?;
+    let mut errors = BufReader::new(child.stderr.take().expect("a pipe")).lines();
+    errors.next().expect("a title")?;
+    errors.next().expect("the first generation is always told")?;
+    drop((errors, child.stdout.take()));
+    Ok(child)
+}
+
+/// The terminal sends Ctrl-C to `tee` as well, which ends at once: nobody reads what the program writes then.
+#[test]
+fn ctrl_c_behind_a_dead_pipe_saves() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for number in 0..5 {
+        let path = folder.path().join(number.to_string());
+        let mut child = begun(&mut endless_run(&path))?;
+        interrupt(&child);
+        assert_eq!(child.wait()?.code(), INTERRUPTED);
+        assert!(path.join("champion.json").is_file());
+    }
+    Ok(())
+}
+
+#[test]
+fn a_request_to_terminate_and_a_closed_terminal_save_as_ctrl_c_does() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for signal in ["TERM", "HUP"] {
+        if signal == "HUP" && !Path::new("/proc/self/status").exists() {
+            continue;
+        }
+        let path = folder.path().join(signal);
+        let mut child = begun(&mut endless_run(&path))?;
+        send(&child, signal);
+        assert_eq!(child.wait()?.code(), INTERRUPTED, "{signal}");
+        assert!(path.join("champion.json").is_file());
+    }
+    Ok(())
+}
+
+#[test]
+fn a_run_under_nohup_survives_its_terminal() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let train = endless_run(&folder.path().join("run"));
+    let mut ignoring = Command::new("sh");
+    ignoring.args(["-c", "trap '' HUP; exec \"$@\"", "sh"]).arg(train.get_program()).args(train.get_args());
+    let mut child = begun(ignoring.stdout(Stdio::piped()).stderr(Stdio::piped()))?;
+    send(&child, "HUP");
+    std::thread::sleep(std::time::Duration::from_millis(300));
+    assert!(child.try_wait()?.is_none(), "it goes on");
+    interrupt(&child);
+    assert_eq!(child.wait()?.code(), INTERRUPTED);
     Ok(())
 }

@@ -22,6 +22,7 @@ mod further_bodies;
 mod gait;
 mod going_on;
 mod help;
+mod hostile;
 mod interrupted;
 mod killed;
 mod longer;
