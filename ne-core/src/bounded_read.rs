@@ -8,8 +8,8 @@ use std::{
 
 const MIB: u64 = 1 << 20;
 
-/// The largest file that people write or edit, such as a creature or a configuration: 16 MiB.
-pub const LARGEST_TEXT: u64 = 16 * MIB;
+/// The largest file that people write or edit, such as a creature or a configuration: 8 MiB.
+pub const LARGEST_TEXT: u64 = 8 * MIB;
 
 /// The largest file that a program writes, such as a checkpoint or a trajectory: 4 GiB.
 pub const LARGEST_DATA: u64 = 4096 * MIB;
