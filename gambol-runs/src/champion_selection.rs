@@ -141,7 +141,8 @@ impl ReferenceSelection {
         let tried: Vec<usize> = first.iter().chain(fittest).copied().collect();
         let controllers: Vec<G::Phenotype> = tried.iter().map(|&index| candidates[index].express()).collect();
         let controllers: Vec<&dyn Phenotype> = controllers.iter().map(|net| net as &dyn Phenotype).collect();
-        if let Some(first) = usable(&controllers) {
+        let first = tracing::debug_span!("gaits", candidates = controllers.len()).in_scope(|| usable(&controllers));
+        if let Some(first) = first {
             let best = tried[first];
             let hoped = self.hoped(kept[best], standing);
             let enough = (USABLE..=hoped).find(|&tier| place(best, tier) > standing).unwrap_or(hoped);
@@ -168,7 +169,10 @@ impl ReferenceSelection {
         let (mut tier, mut last) = (USABLE, None);
         for &(trial, worlds) in &STEPS[..usize::from(hoped - USABLE)] {
             let known = last.filter(|&(known, _)| known == trial);
-            let (_, usable) = known.unwrap_or_else(|| (trial, steadiness(&controller, trial)));
+            let (_, usable) = known.unwrap_or_else(|| {
+                let span = tracing::debug_span!("perturbed worlds", ?trial);
+                (trial, span.in_scope(|| steadiness(&controller, trial)))
+            });
             last = Some((trial, usable));
             if usable < worlds {
                 break;
@@ -188,7 +192,9 @@ impl ReferenceSelection {
         let fit: Vec<usize> =
             (0..candidates.len()).filter(|&index| fitness(index) > 0.0 && fitness(index) >= 0.5 * best).collect();
         let genomes: Vec<G> = fit.iter().map(|&index| candidates[index].clone()).collect();
-        for (&index, varied) in fit.iter().zip(self.evaluator.evaluate(&**proof, &genomes, self.seed)) {
+        let evaluations =
+            tracing::debug_span!("varied episodes").in_scope(|| self.evaluator.evaluate(&**proof, &genomes, self.seed));
+        for (&index, varied) in fit.iter().zip(evaluations) {
             let share = varied.fitness().map_or(0.0, Fitness::get) / fitness(index);
             kept[index] = match share {
                 _ if share >= 0.75 => Kept::Most,
@@ -211,7 +217,8 @@ impl ReferenceSelection {
         let place = |index: usize| Some(TieredFitness { tier: tiers[index], fitness: evaluations[index].fitness()? });
         let able = (0..candidates.len()).filter(|&index| place(index) > standing);
         let Some(best) = able.min_by_key(|&index| Reverse(place(index))) else { return true };
-        let again = reference.evaluate(&mut candidates[best].express(), self.seed);
+        let again = tracing::debug_span!("episode in rapier")
+            .in_scope(|| reference.evaluate(&mut candidates[best].express(), self.seed));
         let agree = again.outcome == evaluations[best].outcome;
         if !agree {
             let (lanes, rapier) = (&evaluations[best].outcome, &again.outcome);
@@ -227,7 +234,8 @@ impl<G: Genome> ChampionSelection<G> for ReferenceSelection {
     }
 
     fn judge(&self, candidates: &[G], standing: Option<TieredFitness>) -> ReEvaluation {
-        let evaluations = self.evaluator.evaluate(&*self.task, candidates, self.seed);
+        let reference = tracing::debug_span!("reference episodes");
+        let evaluations = reference.in_scope(|| self.evaluator.evaluate(&*self.task, candidates, self.seed));
         let tiers = self.tiers(candidates, &evaluations, standing);
         match &self.reference {
             Some(reference) if !self.confirmed(&**reference, candidates, &evaluations, &tiers, standing) => {

@@ -88,10 +88,21 @@ pub(crate) struct World {
 impl World {
     /// The world of this index: causes take turns. Bumps reach `reach` m from the start, at most 500.
     pub(crate) fn draw(seed: Seed, index: u32, stage: &Stage, reach: f32) -> Self {
+        Self::draw_with(seed, index, stage, reach, |variation| variation)
+    }
+
+    /// The same, of a cause whose variation is changed.
+    pub(crate) fn draw_with(
+        seed: Seed,
+        index: u32,
+        stage: &Stage,
+        reach: f32,
+        change: impl Fn(Variation) -> Variation,
+    ) -> Self {
         let environment = stage.environment();
         let seed = seed.trial(index);
         let cause = Cause::ALL[index as usize % Cause::ALL.len()];
-        let conditions = cause.variation().draw(seed, environment.outputs());
+        let conditions = change(cause.variation()).draw(seed, environment.outputs());
         let time_step = environment.settings().time_step * conditions.time_step;
         let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
         let mut stream = seed.stream(PERTURBATION);

@@ -4,11 +4,14 @@ use crate::{
     perturbation::{Cause, World},
     stage::{Stage, worlds::Worlds},
 };
-use envs_core::{Conditions, Landscape};
+use envs_core::{Conditions, Landscape, Variation};
 use ne_core::{Purpose, Seed};
 use ne_net::Network;
 use rand::RngExt;
 use std::sync::{Arc, OnceLock};
+
+/// The shortest step, as a factor on that of the settings: as in training ([`Variation::light`]).
+const SHORTEST_STEP: f32 = 0.7;
 
 const ROBUSTNESS_CHECK: Purpose = Purpose::new("robustness check");
 
@@ -85,11 +88,18 @@ impl RobustnessCheck {
         let lot: u64 = self.seed.stream(ROBUSTNESS_CHECK).random();
         let world = |index| {
             let World { conditions, landscape, .. } =
-                World::draw(Seed::of_run(lot), trial.world(index), &self.stage, reach);
+                World::draw_with(Seed::of_run(lot), trial.world(index), &self.stage, reach, without_short_steps);
             (conditions, landscape)
         };
         (0..trial.worlds() as u32).map(world).collect()
     }
+}
+
+/// The shortest step of a perturbed world is a quarter of a usual one. In one that has it an episode takes four times as long,
+/// and all lanes beside it wait; what bears long steps bears short ones.
+fn without_short_steps(variation: Variation) -> Variation {
+    let [shortest, longest] = variation.time_step;
+    Variation { time_step: [shortest.max(SHORTEST_STEP), longest], ..variation }
 }
 
 #[cfg(test)]

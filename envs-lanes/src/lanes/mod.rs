@@ -147,6 +147,15 @@ impl<const W: usize> Mask<W> {
         self
     }
 
+    /// Set where this is and the other is not.
+    #[inline(always)]
+    pub(crate) fn without(mut self, other: Self) -> Self {
+        for (bits, other) in self.0.iter_mut().zip(other.0) {
+            *bits &= !other;
+        }
+        self
+    }
+
     /// Whether it is set for any creature.
     #[inline(always)]
     pub(crate) fn any(self) -> bool {

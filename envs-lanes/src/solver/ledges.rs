@@ -2,7 +2,7 @@ use envs_core::{Ground, GroundShape};
 use parry2d::{
     math::{Pose, Rotation, Vector},
     query::Ray,
-    shape::SharedShape,
+    shape::{Ball, Shape, SharedShape},
 };
 
 /// The shapes of uneven ground, and where to look for those that are close.
@@ -10,6 +10,8 @@ use parry2d::{
 pub(super) struct Ledges {
     /// In the order of the ground.
     ledges: Vec<Ledge>,
+    /// Whether the first is the half-space below y = 0.
+    has_floor: bool,
     /// Of the highest, m.
     top: f32,
     /// Where the first cell begins, m.
@@ -25,11 +27,27 @@ pub(super) struct Ledges {
 pub(super) struct Ledge {
     /// Centre, m, and how it is turned.
     pub(super) place: Pose,
-    pub(super) shape: SharedShape,
+    pub(super) shape: LedgeShape,
     /// Half the width and height of the upright box around it, m; infinite but upwards for a half-space; 0 for a circle.
     half: [f32; 2],
     /// Of a circle, m; else 0.
     radius: f32,
+}
+
+/// Circles are met often, and known by their type.
+#[derive(Debug)]
+pub(super) enum LedgeShape {
+    Circle(Ball),
+    Other(SharedShape),
+}
+
+impl LedgeShape {
+    pub(super) fn as_shape(&self) -> &dyn Shape {
+        match self {
+            Self::Circle(shape) => shape,
+            Self::Other(shape) => &**shape,
+        }
+    }
 }
 
 /// A contact is prepared for from further away than it can begin at, as rapier does, m.
@@ -51,7 +69,8 @@ impl Ledges {
             false => (0.0, 0.0, 1),
         };
         let top = ledges.iter().map(Ledge::top).fold(f32::NEG_INFINITY, f32::max);
-        let mut ground = Self { ledges, top, left, cells_per_metre, cells: vec![Vec::new(); count] };
+        let has_floor = ground.shapes.first() == Some(&GroundShape::HalfSpace);
+        let mut ground = Self { ledges, has_floor, top, left, cells_per_metre, cells: vec![Vec::new(); count] };
         for index in 0..ground.ledges.len() {
             let [from, to] = ground.ledges[index].span().map(|end| ground.cell(end));
             for cell in &mut ground.cells[from..=to] {
@@ -69,12 +88,25 @@ impl Ledges {
         (place as usize).min(self.cells.len() - 1)
     }
 
-    /// The indices, in order, among which those of all shapes are that come within `reach` of a point at x, m.
-    pub(super) fn near(&self, x: f32, reach: f32) -> impl Iterator<Item = usize> {
+    /// Whether the first shape is the half-space below y = 0.
+    pub(super) fn has_floor(&self) -> bool {
+        self.has_floor
+    }
+
+    /// Sets `found` to indices, in order, among which those of all shapes are that come within `reach` of a point at x, m.
+    pub(super) fn find_near(&self, x: f32, reach: f32, found: &mut Vec<usize>) {
+        found.clear();
+        found.extend(self.in_cells_near(x, reach));
+        // One that is in several of the cells was found in each.
+        found.sort_unstable();
+        found.dedup();
+    }
+
+    /// The indices in the cells that are within `reach` of a point at x, m.
+    fn in_cells_near(&self, x: f32, reach: f32) -> impl Iterator<Item = usize> {
         let margin = reach + MARGIN;
         let [from, to] = [x - margin, x + margin].map(|end| self.cell(end));
-        // One that is in several of these cells is taken where it is first met, and the cells are merged by index.
-        Merge { cells: &self.cells[from..=to], next: 0 }
+        self.cells[from..=to].iter().flatten().copied()
     }
 
     /// Whether nothing within `reach` of a point at y is as low as the highest of the shapes, m.
@@ -94,49 +126,39 @@ impl Ledges {
         let ray = Ray::new(Vector::new(x, y), Vector::new(libm::cosf(angle), libm::sinf(angle)));
         let distance = |index: usize| {
             let ledge = &self.ledges[index];
-            ledge.shape.cast_ray(&ledge.place, &ray, length, true)
+            ledge.shape.as_shape().cast_ray(&ledge.place, &ray, length, true)
         };
-        self.near(x, length).filter_map(distance).fold(length, f32::min)
-    }
-}
-
-/// The indices in some neighbouring cells, each once, in order.
-struct Merge<'a> {
-    cells: &'a [Vec<usize>],
-    /// All smaller ones have been given.
-    next: usize,
-}
-
-impl Iterator for Merge<'_> {
-    type Item = usize;
-
-    fn next(&mut self) -> Option<usize> {
-        let least = |cell: &Vec<usize>| cell.iter().copied().find(|&index| index >= self.next);
-        let index = self.cells.iter().filter_map(least).min()?;
-        self.next = index + 1;
-        Some(index)
+        self.in_cells_near(x, length).filter_map(distance).fold(length, f32::min)
     }
 }
 
 impl Ledge {
     fn new(shape: &GroundShape) -> Self {
         let upright = |x, y| Pose { rotation: Rotation::IDENTITY, translation: Vector::new(x, y) };
-        let half_space = |y| (SharedShape::halfspace(Vector::Y), upright(0.0, y), [f32::INFINITY, 0.0], 0.0);
+        let other = LedgeShape::Other;
+        let half_space = |y| (other(SharedShape::halfspace(Vector::Y)), upright(0.0, y), [f32::INFINITY, 0.0], 0.0);
         let (shape, place, half, radius) = match *shape {
             GroundShape::HalfSpace => half_space(0.0),
             GroundShape::Floor { y } => half_space(y),
             GroundShape::Box { x, y, width, height } => {
                 let half = [width * 0.5, height * 0.5];
-                (SharedShape::cuboid(half[0], half[1]), upright(x, y), half, 0.0)
+                (other(SharedShape::cuboid(half[0], half[1])), upright(x, y), half, 0.0)
             }
             GroundShape::Slab { x, y, width, height, angle } => {
                 let (sin, cos) = libm::sincosf(angle);
                 let place = Pose { rotation: Rotation::from_cos_sin_unchecked(cos, sin), ..upright(x, y) };
                 let [along, across] = [width * 0.5, height * 0.5];
                 let (c, s) = (cos.abs(), sin.abs());
-                (SharedShape::cuboid(along, across), place, [c * along + s * across, s * along + c * across], 0.0)
+                (
+                    other(SharedShape::cuboid(along, across)),
+                    place,
+                    [c * along + s * across, s * along + c * across],
+                    0.0,
+                )
             }
-            GroundShape::Circle { x, y, radius } => (SharedShape::ball(radius), upright(x, y), [0.0, 0.0], radius),
+            GroundShape::Circle { x, y, radius } => {
+                (LedgeShape::Circle(Ball::new(radius)), upright(x, y), [0.0, 0.0], radius)
+            }
         };
         Self { place, shape, half, radius }
     }

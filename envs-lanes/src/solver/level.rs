@@ -9,11 +9,17 @@ use creatures::Shape;
 /// The contact of the same part of `W` creatures with level ground.
 #[derive(Clone, Debug)]
 pub(super) struct LevelContact<const W: usize> {
-    outline: Outline,
-    /// Which corners of the shape the rows' points are, in the body's own frame: by it, an impulse is known again in the
-    /// next step.
-    corners: [(Lanes<W>, Lanes<W>); 2],
+    underside: Underside<W>,
     pub(super) rows: Rows<Up, W>,
+}
+
+/// Where the same part of `W` creatures may touch level ground.
+#[derive(Clone, Debug)]
+pub(super) struct Underside<const W: usize> {
+    outline: Outline,
+    /// Which corners of the shape the points of contact are, in the body's own frame: by it, an impulse is known again in
+    /// the next step.
+    corners: [(Lanes<W>, Lanes<W>); 2],
 }
 
 /// What of a shape can touch level ground.
@@ -29,23 +35,13 @@ enum Outline {
 
 impl<const W: usize> LevelContact<W> {
     pub(super) fn new(shape: Shape) -> Self {
-        let outline = match shape {
-            Shape::Box { width, height } => Outline::Box { half_width: width * 0.5, half_height: height * 0.5 },
-            Shape::Circle { radius } => Outline::Circle { radius },
-            Shape::Capsule { length, radius } => Outline::Capsule { half_length: length * 0.5, radius },
-        };
-        // No point has had a corner yet, and the second of a circle never will: NaN equals no number.
-        let none = Lanes::splat(f32::NAN);
-        Self { outline, corners: [(none, none); 2], rows: Rows::new(Up) }
+        Self { underside: Underside::new(shape), rows: Rows::new(Up) }
     }
 
     /// Takes over what another lane's part presses on the ground with.
     pub(super) fn copy_lane(&mut self, lane: usize, from: &LevelContact<1>) {
         self.rows.copy_lane(lane, &from.rows);
-        for (corner, from) in self.corners.iter_mut().zip(&from.corners) {
-            corner.0.0[lane] = from.0.0[0];
-            corner.1.0[lane] = from.1.0[0];
-        }
+        self.underside.copy_lane(lane, &from.underside);
     }
 
     /// Finds the points that are within `reach` m of the ground. Points that were there in the last step keep their
@@ -53,18 +49,52 @@ impl<const W: usize> LevelContact<W> {
     #[inline(always)]
     pub(super) fn find(&mut self, body: &Body<W>, reach: f32) {
         let reach = Lanes::splat(reach);
-        if !self.lowest(body).less(reach).any() {
+        if !self.underside.near(body, reach).any() {
             self.rows.rest();
             return;
         }
+        let active = self.underside.find(body, reach, &mut self.rows.points);
+        self.rows.begin(body, active);
+    }
+}
+
+impl<const W: usize> Underside<W> {
+    pub(super) fn new(shape: Shape) -> Self {
+        let outline = match shape {
+            Shape::Box { width, height } => Outline::Box { half_width: width * 0.5, half_height: height * 0.5 },
+            Shape::Circle { radius } => Outline::Circle { radius },
+            Shape::Capsule { length, radius } => Outline::Capsule { half_length: length * 0.5, radius },
+        };
+        // No point has had a corner yet, and the second of a circle never will: NaN equals no number.
+        let none = Lanes::splat(f32::NAN);
+        Self { outline, corners: [(none, none); 2] }
+    }
+
+    /// Takes over which corners another lane's points are.
+    pub(super) fn copy_lane(&mut self, lane: usize, from: &Underside<1>) {
+        for (corner, from) in self.corners.iter_mut().zip(&from.corners) {
+            corner.0.0[lane] = from.0.0[0];
+            corner.1.0[lane] = from.1.0[0];
+        }
+    }
+
+    /// The lanes in which a point may be within `reach` m of the ground.
+    #[inline(always)]
+    pub(super) fn near(&self, body: &Body<W>, reach: Lanes<W>) -> Mask<W> {
+        self.lowest(body).less(reach)
+    }
+
+    /// Sets the points from where the body is; returns which of them are within `reach` m of the ground. Impulses of the
+    /// last step go with the corners that had them.
+    #[inline(always)]
+    pub(super) fn find(&mut self, body: &Body<W>, reach: Lanes<W>, points: &mut [Point<W>; 2]) -> [Mask<W>; 2] {
         let corners = self.corners(body);
         let before = self.corners;
-        let [first, second] = &self.rows.points;
-        let old = [(first.normal_impulse, first.friction_impulse), (second.normal_impulse, second.friction_impulse)];
+        let old = points.map(|point| (point.normal_impulse, point.friction_impulse));
         let mut active = [Mask::NONE; 2];
         for (index, corner) in corners.into_iter().enumerate() {
             let Some((x, y)) = corner else { continue };
-            let point = &mut self.rows.points[index];
+            let point = &mut points[index];
             active[index] = place(point, self.outline, (x, y), body).less(reach);
             let [mut normal, mut friction] = [Lanes::ZERO; 2];
             for (corner, old) in before.iter().zip(&old) {
@@ -75,7 +105,7 @@ impl<const W: usize> LevelContact<W> {
             (point.normal_impulse, point.friction_impulse) = (normal, friction);
             self.corners[index] = (x, y);
         }
-        self.rows.begin(body, active);
+        active
     }
 
     /// At most the height of the lowest point.

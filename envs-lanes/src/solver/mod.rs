@@ -4,7 +4,7 @@
 //!
 //! | part | file | what it does |
 //! |---|---|---|
-//! | find contacts | `level.rs`, `uneven.rs`, `ledges.rs` | which points of which shapes are near the ground, and their effective masses |
+//! | find contacts | `level.rs`, `floor.rs`, `uneven.rs`, `ledges.rs` | which points of which shapes are near the ground, and their effective masses |
 //! | for each substep: fall | `body.rs` | gravity changes the velocities |
 //! | prepare joints | `joint.rs` | rows of the hinges from where the bodies are now |
 //! | prepare contacts | `rows.rs` | how far each point is from the ground now; last impulses are applied again |
@@ -20,6 +20,7 @@
 
 mod body;
 mod contacts;
+mod floor;
 mod joint;
 mod ledges;
 mod level;

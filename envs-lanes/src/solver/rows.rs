@@ -1,4 +1,8 @@
-use super::{body::Body, normal::Normal, pace::Pace};
+use super::{
+    body::Body,
+    normal::{Normal, Slanted},
+    pace::Pace,
+};
 use crate::lanes::{Lanes, Mask};
 
 /// The contact of the same part of `W` creatures with the ground: at most two points, pushed apart along the normal and
@@ -70,7 +74,7 @@ struct PairTerms<const W: usize> {
 }
 
 impl<const W: usize> Point<W> {
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         lever: (Lanes::ZERO, Lanes::ZERO),
         local: (Lanes::ZERO, Lanes::ZERO),
         ground: (Lanes::ZERO, Lanes::ZERO),
@@ -93,6 +97,24 @@ impl<const W: usize> Point<W> {
     fn distance(&self, normal: &impl Normal<W>, body: &Body<W>) -> Lanes<W> {
         let (x, y) = body.turn(self.local.0, self.local.1);
         self.offset - normal.gap(self.ground, (x + body.x, y + body.y))
+    }
+}
+
+impl<const W: usize> Rows<Slanted<W>, W> {
+    /// Sets these lanes to points on level ground.
+    #[inline(always)]
+    pub(super) fn set_level(&mut self, lanes: Mask<W>, points: &[Point<W>; 2]) {
+        self.normal.x = lanes.select(Lanes::ZERO, self.normal.x);
+        self.normal.y = lanes.select(Lanes::ONE, self.normal.y);
+        for (mine, point) in self.points.iter_mut().zip(points) {
+            let choose = |new: (_, _), old: (_, _)| (lanes.select(new.0, old.0), lanes.select(new.1, old.1));
+            mine.lever = choose(point.lever, mine.lever);
+            mine.local = choose(point.local, mine.local);
+            mine.ground = choose(point.ground, mine.ground);
+            mine.offset = lanes.select(point.offset, mine.offset);
+            mine.normal_impulse = lanes.select(point.normal_impulse, mine.normal_impulse);
+            mine.friction_impulse = lanes.select(point.friction_impulse, mine.friction_impulse);
+        }
     }
 }
 

@@ -139,7 +139,7 @@ impl Stage {
         let Some(reference) = Worlds::reference(self) else {
             return networks.iter().position(|network| self.is_usable(network));
         };
-        let verdicts = reference.judge_all(networks).into_iter().map(|reports| reports.into_iter().next()??.verdict);
+        let verdicts = reference.verdicts(networks).into_iter().map(|verdicts| verdicts.into_iter().next()?);
         networks.iter().zip(verdicts).position(|(network, verdict)| {
             let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
             with_near_worlds(verdict, Some(self.try_near_worlds(network))).usable

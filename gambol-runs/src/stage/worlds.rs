@@ -11,7 +11,7 @@ use rayon::prelude::*;
 use std::sync::Arc;
 use tasks::{
     Environment, Episode, Snapshot, Trials,
-    gait::{GaitReport, Reason, Rules, Trajectory},
+    gait::{GaitReport, Judgement, Reason, Rules, Trajectory},
 };
 
 /// Worlds of one creature, built once. Controllers are played in them in lanes, many at once, where lanes can simulate them,
@@ -29,6 +29,15 @@ pub struct Worlds {
 enum World {
     InLanes(Box<LaneEnvironment>),
     InRapier(Box<Episode<RapierEnvironment>>),
+}
+
+/// How long a controller is played.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Until {
+    /// The whole episode.
+    Over,
+    /// Until the gait is lost, if lanes play it.
+    Lost,
 }
 
 /// Feet are no longer than this, m.
@@ -75,6 +84,17 @@ impl Worlds {
 
     /// The same for several controllers.
     pub fn judge_all(&self, networks: &[Network]) -> Vec<Vec<Option<GaitReport>>> {
+        self.play(networks, Until::Over)
+    }
+
+    /// The verdict on each of several controllers in each world; `None` for one that is not usable and [is
+    /// lost](Rules::is_lost) before its episode is over, and where there is nothing to measure.
+    pub(crate) fn verdicts(&self, networks: &[Network]) -> Vec<Vec<Option<Judgement>>> {
+        let reports = self.play(networks, Until::Lost);
+        reports.into_iter().map(|worlds| worlds.into_iter().map(|report| report?.verdict).collect()).collect()
+    }
+
+    fn play(&self, networks: &[Network], until: Until) -> Vec<Vec<Option<GaitReport>>> {
         let (mut in_lanes, mut in_rapier): (Vec<Pair<'_, _>>, Vec<Pair<'_, _>>) = (Vec::new(), Vec::new());
         let every = networks.iter().flat_map(|network| self.worlds.iter().map(move |world| (network, world)));
         for (place, (network, world)) in every.enumerate() {
@@ -89,7 +109,7 @@ impl Worlds {
             let recording = record(&episode.shortened(steps), network);
             (place, measure(episode.environment(), self.rules.as_deref(), &recording.snapshots))
         });
-        let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs));
+        let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs, until));
         let mut reports: Vec<Vec<Option<GaitReport>>> = vec![vec![None; self.len()]; networks.len()];
         for (place, gait) in measured_in_lanes.chain(measured_in_rapier).collect::<Vec<_>>() {
             reports[place / self.len()][place % self.len()] = gait.map(|gait| gait.report);
@@ -100,12 +120,11 @@ impl Worlds {
     /// In how many worlds nothing but its length speaks against the gait of a controller.
     pub(crate) fn usable(&self, network: &Network) -> usize {
         let length = |reason: &Reason| matches!(reason, Reason::TooShort { .. });
-        let sound =
-            |report: &&GaitReport| report.verdict.as_ref().is_some_and(|verdict| verdict.reasons.iter().all(length));
-        self.judge(network).iter().flatten().filter(sound).count()
+        let sound = |verdict: &&Judgement| verdict.reasons.iter().all(length);
+        self.verdicts(std::slice::from_ref(network)).iter().flatten().flatten().filter(sound).count()
     }
 
-    fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>]) -> Vec<(usize, Option<Gait>)> {
+    fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>], until: Until) -> Vec<(usize, Option<Gait>)> {
         let Some((_, _, environment)) = pairs.first() else { return Vec::new() };
         // Nothing varies in these worlds: nothing comes from the seed, and nothing can go wrong.
         let starts = pairs.iter().map(|(_, _, world)| world.settled(Seed::of_run(0)).ok());
@@ -113,8 +132,18 @@ impl Worlds {
         let steps = |world: &LaneEnvironment| steps_of(self.seconds, world.settings().time_step);
         let plays: Vec<Play<'_>> =
             begun.iter().map(|((_, network, world), start)| Play { network, start, steps: steps(world) }).collect();
+        let bodies: Vec<_> = begun.iter().map(|((_, _, world), _)| world.body()).collect();
+        let is_lost = |play: usize, now: &Snapshot| {
+            let (Some(rules), Some(body)) = (&self.rules, bodies[play]) else { return false };
+            until == Until::Lost && rules.is_lost(body, now)
+        };
         let mut recordings: Vec<Vec<Snapshot>> = vec![Vec::new(); plays.len()];
         envs_lanes::play(environment, &plays, |play, snapshot| {
+            if is_lost(play, snapshot) {
+                // There is nothing to measure in an empty recording.
+                recordings[play] = Vec::new();
+                return false;
+            }
             recordings[play].push(snapshot.clone());
             true
         });

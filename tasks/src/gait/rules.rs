@@ -1,4 +1,5 @@
 use super::{GaitReport, Reason, Trajectory};
+use crate::{Body, Snapshot};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -41,6 +42,14 @@ pub trait Rules: fmt::Debug + Send + Sync {
     /// How the gait is measured and audited. Default: what gets ahead on the ground.
     fn view(&self) -> View {
         View::default()
+    }
+
+    /// Whether no gait that was ever in this place is usable. Where it only counts whether a gait is usable, one that is lost
+    /// is not played to its end. Default: `false`, which is always right.
+    ///
+    /// An implementor owes: `true` only where [`judge`](Self::judge) finds a reason, whatever comes before and after.
+    fn is_lost(&self, _body: &Body, _now: &Snapshot) -> bool {
+        false
     }
 
     /// What speaks against a gait. That the audit flagged a cheat need not be found again.

@@ -1,5 +1,8 @@
 use super::CLOCK_ERROR;
-use crate::gait::{Findings, GaitReport, LegUse, Reason, Rules, Trajectory, View};
+use crate::{
+    Body, Snapshot,
+    gait::{Findings, GaitReport, LegUse, Reason, Rules, Trajectory, View},
+};
 
 /// How long the episode must be, s: bipeds that fall between 18 and 60 s of running look sound for 20 s.
 const SECONDS: f64 = 60.0;
@@ -8,6 +11,8 @@ const SECONDS: f64 = 60.0;
 const SLOWEST: f64 = 0.5;
 /// Beyond this a torso has begun to fall, degrees.
 const LARGEST_TILT: f64 = 45.0;
+/// Of a degree more: a single moment is looked at with less precision than a trajectory.
+const COSINE_OF_LOST: f32 = 0.694_658;
 /// A torso that sways by more looks drunk, degrees of standard deviation.
 const LARGEST_SWAY: f64 = 12.0;
 /// A runner that crouches below this share of its start height crawls.
@@ -55,6 +60,14 @@ impl Rules for RunningRules {
 
     fn view(&self) -> View {
         View { backwards: self.backwards, ..View::default() }
+    }
+
+    /// A torso that tilts too far.
+    fn is_lost(&self, body: &Body, now: &Snapshot) -> bool {
+        let (sin, cos) = libm::sincosf(body.start_angle);
+        let torso = now.torso();
+        let cosine_of_tilt = torso.cos * cos + torso.sin * sin;
+        cosine_of_tilt < COSINE_OF_LOST && !body.legless && body.feet().next().is_some()
     }
 
     fn judge(&self, report: &GaitReport, trajectory: &Trajectory<'_>) -> Findings {
