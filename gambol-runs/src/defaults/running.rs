@@ -25,9 +25,9 @@ const ON_LEGS: [(&str, f64); 7] = [
 pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
     let BodyFacts { legs, joints, .. } = *body;
     let is_biped = (1..=2).contains(&legs);
-    // Two legs that skip are quicker.
+    // A wave takes its time from head to tail; two legs that skip are quicker.
     let period = match legs {
-        0 => 0.5,
+        0 => 0.8,
         1..=2 => body.pendulum(0.39),
         _ => body.pendulum(0.5),
     };
@@ -42,9 +42,12 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         let stride = f64::from(libm::roundf(1000.0 * body.clock.unwrap_or(period)) / 1000.0);
         on_legs.push(with(TermSpec::new("rhythm", -1.0), "period", stride));
     }
+    let unknown = MovementDefaults::unknown(body);
     MovementDefaults {
         steps: STEPS.0,
         training_steps: STEPS.1,
+        // Twelve segments that snap to their angles lie still on half of the seeds.
+        gain: if legs == 0 { 15.0 } else { unknown.gain },
         terms: if legs == 0 { terms(&CRAWLING) } else { on_legs },
         // Two legs run best if one net moves them both: they skip, the same leg always first, and a skip bears a stumble that
         // an even stride does not.
@@ -52,7 +55,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         period,
         // Many legs bridge bumps by themselves.
         variation: (1..=4).contains(&legs).then(Variation::bumpy),
-        ..MovementDefaults::unknown(body)
+        ..unknown
     }
 }
 

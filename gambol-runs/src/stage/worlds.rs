@@ -237,6 +237,27 @@ mod tests {
         }
     }
 
+    /// What is lost and not played to its end has no verdict; all others have theirs.
+    #[test]
+    fn whether_a_gait_is_usable_does_not_depend_on_how_long_it_is_played() {
+        let stage = stage("biped-1", "running");
+        let networks: Vec<Network> = (2..8).map(|seed| network(&stage, seed)).collect();
+        let worlds = Worlds::new(&stage, &perturbed(&stage));
+        let whole = worlds.judge_all(&networks).into_iter().flatten().map(|report| report?.verdict);
+        let mut lost = 0;
+        for (whole, verdict) in whole.zip(worlds.verdicts(&networks).into_iter().flatten()) {
+            match (whole, verdict) {
+                (whole, Some(verdict)) => assert_eq!(whole, Some(verdict)),
+                (Some(whole), None) => {
+                    assert!(whole.reasons.iter().any(|reason| matches!(reason, Reason::Tilted { .. })));
+                    lost += 1;
+                }
+                (None, None) => {}
+            }
+        }
+        assert!(lost > 0, "none fell");
+    }
+
     #[test]
     fn a_world_that_makes_no_sense_has_nothing_to_measure() {
         let stage = stage("biped-1", "jumping");

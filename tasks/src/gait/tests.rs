@@ -144,6 +144,28 @@ fn a_dragged_foot_that_chatters_does_not_walk() {
     assert!(reasons(&report).iter().any(|reason| reason.starts_with("left leg: no touchdown for")));
 }
 
+/// Whatever the tilt and the angle at the start: what is lost at any moment is not usable, and what has begun to fall is lost.
+#[test]
+fn a_runner_that_is_lost_is_never_usable() {
+    let mut lost = 0;
+    for degrees in [-200.0, -90.0, -46.5, -45.5, -44.0, 0.0, 44.0, 45.5, 46.5, 135.0, 400.0_f64] {
+        for start in [-2.0, 0.0, 3.0_f64] {
+            let body = Body { start_angle: start as f32, ..body() };
+            let lean = |step: usize| degrees.to_radians() * (step as f64 / 50.0).min(1.0);
+            let film = film(60.0, |step| Pose { tilt: start + lean(step), ..Pose::walking(step) });
+            let is_lost = film.iter().any(|now| RUNNING.is_lost(&body, now));
+            let report = GaitReport::measure(&body, &film, Some(RUNNING)).expect("a script can be measured");
+            let usable = report.verdict.is_some_and(|verdict| verdict.usable);
+            assert!(!(is_lost && usable), "{degrees}° from {start} rad");
+            assert_eq!(is_lost, degrees.abs() > 46.0, "{degrees}° from {start} rad");
+            lost += usize::from(is_lost);
+            let legless = Body { legless: true, ..body };
+            assert!(!film.iter().any(|now| RUNNING.is_lost(&legless, now)), "it may lie as it likes");
+        }
+    }
+    assert_eq!(lost, 18);
+}
+
 #[test]
 fn tilt_counts_whole_turns() {
     let somersaults = |step: usize| Pose { tilt: -TAU * step as f64 / 1500.0, ..Pose::walking(step) };
