@@ -44,17 +44,20 @@
 //! ```
 
 mod batch;
+mod controllers;
 mod engine;
 mod episode;
+mod evaluation;
 mod instructions;
+mod lane_player;
 mod lanes;
 mod net;
 mod profile;
 mod recording;
 mod senses;
 mod solver;
-mod stage;
 mod stopwatch;
+mod workload;
 
 pub use engine::{LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;

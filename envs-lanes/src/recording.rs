@@ -42,7 +42,7 @@ pub fn play(
         let (alike, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_like);
         let batch = Batch::new(environment, first, common.as_ref(), Instructions::best());
         let slots = (0..LANES).map(|_| None).collect();
-        Stage { plays, batch, slots, waiting: alike.into_iter() }.play(&mut observe, &mut outcomes);
+        Recorder { plays, batch, slots, waiting: alike.into_iter() }.play(&mut observe, &mut outcomes);
         waiting = others;
     }
     outcomes
@@ -59,7 +59,7 @@ fn check_shape(environment: &LaneEnvironment, network: &Network) -> Result<(), F
 }
 
 /// Plays going on side by side.
-struct Stage<'a> {
+struct Recorder<'a> {
     plays: &'a [Play<'a>],
     batch: Batch<LANES>,
     slots: Vec<Option<Slot>>,
@@ -74,7 +74,7 @@ struct Slot {
     snapshot: Snapshot,
 }
 
-impl Stage<'_> {
+impl Recorder<'_> {
     fn play(&mut self, observe: &mut impl FnMut(usize, &Snapshot) -> bool, outcomes: &mut [Outcome]) {
         for lane in 0..LANES {
             self.slot_next(lane, observe);
