@@ -110,7 +110,7 @@ pub(super) struct ChampionData {
     replay: Replay,
     /// For each frame the parts that press on the ground, as the bits of a hexadecimal number.
     contacts: Vec<String>,
-    network: Option<NetworkData>,
+    network: NetworkData,
     /// Mean forward speed of the torso over the whole replay, of a gait that is judged by the way it makes.
     #[serde(skip)]
     pub(super) body_lengths_per_second: Option<f64>,
