@@ -56,6 +56,7 @@ mod channel;
 mod check;
 mod colour;
 mod creature;
+mod custom;
 mod error;
 mod format;
 mod landings;
@@ -80,6 +81,7 @@ pub use bounds::Bounds;
 pub use channel::Channel;
 pub use colour::Colour;
 pub use creature::{Creature, Joint, Motor, Part};
+pub use custom::{CustomSensor, Sense};
 pub use error::{CreatureError, UnknownName};
 pub use format::{FORMAT, VERSION};
 pub use landings::Landings;
@@ -94,5 +96,4 @@ pub use shape::Shape;
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};
 pub use terrain::{
     BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles, TERRAINS, Terrain, TerrainEntry, TerrainError,
-    UnknownTerrain,
 };

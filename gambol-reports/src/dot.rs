@@ -1,7 +1,7 @@
 //! A net as a drawing: Graphviz' DOT language.
 
-use gambol_runs::champion::Champion;
-use ne_net::{DenseShape, Network};
+use gambol_runs::champion::{Champion, ChannelRecord};
+use ne_net::NeuronView;
 use std::fmt::Write;
 
 /// The net of a champion in the DOT language: inputs on the left, outputs on the right, each connection with its weight,
@@ -51,51 +51,20 @@ fn write_dot(text: &mut String, champion: &Champion) -> std::fmt::Result {
 
 /// All nodes, inputs first, and which are outputs.
 fn nodes(champion: &Champion) -> (Vec<Node>, Vec<usize>) {
-    let mut nodes: Vec<Node> = champion
-        .inputs
-        .iter()
-        .map(|channel| Node { name: channel.name.clone(), bias: None, sources: Vec::new() })
-        .collect();
-    let inputs = nodes.len();
-    let outputs: Vec<usize> = match &champion.network {
-        Network::Dense(net) => {
-            nodes.extend(dense(net.shape(), net.weights()));
-            (nodes.len() - net.shape().outputs..nodes.len()).collect()
-        }
-        Network::Graph(net) => {
-            let mut weights = net.weights().iter().copied();
-            for neuron in &net.shape().neurons {
-                let bias = neuron.bias.then(|| weights.next()).flatten();
-                let sources = neuron.sources.iter().copied().zip(weights.by_ref()).collect();
-                nodes.push(Node { name: String::new(), bias, sources });
-            }
-            net.shape().outputs.clone()
-        }
-        _ => Vec::new(),
+    let (view, weights) = (champion.network.view(), champion.network.weights());
+    let input = |channel: &ChannelRecord| Node { name: channel.name.clone(), bias: None, sources: Vec::new() };
+    let neuron = |neuron: &NeuronView| Node {
+        name: String::new(),
+        bias: neuron.bias.map(|weight| weights[weight]),
+        sources: neuron.sources.iter().map(|&(source, weight)| (source, weights[weight])).collect(),
     };
-    for (&node, channel) in outputs.iter().zip(&champion.outputs) {
+    let mut nodes: Vec<Node> = champion.inputs.iter().map(input).chain(view.neurons.iter().map(neuron)).collect();
+    for (&node, channel) in view.outputs.iter().zip(&champion.outputs) {
         nodes[node].name.clone_from(&channel.name);
     }
-    let hidden = nodes.iter_mut().skip(inputs).filter(|node| node.name.is_empty());
+    let hidden = nodes.iter_mut().skip(view.inputs).filter(|node| node.name.is_empty());
     (1..).zip(hidden).for_each(|(number, node)| node.name = format!("hidden {number}"));
-    (nodes, outputs)
-}
-
-/// The neurons of a dense net, layer by layer.
-fn dense<'a>(shape: &'a DenseShape, weights: &'a [f32]) -> impl Iterator<Item = Node> + 'a {
-    let mut rest = weights;
-    let mut first_source = 0;
-    shape.connections().flat_map(move |(sources, targets)| {
-        let (layer, others) = rest.split_at((sources + 1) * targets);
-        rest = others;
-        let first = first_source;
-        first_source += sources;
-        layer.chunks_exact(sources + 1).map(move |weights| Node {
-            name: String::new(),
-            bias: weights.last().copied(),
-            sources: (first..).zip(weights[..sources].iter().copied()).collect(),
-        })
-    })
+    (nodes, view.outputs)
 }
 
 fn escaped(name: &str) -> String {

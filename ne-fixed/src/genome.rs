@@ -48,10 +48,15 @@ impl WeightVector {
         Ok(Self { topology, weights, mutation_deviation })
     }
 
+    /// As [`new`](Self::new), of what has been checked.
+    pub(crate) fn checked(topology: Topology, weights: Vec<f32>, mutation_deviation: f32) -> Self {
+        Self { topology, weights, mutation_deviation }
+    }
+
     /// The genome of zeros, for a valid topology.
     pub(crate) fn zero(topology: Topology) -> Self {
         let weights = vec![0.0; topology.weight_count()];
-        Self { topology, weights, mutation_deviation: 0.0 }
+        Self::checked(topology, weights, 0.0)
     }
 
     /// The same individual in a net that has grown: what is new begins at 0.

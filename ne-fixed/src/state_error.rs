@@ -1,6 +1,7 @@
 use crate::{WeightVector, WeightVectorError};
 use ne_core::SettingError;
 use ne_net::Topology;
+use serde::{Deserialize, Serialize};
 
 /// Why a saved strategy cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -31,33 +32,52 @@ pub enum StateError {
     },
 }
 
-/// A generation of `size` individuals, or an empty one, from weights and mutation deviations.
-pub(crate) fn generation(
+/// An individual as a checkpoint has it, whose topology is known.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Genes {
+    mutation_deviation: f32,
+    weights: Vec<f32>,
+}
+
+impl From<&WeightVector> for Genes {
+    fn from(genome: &WeightVector) -> Self {
+        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights().to_vec() }
+    }
+}
+
+/// Of a search without mutation deviations.
+impl From<Vec<f32>> for Genes {
+    fn from(weights: Vec<f32>) -> Self {
+        Self { mutation_deviation: 0.0, weights }
+    }
+}
+
+impl From<&WeightVector> for Vec<f32> {
+    fn from(genome: &WeightVector) -> Self {
+        genome.weights().to_vec()
+    }
+}
+
+/// A generation of `size` individuals, or an empty one, from a checkpoint.
+pub(crate) fn generation<G: Into<Genes>>(
     field: &str,
-    genes: impl ExactSizeIterator<Item = (Vec<f32>, f32)>,
+    genes: Vec<G>,
     size: usize,
     topology: &Topology,
 ) -> Result<Vec<WeightVector>, StateError> {
-    if genes.len() != 0 && genes.len() != size {
+    if !genes.is_empty() && genes.len() != size {
         return Err(StateError::Count { field: field.into(), expected: size, found: genes.len() });
     }
-    let genome = |(index, (weights, deviation))| {
-        WeightVector::new(topology.clone(), weights, deviation).map_err(|source| StateError::Individual {
+    let genome = |(index, genes): (usize, G)| {
+        let Genes { mutation_deviation, weights } = genes.into();
+        WeightVector::new(topology.clone(), weights, mutation_deviation).map_err(|source| StateError::Individual {
             field: field.into(),
             index,
             source,
         })
     };
-    genes.enumerate().map(genome).collect()
-}
-
-/// The same for strategies without mutation deviations.
-pub(crate) fn asked_generation(
-    asked: Vec<Vec<f32>>,
-    size: usize,
-    topology: &Topology,
-) -> Result<Vec<WeightVector>, StateError> {
-    generation("asked", asked.into_iter().map(|weights| (weights, 0.0)), size, topology)
+    genes.into_iter().enumerate().map(genome).collect()
 }
 
 /// Checks that there is one finite number for each of `count` weights.

@@ -15,6 +15,7 @@
 //! | [`Network`] | a net of any kind: what a file stores |
 //! | [`SharedShape`] | a graph whose weights are computed from fewer genes, so that copies of a small net share them |
 //! | [`Topology`] | a net of any kind without its weights: what a search for weights keeps fixed |
+//! | [`NetView`] | a net of any kind as neurons and connections |
 //!
 //! ```
 //! use ne_core::Phenotype;
@@ -25,7 +26,7 @@
 //! let mut outputs = [0.0];
 //! net.activate(&[0.1, -0.2], &mut outputs);
 //! assert!(outputs[0].abs() <= 1.0);
-//! # Ok::<(), ne_net::DenseNetError>(())
+//! # Ok::<(), ne_net::NetworkError>(())
 //! ```
 //!
 //! A graph net lists its neurons in the order they are computed. Nodes are numbered, inputs first. This one swings: its
@@ -43,22 +44,26 @@
 //! assert!(outputs[0] > 0.7);
 //! net.activate(&[0.0], &mut outputs);
 //! assert!(outputs[0] < -0.7);
-//! # Ok::<(), ne_net::GraphNetError>(())
+//! # Ok::<(), ne_net::NetworkError>(())
 //! ```
 
 mod activation;
 mod dense;
+mod error;
 mod graph;
 mod mathematics;
 mod network;
 mod shared;
 mod topology;
 mod topology_map;
+mod view;
 
 pub use activation::Activation;
-pub use dense::{DenseNet, DenseNetError, DenseShape};
-pub use graph::{GraphNet, GraphNetError, GraphNeuron, GraphShape};
+pub use dense::{DenseNet, DenseShape};
+pub use error::NetworkError;
+pub use graph::{GraphNet, GraphNeuron, GraphShape};
 pub use network::Network;
-pub use shared::{GenesError, SharedShape, SharedWeight, Turn};
-pub use topology::{NetworkError, Topology};
+pub use shared::{SharedShape, SharedWeight, Turn};
+pub use topology::Topology;
 pub use topology_map::TopologyMap;
+pub use view::{NetView, NeuronView};

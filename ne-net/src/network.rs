@@ -23,6 +23,15 @@ impl Network {
             Self::Graph(net) => net.weights(),
         }
     }
+
+    /// What each node put out when the net was last activated: inputs, then neurons in the order they are computed, as the
+    /// next ones get it. Zeros before.
+    pub fn activations(&self) -> Vec<f32> {
+        match self {
+            Self::Dense(net) => net.activations().flatten().copied().collect(),
+            Self::Graph(net) => net.activations().to_vec(),
+        }
+    }
 }
 
 impl From<DenseNet> for Network {

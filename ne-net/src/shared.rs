@@ -92,29 +92,6 @@ impl SharedWeight {
     }
 }
 
-/// Why numbers are not the genes of a topology with shared weights.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum GenesError {
-    /// There are too many or too few.
-    #[error("weights: found {found}, a net of {net} has {expected} genes")]
-    Count {
-        /// How many there are.
-        found: usize,
-        /// How many there should be.
-        expected: usize,
-        /// The net.
-        net: String,
-    },
-    /// One is NaN or infinite.
-    #[error("weights[{index}] = {value}: must be finite")]
-    NonFinite {
-        /// Which.
-        index: usize,
-        /// What it is.
-        value: f32,
-    },
-}
-
 impl SharedShape {
     /// The number of genes.
     pub fn gene_count(&self) -> usize {
@@ -127,21 +104,6 @@ impl SharedShape {
     /// If there are fewer genes than the shape has.
     pub fn weights(&self, genes: &[f32]) -> Vec<f32> {
         self.weights.iter().map(|tie| tie.weight(genes)).collect()
-    }
-
-    /// Checks that these are genes of this shape.
-    ///
-    /// # Errors
-    /// If their number is not that of the shape or one is NaN or infinite.
-    pub fn check_genes(&self, genes: &[f32]) -> Result<(), GenesError> {
-        let expected = self.gene_count();
-        if genes.len() != expected {
-            return Err(GenesError::Count { found: genes.len(), expected, net: self.net.to_string() });
-        }
-        match genes.iter().position(|gene| !gene.is_finite()) {
-            Some(index) => Err(GenesError::NonFinite { index, value: genes[index] }),
-            None => Ok(()),
-        }
     }
 
     /// Checks the net and the shared weights.
@@ -271,10 +233,11 @@ mod tests {
         let none =
             clock(vec![SharedWeight::Sum(vec![]), SharedWeight::Sum(vec![])], vec![]).validate().expect_err("no genes");
         assert_eq!(none.to_string(), "groups = 0 genes: must be from 1 to 16777216 genes");
-        let genes = |genes: &[f32]| turned(0.0).check_genes(genes).expect_err("invalid").to_string();
+        let topology = Topology::from(turned(0.0));
+        let genes = |genes: &[f32]| topology.check_weights(genes).expect_err("invalid").to_string();
         assert_eq!(
             genes(&[0.0]),
-            "weights: found 1, a net of 2 inputs, 0 hidden, 1 outputs, 2 connections has 3 genes"
+            "weights: found 1, a net of 2 inputs, 0 hidden, 1 outputs, 2 connections from 3 genes has 3"
         );
         assert_eq!(genes(&[0.0, f32::NAN, 0.0]), "weights[1] = NaN: must be finite");
     }

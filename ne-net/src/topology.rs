@@ -1,6 +1,5 @@
 use crate::{
-    DenseNet, DenseNetError, DenseShape, GenesError, GraphNet, GraphNetError, GraphNeuron, GraphShape, Network,
-    SharedShape,
+    DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network, NetworkError, SharedShape, error::check_weights,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
@@ -21,21 +20,6 @@ pub enum Topology {
     Graph(Arc<GraphShape>),
     /// A graph whose weights are computed from fewer genes; its nets are graph nets.
     Shared(Arc<SharedShape>),
-}
-
-/// Why a topology and weights are not a net.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum NetworkError {
-    /// Not a dense net.
-    #[error(transparent)]
-    Dense(#[from] DenseNetError),
-    /// Not the genes of a topology with shared weights.
-    #[error(transparent)]
-    Shared(#[from] GenesError),
-    /// Not a graph net.
-    #[error(transparent)]
-    Graph(#[from] GraphNetError),
 }
 
 impl Topology {
@@ -97,11 +81,11 @@ impl Topology {
     /// # Errors
     /// If their number is not the topology's or one is NaN or infinite.
     pub fn check_weights(&self, weights: &[f32]) -> Result<(), NetworkError> {
-        match self {
-            Self::Dense(shape) => Ok(DenseNet::check_weights(shape, weights)?),
-            Self::Graph(shape) => Ok(GraphNet::check_weights(shape, weights)?),
-            Self::Shared(shape) => Ok(shape.check_genes(weights)?),
-        }
+        let net = match self {
+            Self::Dense(shape) => format!("shape {shape}"),
+            other => other.to_string(),
+        };
+        check_weights(net, self.weight_count(), weights)
     }
 
     /// The net with these weights, for a topology that was validated before: what a genome uses that is expressed often.

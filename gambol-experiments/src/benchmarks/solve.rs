@@ -143,12 +143,7 @@ fn solve_generally(mut strategy: AnyStrategy, task: &DoublePole, seed: Seed, lim
 
 /// Hidden neurons and weights.
 fn size(network: &Network) -> (usize, usize) {
-    let hidden = match network {
-        Network::Dense(net) => net.shape().hidden.iter().sum(),
-        Network::Graph(net) => net.shape().hidden_count(),
-        _ => 0,
-    };
-    (hidden, network.weights().len())
+    (network.view().hidden_count(), network.weights().len())
 }
 
 #[cfg(test)]

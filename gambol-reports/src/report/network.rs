@@ -1,8 +1,7 @@
 //! The champion's net for the page: one form for every kind of net.
 
 use gambol_runs::champion::ChannelRecord;
-use ne_core::Phenotype;
-use ne_net::{Activation, DenseNet, DenseShape, GraphNet, GraphNeuron, Network};
+use ne_net::{Activation, NetView, Network};
 use serde::Serialize;
 
 /// A net as nodes and connections. Nodes are numbered: inputs first, then neurons in the order they are computed, so that
@@ -31,35 +30,21 @@ struct Node {
     bias: Option<f32>,
 }
 
-/// A neuron of either kind of net.
-struct Neuron {
-    activation: String,
-    bias: Option<f32>,
-    /// The node of each source, and its weight.
-    sources: Vec<(usize, f32)>,
-}
-
 impl NetworkData {
-    /// The net, the names of its inputs and outputs, and what it did; `None` for a kind of net that this page does not
-    /// know.
+    /// The net, the names of its inputs and outputs, and what it did.
     pub(super) fn new(
         network: &Network,
         input_channels: &[ChannelRecord],
         output_channels: &[ChannelRecord],
         activations: &[Vec<f32>],
-    ) -> Option<Self> {
-        let (neurons, outputs) = match network {
-            Network::Dense(net) => (dense_neurons(net), dense_outputs(net.shape())),
-            Network::Graph(net) => (graph_neurons(net), net.shape().outputs.clone()),
-            _ => return None,
-        };
-        let inputs = network.inputs();
+    ) -> Self {
+        let (NetView { inputs, neurons, outputs }, weights) = (network.view(), network.weights());
         let mut nodes: Vec<Node> = (0..inputs).map(|_| Node::default()).collect();
         let mut connections = Vec::new();
-        for Neuron { activation, bias, sources } in neurons {
-            let target = nodes.len();
-            connections.extend(sources.into_iter().map(|(source, weight)| (source, target, weight)));
-            nodes.push(Node { activation: Some(activation), bias, ..Node::default() });
+        for neuron in neurons {
+            let (target, bias) = (nodes.len(), neuron.bias.map(|weight| weights[weight]));
+            connections.extend(neuron.sources.into_iter().map(|(source, weight)| (source, target, weights[weight])));
+            nodes.push(Node { activation: Some(name(neuron.activation, neuron.scale)), bias, ..Node::default() });
         }
         let hidden = (inputs..nodes.len()).filter(|node| !outputs.contains(node)).collect::<Vec<_>>();
         for (number, node) in (1..).zip(hidden) {
@@ -72,59 +57,20 @@ impl NetworkData {
         }
         let hundredths = |frame: &Vec<f32>| frame.iter().map(|value| (value * 100.0).round() as i32).collect();
         let activations = activations.iter().map(hundredths).collect();
-        Some(Self { nodes, inputs, outputs, connections, activations })
+        Self { nodes, inputs, outputs, connections, activations }
     }
 }
 
-/// The neurons of a dense net, layer by layer.
-fn dense_neurons(net: &DenseNet) -> Vec<Neuron> {
-    let shape = net.shape();
-    let mut weights = net.weights();
-    let mut neurons = Vec::new();
-    let mut first_source = 0;
-    for (layer, (sources, targets)) in shape.connections().enumerate() {
-        let (mine, later) = weights.split_at((sources + 1) * targets);
-        let activation = match layer < shape.hidden.len() {
-            true if shape.hidden_scale == 1.0 => name(shape.hidden_activation),
-            true => format!("{} × {}", shape.hidden_scale, name(shape.hidden_activation)),
-            false => name(shape.output_activation),
-        };
-        neurons.extend(mine.chunks_exact(sources + 1).map(|weights| Neuron {
-            activation: activation.clone(),
-            bias: weights.last().copied(),
-            sources: (first_source..).zip(weights[..sources].iter().copied()).collect(),
-        }));
-        weights = later;
-        first_source += sources;
-    }
-    neurons
-}
-
-/// The last neurons are the outputs.
-fn dense_outputs(shape: &DenseShape) -> Vec<usize> {
-    let nodes: usize = shape.widths().sum();
-    (nodes - shape.outputs..nodes).collect()
-}
-
-fn graph_neurons(net: &GraphNet) -> Vec<Neuron> {
-    let mut weights = net.weights().iter().copied();
-    let neuron = |neuron: &GraphNeuron| Neuron {
-        activation: name(neuron.activation),
-        bias: neuron.bias.then(|| weights.next()).flatten(),
-        sources: neuron.sources.iter().copied().zip(weights.by_ref()).collect(),
-    };
-    net.shape().neurons.iter().map(neuron).collect()
-}
-
-/// `steep tanh`: as in files, with a space for the hyphen.
-fn name(activation: Activation) -> String {
-    activation.to_string().replace('-', " ")
+/// `3 × steep tanh`: as in files, with a space for the hyphen, and with what the output is multiplied by.
+fn name(activation: Activation, scale: f32) -> String {
+    let name = activation.to_string().replace('-', " ");
+    if scale == 1.0 { name } else { format!("{scale} × {name}") }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ne_net::GraphShape;
+    use ne_net::{DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape};
     use serde_json::json;
 
     fn channels(names: &[&str]) -> Vec<ChannelRecord> {

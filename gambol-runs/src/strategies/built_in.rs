@@ -3,8 +3,8 @@
 use super::{NetStrategy, StrategyCatalogue, Transfer, expressed_net};
 use ne_core::SettingError;
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Mutation, Nsga2,
-    Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
+    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Nsga2, Nsga2Settings, OpenEs,
+    OpenEsSettings, WeightVector,
 };
 use ne_neat::{Neat, NeatSettings};
 use ne_net::Topology;
@@ -34,36 +34,54 @@ fn weights_of(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
     }
 }
 
-fn weights_error(error: impl std::fmt::Display) -> SettingError {
-    SettingError::new("weights", error, "weights of the net")
+/// A search for the weights of a fixed net: all have the same ways to begin, and to go on.
+macro_rules! weight_search {
+    ($strategy:ty, $settings:ty, $name:literal $($more:tt)*) => {
+        impl NetStrategy for $strategy {
+            const NAME: &'static str = $name;
+
+            type Settings = $settings;
+
+            fn build(settings: &$settings, topology: &Topology) -> Result<Self, SettingError> {
+                Self::new(settings.clone(), topology.clone())
+            }
+
+            fn settings(&self) -> &$settings {
+                self.settings()
+            }
+
+            fn transfer(self, settings: &$settings, to: &Transfer<'_>) -> Result<Self, SettingError> {
+                Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
+            }
+
+            fn begin_at(settings: &$settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+                Self::build(settings, topology)?.with_start(&[weights.to_vec()])
+            }
+
+            fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+                weights_of(genome, expressed)
+            }
+
+            $($more)*
+        }
+    };
 }
 
-impl NetStrategy for ConventionalNe {
-    const NAME: &'static str = "conventional";
+weight_search!(ConventionalNe, ConventionalNeSettings, "conventional");
+weight_search!(OpenEs, OpenEsSettings, "open-es");
+weight_search!(Cosyne, CosyneSettings, "cosyne");
+weight_search!(Nsga2, Nsga2Settings, "nsga2");
+weight_search!(
+    CmaEs, CmaEsSettings, "cma-es"
 
-    type Settings = ConventionalNeSettings;
-
-    fn build(settings: &ConventionalNeSettings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.clone())
+    fn has_begun_anew(&self) -> bool {
+        self.has_begun_anew()
     }
 
-    fn settings(&self) -> &ConventionalNeSettings {
-        self.settings()
+    fn has_nothing_to_transfer(&self) -> bool {
+        self.has_begun_anew() && self.mean().is_none()
     }
-
-    fn transfer(self, settings: &ConventionalNeSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
-    }
-
-    fn begin_at(settings: &ConventionalNeSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
-        let champion = WeightVector::new(topology.clone(), weights.to_vec(), settings.mutation.initial_deviation());
-        Self::build(settings, topology)?.with_start(vec![champion.map_err(weights_error)?])
-    }
-
-    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-        weights_of(genome, expressed)
-    }
-}
+);
 
 impl NetStrategy for Neat {
     const NAME: &'static str = "neat";
@@ -85,118 +103,5 @@ impl NetStrategy for Neat {
 
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {
         Err(SettingError::new("strategy", "neat", "one that searches the weights of a given net"))
-    }
-}
-
-impl NetStrategy for CmaEs {
-    const NAME: &'static str = "cma-es";
-
-    type Settings = CmaEsSettings;
-
-    fn build(settings: &CmaEsSettings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.clone())
-    }
-
-    fn settings(&self) -> &CmaEsSettings {
-        self.settings()
-    }
-
-    fn transfer(self, settings: &CmaEsSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
-    }
-
-    fn begin_at(settings: &CmaEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
-        Self::build(settings, topology)?.with_mean(weights).map_err(weights_error)
-    }
-
-    fn has_begun_anew(&self) -> bool {
-        self.has_begun_anew()
-    }
-
-    fn has_nothing_to_transfer(&self) -> bool {
-        self.has_begun_anew() && self.mean().is_none()
-    }
-
-    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-        weights_of(genome, expressed)
-    }
-}
-
-impl NetStrategy for OpenEs {
-    const NAME: &'static str = "open-es";
-
-    type Settings = OpenEsSettings;
-
-    fn build(settings: &OpenEsSettings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.clone())
-    }
-
-    fn settings(&self) -> &OpenEsSettings {
-        self.settings()
-    }
-
-    fn transfer(self, settings: &OpenEsSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
-    }
-
-    fn begin_at(settings: &OpenEsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
-        Self::build(settings, topology)?.with_centre(weights).map_err(weights_error)
-    }
-
-    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-        weights_of(genome, expressed)
-    }
-}
-
-impl NetStrategy for Cosyne {
-    const NAME: &'static str = "cosyne";
-
-    type Settings = CosyneSettings;
-
-    fn build(settings: &CosyneSettings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.clone())
-    }
-
-    fn settings(&self) -> &CosyneSettings {
-        self.settings()
-    }
-
-    fn transfer(self, settings: &CosyneSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
-    }
-
-    fn begin_at(settings: &CosyneSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
-        Self::build(settings, topology)?.with_start(&[weights.to_vec()])
-    }
-
-    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-        weights_of(genome, expressed)
-    }
-}
-
-impl NetStrategy for Nsga2 {
-    const NAME: &'static str = "nsga2";
-
-    type Settings = Nsga2Settings;
-
-    fn build(settings: &Nsga2Settings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.clone())
-    }
-
-    fn settings(&self) -> &Nsga2Settings {
-        self.settings()
-    }
-
-    fn transfer(self, settings: &Nsga2Settings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
-    }
-
-    fn begin_at(settings: &Nsga2Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
-        let champion = WeightVector::new(topology.clone(), weights.to_vec(), settings.mutation.initial_deviation());
-        Self::build(settings, topology)?.with_start(vec![champion.map_err(weights_error)?])
-    }
-
-    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-        weights_of(genome, expressed)
     }
 }

@@ -80,22 +80,12 @@ pub struct Recording {
     pub torques: Vec<Vec<f32>>,
 }
 
-impl Recording {
-    fn note_activations(&mut self, network: &Network) {
-        match network {
-            Network::Dense(net) => self.activations.push(net.activations().flatten().copied().collect()),
-            Network::Graph(net) => self.activations.push(net.activations().to_vec()),
-            _ => {}
-        }
-    }
-}
-
 impl Watcher for Recording {
     fn watch(&mut self, moment: &Moment<'_>) {
         self.snapshots.push(moment.snapshot.clone());
         let phenotype: &dyn std::any::Any = moment.phenotype;
-        if let Some(network) = phenotype.downcast_ref() {
-            self.note_activations(network);
+        if let Some(network) = phenotype.downcast_ref::<Network>() {
+            self.activations.push(network.activations());
         }
     }
 }

@@ -42,7 +42,7 @@ impl Recording {
     fn note(&mut self, world: &RapierEnvironment, network: &Network) {
         self.snapshots.push(world.snapshot().clone());
         self.torques.push(world.motor_torques().collect());
-        self.note_activations(network);
+        self.activations.push(network.activations());
     }
 }
 

@@ -4,7 +4,7 @@ use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
 /// When the search of [`CmaEs`](crate::CmaEs) has ended, whether it begins anew, and how. The mean is drawn again, or
-/// is once more where the search was told to begin ([`with_mean`](crate::CmaEs::with_mean)); nothing else is kept of the
+/// is once more where the search was told to begin ([`with_start`](crate::CmaEs::with_start)); nothing else is kept of the
 /// search before, but with [`Returning`](Self::Returning).
 ///
 /// A search has ended, by the criteria of Hansen's tutorial, appendix B.3, and of Auger & Hansen,

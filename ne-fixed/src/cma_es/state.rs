@@ -4,7 +4,7 @@ use super::{
 };
 use crate::{
     StateError,
-    state_error::{asked_generation, check_numbers},
+    state_error::{check_numbers, generation},
 };
 use ne_core::SettingError;
 use ne_net::Topology;
@@ -90,8 +90,7 @@ impl TryFrom<State> for CmaEs {
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
         if let Some(start) = state.start {
-            strategy =
-                strategy.with_mean(&start).map_err(|error| SettingError::new("start", error, "weights of the net"))?;
+            strategy = strategy.with_start(&[start])?;
         }
         state.restarts.check().map_err(|error| error.within("restarts"))?;
         strategy.restarts = state.restarts;
@@ -108,7 +107,7 @@ impl TryFrom<State> for CmaEs {
             let checked = distribution.check(model, n).map_err(|error| error.within("distribution"))?;
             strategy.distribution = Some(checked);
         }
-        strategy.population = asked_generation(state.asked, strategy.restarts.population, &strategy.topology)?;
+        strategy.population = generation("asked", state.asked, strategy.restarts.population, &strategy.topology)?;
         strategy.asked = !strategy.population.is_empty();
         if strategy.asked && strategy.distribution.is_none() {
             return Err(SettingError::new("distribution", "none", "there when individuals were asked").into());

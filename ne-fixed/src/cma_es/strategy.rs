@@ -2,9 +2,14 @@ use super::{
     CmaEsSettings, CovarianceModel, Restart, covariance::Covariance, distribution::Distribution, history::History,
     parameters::Parameters, restart::Restarts, state::State,
 };
-use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
+use crate::{
+    WeightVector,
+    nets::{check_growth, check_start},
+    normal::Normal,
+    ranking::best_first,
+};
 use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{NetworkError, Topology, TopologyMap};
+use ne_net::{Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
 
 const MEAN: Purpose = Purpose::new("cma-es mean");
@@ -109,14 +114,14 @@ impl CmaEs {
         })
     }
 
-    /// The same search, beginning at these weights: a champion to be made better, or moved to another task. Restarts
-    /// begin elsewhere. Without effect once a generation was asked.
+    /// The same search, beginning at these weights, those of the best net of several: a champion to be made better, or moved
+    /// to another task. Restarts begin elsewhere. Without effect once a generation was asked.
     ///
     /// # Errors
-    /// If the number of weights is not the topology's or one is NaN or infinite.
-    pub fn with_mean(self, start: &[f32]) -> Result<Self, NetworkError> {
-        self.topology.check_weights(start)?;
-        Ok(Self { start: Some(start.to_vec()), ..self })
+    /// If they are not weights of this search's topology; the error names the net: `start[0]`.
+    pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
+        check_start(start, &self.topology)?;
+        Ok(Self { start: start.first().cloned(), ..self })
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
@@ -133,7 +138,7 @@ impl CmaEs {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check(growth, &self.topology, &next.topology)?;
+        check_growth(growth, &self.topology, &next.topology)?;
         let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
         let distribution = self.distribution.map(|mut distribution| {

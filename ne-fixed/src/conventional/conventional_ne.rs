@@ -2,8 +2,7 @@ use super::{ConventionalNeSettings, state::State};
 use crate::{
     Crossover, CrossoverChoice, Mutation, MutationChoice, Setting, WeightVector,
     diversity::diversity,
-    growing::{check, check_start},
-    ranking::best_first,
+    nets::{Nets, Parents, begin, check_growth},
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
@@ -45,16 +44,8 @@ const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 )]
 pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     pub(super) settings: ConventionalNeSettings<S, C, M>,
-    pub(super) topology: Topology,
-    /// The first generation, best first, if it is not drawn; empty after it.
-    pub(super) start: Vec<WeightVector>,
-    /// The generation last told, with its scores: the parents of the next. Empty before the first.
-    pub(super) parents: Vec<WeightVector>,
-    pub(super) scores: Vec<Option<Fitness>>,
-    /// The generation last asked. Once told, it is a parent, and what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
+    pub(super) nets: Nets,
+    pub(super) parents: Parents,
     /// The best score so far.
     pub(super) best: Option<Fitness>,
     /// Generations since `best` was beaten.
@@ -70,17 +61,11 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: ConventionalNeSettings<S, C, M>, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
         Ok(Self {
             settings,
-            topology,
-            start: Vec::new(),
-            parents: Vec::new(),
-            scores: Vec::new(),
-            population: Vec::new(),
-            asked: false,
+            nets: Nets::new(topology)?,
+            parents: Parents::default(),
             best: None,
             stagnation: 0,
             distinct_parents: 0,
@@ -95,18 +80,21 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
-    /// The search whose first generation has these individuals, best first, in place of drawn ones. If they are more than
-    /// a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without effect
-    /// once a generation was told.
+    /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
+    /// than a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without
+    /// effect once a generation was told.
     ///
     /// # Errors
-    /// If one is not of this search's topology; the error names it: `start[3]`.
-    pub fn with_start(self, start: Vec<WeightVector>) -> Result<Self, SettingError> {
-        check_start(&start, &self.topology)?;
-        Ok(Self { start, ..self })
+    /// If they are not weights of this search's topology; the error names the net: `start[3]`.
+    pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError>
+    where
+        M: Mutation,
+    {
+        self.parents.start = self.nets.start(start, self.settings.mutation.initial_deviation())?;
+        Ok(self)
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
@@ -121,13 +109,8 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check(growth, &self.topology, &next.topology)?;
-        let (parents, order) = match self.parents.is_empty() {
-            true => (&self.start, (0..self.start.len()).collect()),
-            false => (&self.parents, best_first(&self.scores)),
-        };
-        let start = order.into_iter().map(|index| parents[index].remapped(&next.topology, growth)).collect();
-        Ok(Self { start, ..next })
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
+        Ok(Self { parents: self.parents.remapped(&next.nets.topology, growth), ..next })
     }
 
     /// What mutations are multiplied by now: 1 unless the population stagnates.
@@ -148,27 +131,28 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         if elites.is_empty() {
             return;
         }
-        let mut order: Vec<usize> = (0..self.parents.len()).collect();
-        let rank = |&index: &usize| (Reverse(self.scores[index]), index);
+        let mut order: Vec<usize> = (0..self.parents.nets.len()).collect();
+        let rank = |&index: &usize| (Reverse(self.parents.scores[index]), index);
         order.select_nth_unstable_by_key(elites.len() - 1, rank);
         order.truncate(elites.len());
         order.sort_unstable_by_key(rank);
-        elites.iter_mut().zip(order).for_each(|(elite, index)| elite.copy_from(&self.parents[index]));
+        elites.iter_mut().zip(order).for_each(|(elite, index)| elite.copy_from(&self.parents.nets[index]));
     }
 
     /// Selects two parents for each of `children`.
     fn select_parents(&mut self, children: usize, seed: Seed) {
         self.chosen.clear();
-        self.settings.selection.select(&self.scores, 2 * children, &mut seed.stream(PARENTS), &mut self.chosen);
+        let mut stream = seed.stream(PARENTS);
+        self.settings.selection.select(&self.parents.scores, 2 * children, &mut stream, &mut self.chosen);
         assert_eq!(self.chosen.len(), 2 * children, "number of parents the selector chose");
-        let mut breeds = vec![false; self.parents.len()];
+        let mut breeds = vec![false; self.parents.nets.len()];
         self.chosen.iter().for_each(|&parent| breeds[parent] = true);
         self.distinct_parents = breeds.into_iter().filter(|&breeds| breeds).count();
     }
 
     /// Writes the child of two parents.
     fn breed(&self, child: &mut WeightVector, parents: &[usize], strength: f32, seed: Seed) {
-        let (first, second) = (&self.parents[parents[0]], &self.parents[parents[1]]);
+        let (first, second) = (&self.parents.nets[parents[0]], &self.parents.nets[parents[1]]);
         let mut stream = seed.stream(REPRODUCTION);
         if stream.random::<f64>() < self.settings.crossover_rate {
             let (weights, deviation) = child.genes_mut();
@@ -193,11 +177,11 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
     /// If a selector of your own does not choose as many parents as it is asked for.
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let ConventionalNeSettings { population: size, elites, immigrants, .. } = self.settings;
-        let mut population = std::mem::take(&mut self.population);
-        population.resize_with(size, || WeightVector::zero(self.topology.clone()));
+        let mut population = self.nets.make_room(size);
+        let is_first = self.parents.nets.is_empty();
         let place = |index: usize| seed.individual(index as u64);
-        let first_drawn = if self.parents.is_empty() { 0 } else { size - immigrants };
-        if !self.parents.is_empty() {
+        let first_drawn = if is_first { 0 } else { size - immigrants };
+        if !is_first {
             self.copy_elites(&mut population[..elites]);
             self.select_parents(first_drawn - elites, seed);
             let strength = self.mutation_strength() as f32;
@@ -205,44 +189,33 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
                 self.breed(&mut population[index], parents, strength, place(index));
             }
         }
-        let begins = if self.parents.is_empty() { self.start.len() } else { 0 };
+        // In later generations these are immigrants, who are drawn.
+        let start = if is_first { self.parents.start.as_slice() } else { &[] };
         for (index, individual) in population.iter_mut().enumerate().skip(first_drawn) {
-            match begins {
-                0 => self.draw(individual, place(index)),
-                _ => {
-                    individual.copy_from(&self.start[index % begins]);
-                    if index >= begins {
-                        let (weights, deviation) = individual.genes_mut();
-                        let mut stream = place(index).stream(REPRODUCTION);
-                        self.settings.mutation.mutate(weights, deviation, 1.0, &mut stream);
-                    }
-                }
-            }
+            let draw = |individual: &mut WeightVector| self.draw(individual, place(index));
+            let mutate = |individual: &mut WeightVector| {
+                let (weights, deviation) = individual.genes_mut();
+                self.settings.mutation.mutate(weights, deviation, 1.0, &mut place(index).stream(REPRODUCTION));
+            };
+            begin(start, index, individual, draw, mutate);
         }
-        self.population = population;
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        std::mem::swap(&mut self.parents, &mut self.population);
-        self.start.clear();
-        self.asked = false;
-        self.scores.clear();
-        self.scores.extend(evaluations.iter().map(Evaluation::fitness));
-        let best = self.scores.iter().copied().max().flatten();
+        self.nets.tell(evaluations, &mut self.parents);
+        let best = self.parents.scores.iter().copied().max().flatten();
         self.stagnation = if best > self.best { 0 } else { self.stagnation + 1 };
         self.best = self.best.max(best);
     }
 
     fn statistics(&self) -> Vec<Statistic> {
-        let deviations: f64 = self.parents.iter().map(|parent| f64::from(parent.mutation_deviation())).sum();
+        let deviations: f64 = self.parents.nets.iter().map(|parent| f64::from(parent.mutation_deviation())).sum();
         vec![
             Statistic::new("mutation_strength", self.mutation_strength()),
-            Statistic::new("mutation_deviation", deviations / self.parents.len().max(1) as f64),
+            Statistic::new("mutation_deviation", deviations / self.parents.nets.len().max(1) as f64),
             Statistic::new("stagnation_generations", self.stagnation as f64),
-            Statistic::new("diversity", diversity(&self.parents)),
+            Statistic::new("diversity", diversity(&self.parents.nets)),
             Statistic::new("distinct_parents", self.distinct_parents as f64),
         ]
     }

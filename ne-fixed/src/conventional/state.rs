@@ -1,5 +1,9 @@
 use super::{ConventionalNe, ConventionalNeSettings};
-use crate::{Setting, StateError, WeightVector, state_error::generation};
+use crate::{
+    Setting, StateError,
+    nets::Parents,
+    state_error::{Genes, generation},
+};
 use ne_core::Fitness;
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -33,29 +37,16 @@ struct Parent {
     genes: Genes,
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Genes {
-    mutation_deviation: f32,
-    weights: Vec<f32>,
-}
-
-impl From<&WeightVector> for Genes {
-    fn from(genome: &WeightVector) -> Self {
-        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights().to_vec() }
-    }
-}
-
 impl<S, C, M> From<ConventionalNe<S, C, M>> for State<S, C, M> {
     fn from(strategy: ConventionalNe<S, C, M>) -> Self {
-        let parents = strategy.parents.iter().zip(&strategy.scores);
-        let asked: &[_] = if strategy.asked { &strategy.population } else { &[] };
+        let Parents { start, nets, scores } = &strategy.parents;
+        let parents = nets.iter().zip(scores);
         Self {
             parents: parents.map(|(parent, &fitness)| Parent { fitness, genes: parent.into() }).collect(),
-            asked: asked.iter().map(Genes::from).collect(),
-            start: strategy.start.iter().map(Genes::from).collect(),
+            asked: strategy.nets.saved(),
+            start: start.iter().map(Genes::from).collect(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
             best: strategy.best,
             stagnation: strategy.stagnation,
             distinct_parents: strategy.distinct_parents,
@@ -68,15 +59,13 @@ impl<S: Setting, C: Setting, M: Setting> TryFrom<State<S, C, M>> for Conventiona
 
     fn try_from(state: State<S, C, M>) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
-        let size = strategy.settings.population;
-        strategy.scores = state.parents.iter().map(|parent| parent.fitness).collect();
-        let genes = |genes: Genes| (genes.weights, genes.mutation_deviation);
-        let parents = state.parents.into_iter().map(|parent| genes(parent.genes));
-        let begins = state.start.len();
-        strategy.start = generation("start", state.start.into_iter().map(genes), begins, &strategy.topology)?;
-        strategy.parents = generation("parents", parents, size, &strategy.topology)?;
-        strategy.population = generation("asked", state.asked.into_iter().map(genes), size, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
+        let (size, begins) = (strategy.settings.population, state.start.len());
+        let scores = state.parents.iter().map(|parent| parent.fitness).collect();
+        let parents = state.parents.into_iter().map(|parent| parent.genes).collect();
+        let start = generation("start", state.start, begins, &strategy.nets.topology)?;
+        strategy.parents =
+            Parents { start, nets: generation("parents", parents, size, &strategy.nets.topology)?, scores };
+        strategy.nets.load(state.asked, size)?;
         (strategy.best, strategy.stagnation) = (state.best, state.stagnation);
         strategy.distinct_parents = state.distinct_parents;
         Ok(strategy)

@@ -1,8 +1,5 @@
 use super::{Cosyne, CosyneSettings};
-use crate::{
-    StateError,
-    state_error::{asked_generation, generation},
-};
+use crate::{StateError, nets::Parents, state_error::generation};
 use ne_core::Fitness;
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -31,14 +28,14 @@ struct Parent {
 
 impl From<Cosyne> for State {
     fn from(strategy: Cosyne) -> Self {
-        let asked = if strategy.asked { strategy.population } else { Vec::new() };
-        let parents = strategy.parents.iter().zip(&strategy.scores);
+        let Parents { start, nets, scores } = &strategy.parents;
+        let parents = nets.iter().zip(scores);
         Self {
-            parents: parents.map(|(net, &fitness)| Parent { fitness, weights: net.weights().to_vec() }).collect(),
-            asked: asked.iter().map(|individual| individual.weights().to_vec()).collect(),
-            start: strategy.start.iter().map(|net| net.weights().to_vec()).collect(),
+            parents: parents.map(|(net, &fitness)| Parent { fitness, weights: net.into() }).collect(),
+            asked: strategy.nets.saved(),
+            start: start.iter().map(Vec::from).collect(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
         }
     }
 }
@@ -49,11 +46,10 @@ impl TryFrom<State> for Cosyne {
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?.with_start(&state.start)?;
         let size = strategy.settings.population;
-        strategy.scores = state.parents.iter().map(|parent| parent.fitness).collect();
-        let parents = state.parents.into_iter().map(|parent| (parent.weights, 0.0));
-        strategy.parents = generation("parents", parents, size, &strategy.topology)?;
-        strategy.population = asked_generation(state.asked, size, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
+        strategy.parents.scores = state.parents.iter().map(|parent| parent.fitness).collect();
+        let parents = state.parents.into_iter().map(|parent| parent.weights).collect();
+        strategy.parents.nets = generation("parents", parents, size, &strategy.nets.topology)?;
+        strategy.nets.load(state.asked, size)?;
         Ok(strategy)
     }
 }

@@ -1,6 +1,11 @@
 use super::{CosyneSettings, cauchy, permutation::shuffle_marked, state::State};
-use crate::{Crossover, WeightVector, diversity::diversity, growing::check, ranking::best_first};
-use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
+use crate::{
+    Crossover, WeightVector,
+    diversity::diversity,
+    nets::{Nets, Parents, begin, check_growth},
+    ranking::best_first,
+};
+use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -33,16 +38,8 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 #[serde(into = "State", try_from = "State")]
 pub struct Cosyne {
     pub(super) settings: CosyneSettings,
-    pub(super) topology: Topology,
-    /// The first generation, best first, if it is not drawn; empty after it.
-    pub(super) start: Vec<WeightVector>,
-    /// The generation last told, with its scores. Empty before the first.
-    pub(super) parents: Vec<WeightVector>,
-    pub(super) scores: Vec<Option<Fitness>>,
-    /// The generation last asked. Once told, it is a parent, and what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
+    pub(super) nets: Nets,
+    pub(super) parents: Parents,
 }
 
 impl Cosyne {
@@ -51,11 +48,8 @@ impl Cosyne {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: CosyneSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
-        let (start, parents, scores, population) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { settings, topology, start, parents, scores, population, asked: false })
+        Ok(Self { settings, nets: Nets::new(topology)?, parents: Parents::default() })
     }
 
     /// The settings.
@@ -65,7 +59,7 @@ impl Cosyne {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
     /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
@@ -74,13 +68,9 @@ impl Cosyne {
     ///
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[3]`.
-    pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
-        let net = |(index, weights): (usize, &Vec<f32>)| {
-            WeightVector::new(self.topology.clone(), weights.clone(), 0.0)
-                .map_err(|error| SettingError::new(format!("start[{index}]"), error, "weights of the net"))
-        };
-        let start = start.iter().enumerate().map(net).collect::<Result<_, _>>()?;
-        Ok(Self { start, ..self })
+    pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
+        self.parents.start = self.nets.start(start, 0.0)?;
+        Ok(self)
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
@@ -95,13 +85,8 @@ impl Cosyne {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check(growth, &self.topology, &next.topology)?;
-        let (parents, order) = match self.parents.is_empty() {
-            true => (&self.start, (0..self.start.len()).collect()),
-            false => (&self.parents, best_first(&self.scores)),
-        };
-        let start: Vec<_> = order.into_iter().map(|index| growth.transfer(parents[index].weights(), 0.0)).collect();
-        next.with_start(&start)
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
+        Ok(Self { parents: self.parents.remapped(&next.nets.topology, growth), ..next })
     }
 
     /// Writes a child of two of the parents, which stand in `order`, best first.
@@ -110,7 +95,7 @@ impl Cosyne {
         let (count, mut stream) = (self.settings.parent_count(), seed.stream(REPRODUCTION));
         let first = stream.random_range(0..count);
         let second = (first + stream.random_range(1..count)) % count;
-        let parent = |place: usize| self.parents[order[place]].weights();
+        let parent = |place: usize| self.parents.nets[order[place]].weights();
         let (genes, _) = child.genes_mut();
         crossover.cross(parent(first), parent(second), genes, &mut stream);
         cauchy::mutate(genes, *mutation_rate, *mutation_scale, &mut stream);
@@ -118,11 +103,11 @@ impl Cosyne {
 
     /// In each subpopulation, marked weights change places; children, which come last, are not marked by fitness.
     fn permute(&self, table: &mut [WeightVector], order: &[usize], seed: Seed) {
-        let scores: Vec<_> = order.iter().map(|&index| self.scores[index]).collect();
-        let mut probabilities = self.settings.permutation.probabilities(&scores, self.topology.weight_count());
+        let scores: Vec<_> = order.iter().map(|&index| self.parents.scores[index]).collect();
+        let mut probabilities = self.settings.permutation.probabilities(&scores, self.nets.topology.weight_count());
         let kept = table.len() - self.settings.offspring_count();
         probabilities[kept..].fill(self.settings.permutation.of_children());
-        for gene in 0..self.topology.weight_count() {
+        for gene in 0..self.nets.topology.weight_count() {
             let places = shuffle_marked(&probabilities, &mut seed.individual(gene as u64).stream(PERMUTATION));
             let column: Vec<f32> = places.into_iter().map(|place| table[place].weights()[gene]).collect();
             table.iter_mut().zip(column).for_each(|(net, weight)| net.genes_mut().0[gene] = weight);
@@ -139,50 +124,43 @@ impl Strategy for Cosyne {
 
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let size = self.settings.population;
-        let mut population = std::mem::take(&mut self.population);
-        population.resize_with(size, || WeightVector::zero(self.topology.clone()));
+        let mut population = self.nets.make_room(size);
         let place = |index: usize| seed.individual(index as u64);
-        if self.parents.is_empty() {
+        if self.parents.nets.is_empty() {
             let CosyneSettings { initialization, mutation_rate, mutation_scale, .. } = &self.settings;
             for (index, individual) in population.iter_mut().enumerate() {
-                match self.start.len() {
-                    0 => initialization.draw(individual, &mut place(index).stream(FIRST_GENERATION)),
-                    begins => {
-                        individual.copy_from(&self.start[index % begins]);
-                        if index >= begins {
-                            let mut stream = place(index).stream(REPRODUCTION);
-                            cauchy::mutate(individual.genes_mut().0, *mutation_rate, *mutation_scale, &mut stream);
-                        }
-                    }
-                }
+                let draw = |individual: &mut WeightVector| {
+                    initialization.draw(individual, &mut place(index).stream(FIRST_GENERATION));
+                };
+                let mutate = |individual: &mut WeightVector| {
+                    let mut stream = place(index).stream(REPRODUCTION);
+                    cauchy::mutate(individual.genes_mut().0, *mutation_rate, *mutation_scale, &mut stream);
+                };
+                begin(&self.parents.start, index, individual, draw, mutate);
             }
         } else {
-            let order = best_first(&self.scores);
+            let order = best_first(&self.parents.scores);
             let kept = size - self.settings.offspring_count();
-            population.iter_mut().zip(&order[..kept]).for_each(|(net, &index)| net.copy_from(&self.parents[index]));
+            population
+                .iter_mut()
+                .zip(&order[..kept])
+                .for_each(|(net, &index)| net.copy_from(&self.parents.nets[index]));
             for (index, child) in population.iter_mut().enumerate().skip(kept) {
                 self.breed(child, &order, place(index));
             }
             self.permute(&mut population, &order, seed);
         }
-        self.population = population;
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        std::mem::swap(&mut self.parents, &mut self.population);
-        self.start.clear();
-        self.asked = false;
-        self.scores.clear();
-        self.scores.extend(evaluations.iter().map(Evaluation::fitness));
+        self.nets.tell(evaluations, &mut self.parents);
     }
 
     fn statistics(&self) -> Vec<Statistic> {
-        let marked = self.settings.permutation.probabilities(&self.scores, self.topology.weight_count());
+        let marked = self.settings.permutation.probabilities(&self.parents.scores, self.nets.topology.weight_count());
         vec![
-            Statistic::new("diversity", diversity(&self.parents)),
+            Statistic::new("diversity", diversity(&self.parents.nets)),
             Statistic::new("marked_share", marked.iter().sum::<f64>() / marked.len().max(1) as f64),
         ]
     }

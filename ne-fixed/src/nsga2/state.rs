@@ -2,7 +2,10 @@ use super::{
     Nsga2, Nsga2Settings,
     strategy::{Parent, Scores},
 };
-use crate::{StateError, WeightVector, state_error::generation};
+use crate::{
+    StateError,
+    state_error::{Genes, generation},
+};
 use ne_core::{Fitness, SettingError};
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -31,29 +34,16 @@ struct SavedParent {
     genes: Genes,
 }
 
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Genes {
-    mutation_deviation: f32,
-    weights: Vec<f32>,
-}
-
-impl From<&WeightVector> for Genes {
-    fn from(genome: &WeightVector) -> Self {
-        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights().to_vec() }
-    }
-}
-
 impl From<Nsga2> for State {
     fn from(strategy: Nsga2) -> Self {
         let saved = |Parent { genome, scores, generation }| SavedParent { scores, generation, genes: (&genome).into() };
         Self {
+            asked: strategy.nets.saved(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
             reference: strategy.reference,
             start: strategy.start.iter().map(Genes::from).collect(),
             parents: strategy.parents.into_iter().map(saved).collect(),
-            asked: strategy.population.iter().map(Genes::from).collect(),
         }
     }
 }
@@ -63,18 +53,15 @@ impl TryFrom<State> for Nsga2 {
 
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
-        let topology = &strategy.topology;
         check_objectives(&state.parents, state.reference.as_deref())?;
-        let genes = |genes: Genes| (genes.weights, genes.mutation_deviation);
         let evaluated: Vec<_> = state.parents.iter().map(|parent| (parent.scores.clone(), parent.generation)).collect();
-        let parents = state.parents.into_iter().map(|parent| genes(parent.genes));
-        let parents = generation("parents", parents, strategy.settings.parent_count(), topology)?;
+        let parents = state.parents.into_iter().map(|parent| parent.genes).collect();
+        let parents = generation("parents", parents, strategy.settings.parent_count(), &strategy.nets.topology)?;
         let parent = |(genome, (scores, generation))| Parent { genome, scores, generation };
         strategy.parents = parents.into_iter().zip(evaluated).map(parent).collect();
         let begins = state.start.len();
-        strategy.start = generation("start", state.start.into_iter().map(genes), begins, topology)?;
-        let asked = state.asked.into_iter().map(genes);
-        strategy.population = generation("asked", asked, strategy.settings.population, topology)?;
+        strategy.start = generation("start", state.start, begins, &strategy.nets.topology)?;
+        strategy.nets.load(state.asked, strategy.settings.population)?;
         strategy.reference = state.reference;
         Ok(strategy)
     }

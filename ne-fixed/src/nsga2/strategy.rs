@@ -2,7 +2,7 @@ use super::{Nsga2Settings, state::State};
 use crate::{
     Crossover, Mutation, WeightVector,
     diversity::diversity,
-    growing::{check, check_start},
+    nets::{Nets, begin, check_growth},
 };
 use ne_core::{
     Evaluation, Fitness, FrontPoint, Purpose, Seed, Selector, SettingError, Statistic, Strategy,
@@ -44,13 +44,11 @@ const REPRODUCTION: Purpose = Purpose::new("nsga2 reproduction");
 #[serde(into = "State", try_from = "State")]
 pub struct Nsga2 {
     pub(super) settings: Nsga2Settings,
-    pub(super) topology: Topology,
+    pub(super) nets: Nets,
     /// The first generation, best first, if it is not drawn; empty after it.
     pub(super) start: Vec<WeightVector>,
     /// The survivors of the generation last told, best first. Empty before the first.
     pub(super) parents: Vec<Parent>,
-    /// The generation asked and not told yet; empty between generations.
-    pub(super) population: Vec<WeightVector>,
     /// What the hypervolume is seen from: the lowest value of each objective in the first generation that had any.
     pub(super) reference: Option<Vec<Fitness>>,
 }
@@ -85,21 +83,18 @@ impl Nsga2 {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: Nsga2Settings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
-        let (start, parents, population) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Self { settings, topology, start, parents, population, reference: None })
+        Ok(Self { settings, nets: Nets::new(topology)?, start: Vec::new(), parents: Vec::new(), reference: None })
     }
 
-    /// The search whose first generation has these individuals, best first, in place of drawn ones. If they are more than
-    /// a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without effect
-    /// once a generation was told.
+    /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
+    /// than a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without
+    /// effect once a generation was told.
     ///
     /// # Errors
-    /// If one is not of this search's topology; the error names it: `start[3]`.
-    pub fn with_start(self, start: Vec<WeightVector>) -> Result<Self, SettingError> {
-        check_start(&start, &self.topology)?;
+    /// If they are not weights of this search's topology; the error names the net: `start[3]`.
+    pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
+        let start = self.nets.start(start, self.settings.mutation.initial_deviation())?;
         Ok(Self { start, ..self })
     }
 
@@ -115,12 +110,12 @@ impl Nsga2 {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check(growth, &self.topology, &next.topology)?;
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
         let survivors: Vec<&WeightVector> = match self.parents.is_empty() {
             true => self.start.iter().collect(),
             false => self.parents.iter().map(|parent| &parent.genome).collect(),
         };
-        let start = survivors.into_iter().map(|genome| genome.remapped(&next.topology, growth)).collect();
+        let start = survivors.into_iter().map(|genome| genome.remapped(&next.nets.topology, growth)).collect();
         Ok(Self { start, ..next })
     }
 
@@ -131,24 +126,21 @@ impl Nsga2 {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
     /// An individual of the first generation.
-    fn draw(&self, seed: Seed) -> WeightVector {
-        let mut individual = WeightVector::zero(self.topology.clone());
-        self.settings.initialization.draw(&mut individual, &mut seed.stream(FIRST_GENERATION));
-        *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
-        individual
-    }
-
-    /// An individual of a first generation that is not drawn: one of those it begins with, or a copy that has mutated.
-    fn begin(&self, index: usize, seed: Seed) -> WeightVector {
-        let mut individual = self.start[index % self.start.len()].clone();
-        if index >= self.start.len() {
+    fn first(&self, index: usize, seed: Seed) -> WeightVector {
+        let mut individual = WeightVector::zero(self.nets.topology.clone());
+        let draw = |individual: &mut WeightVector| {
+            self.settings.initialization.draw(individual, &mut seed.stream(FIRST_GENERATION));
+            *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
+        };
+        let mutate = |individual: &mut WeightVector| {
             let (weights, deviation) = individual.genes_mut();
             self.settings.mutation.mutate(weights, deviation, 1.0, &mut seed.stream(REPRODUCTION));
-        }
+        };
+        begin(&self.start, index, &mut individual, draw, mutate);
         individual
     }
 
@@ -207,10 +199,8 @@ impl Strategy for Nsga2 {
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let size = self.settings.population;
         let place = |index: usize| seed.individual(index as u64);
-        self.population = if self.parents.is_empty() && !self.start.is_empty() {
-            (0..size).map(|index| self.begin(index, place(index))).collect()
-        } else if self.parents.is_empty() {
-            (0..size).map(|index| self.draw(place(index))).collect()
+        let population = if self.parents.is_empty() {
+            (0..size).map(|index| self.first(index, place(index))).collect()
         } else {
             let kept = if self.settings.parents_again { self.parents.len() } else { 0 };
             let parents = self.parents[..kept].iter().map(|parent| parent.genome.clone());
@@ -218,18 +208,20 @@ impl Strategy for Nsga2 {
             let children = (kept..).zip(chosen.chunks_exact(2)).map(|(index, pair)| self.breed(pair, place(index)));
             parents.chain(children).collect()
         };
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
+        debug_assert_eq!(evaluations.len(), self.nets.population.len());
         self.start.clear();
+        self.nets.asked = false;
         let generation = seed.generation_index();
-        let told = std::mem::take(&mut self.population).into_iter().zip(evaluations).map(|(genome, evaluation)| {
-            let scores = evaluation.fitness().zip(evaluation.objectives());
-            let scores = scores.map(|(fitness, objectives)| Scores { fitness, objectives });
-            Parent { genome, scores, generation }
-        });
+        let told =
+            std::mem::take(&mut self.nets.population).into_iter().zip(evaluations).map(|(genome, evaluation)| {
+                let scores = evaluation.fitness().zip(evaluation.objectives());
+                let scores = scores.map(|(fitness, objectives)| Scores { fitness, objectives });
+                Parent { genome, scores, generation }
+            });
         let mut pool = std::mem::take(&mut self.parents);
         if self.settings.parents_again {
             pool.clear();

@@ -1,8 +1,5 @@
 use super::{OpenEs, OpenEsSettings, adam::AdamMemory};
-use crate::{
-    StateError,
-    state_error::{asked_generation, check_numbers},
-};
+use crate::{StateError, state_error::check_numbers};
 use ne_core::SettingError;
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -24,15 +21,14 @@ pub(super) struct State {
 
 impl From<OpenEs> for State {
     fn from(strategy: OpenEs) -> Self {
-        let asked = if strategy.asked { strategy.population } else { Vec::new() };
         Self {
+            asked: strategy.nets.saved(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
             centre: strategy.centre,
             deviation: strategy.deviation,
             adam: strategy.adam,
             gradient_length: strategy.gradient_length,
-            asked: asked.iter().map(|individual| individual.weights().to_vec()).collect(),
         }
     }
 }
@@ -42,7 +38,7 @@ impl TryFrom<State> for OpenEs {
 
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
-        let (settings, n) = (&strategy.settings, strategy.topology.weight_count());
+        let (settings, n) = (&strategy.settings, strategy.nets.topology.weight_count());
         if !state.centre.is_empty() {
             check_numbers("centre", &state.centre, n)?;
         }
@@ -54,9 +50,8 @@ impl TryFrom<State> for OpenEs {
             return Err(SettingError::new(format!("adam.squares[{index}]"), found, "at least 0").into());
         }
         SettingError::check_range("gradient_length", state.gradient_length, 0.0, f64::INFINITY)?;
-        strategy.population = asked_generation(state.asked, 1 + settings.population, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
-        if strategy.asked && state.centre.is_empty() {
+        strategy.nets.load(state.asked, 1 + settings.population)?;
+        if strategy.nets.asked && state.centre.is_empty() {
             return Err(SettingError::new("centre", "none", "there when individuals were asked").into());
         }
         strategy.centre = state.centre;

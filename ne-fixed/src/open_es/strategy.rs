@@ -1,7 +1,12 @@
 use super::{OpenEsSettings, adam::AdamMemory, state::State};
-use crate::{WeightVector, growing::check, normal::Normal, ranking::best_first};
+use crate::{
+    WeightVector,
+    nets::{Nets, check_growth},
+    normal::Normal,
+    ranking::best_first,
+};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
-use ne_net::{NetworkError, Topology, TopologyMap};
+use ne_net::{Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
 
 const CENTRE: Purpose = Purpose::new("open-es centre");
@@ -31,16 +36,12 @@ const NOISE: Purpose = Purpose::new("open-es noise");
 #[serde(into = "State", try_from = "State")]
 pub struct OpenEs {
     pub(super) settings: OpenEsSettings,
-    pub(super) topology: Topology,
+    pub(super) nets: Nets,
     /// θ; empty before the first generation.
     pub(super) centre: Vec<f64>,
     pub(super) deviation: f64,
     pub(super) adam: AdamMemory,
     pub(super) gradient_length: f64,
-    /// The generation last asked. Once told, what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
 }
 
 impl OpenEs {
@@ -49,30 +50,27 @@ impl OpenEs {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: OpenEsSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
+        let nets = Nets::new(topology)?;
         Ok(Self {
             deviation: settings.deviation,
-            adam: AdamMemory::new(topology.weight_count()),
+            adam: AdamMemory::new(nets.topology.weight_count()),
             settings,
-            topology,
+            nets,
             centre: Vec::new(),
             gradient_length: 0.0,
-            population: Vec::new(),
-            asked: false,
         })
     }
 
-    /// The same search, whose centre begins at these weights: a champion to be made better, or moved to another task.
-    /// Without effect once a generation was asked.
+    /// The same search, whose centre begins at these weights, those of the best net of several: a champion to be made
+    /// better, or moved to another task. Without effect once a generation was asked.
     ///
     /// # Errors
-    /// If the number of weights is not the topology's or one is NaN or infinite.
-    pub fn with_centre(mut self, weights: &[f32]) -> Result<Self, NetworkError> {
-        self.topology.check_weights(weights)?;
-        if self.centre.is_empty() {
-            self.centre = weights.iter().map(|&weight| weight.into()).collect();
+    /// If they are not weights of this search's topology; the error names the net: `start[0]`.
+    pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
+        let start = self.nets.start(start, 0.0)?;
+        if let (true, Some(best)) = (self.centre.is_empty(), start.first()) {
+            self.centre = best.weights().iter().map(|&weight| weight.into()).collect();
         }
         Ok(self)
     }
@@ -89,7 +87,7 @@ impl OpenEs {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check(growth, &self.topology, &next.topology)?;
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
         let centre = if self.centre.is_empty() { Vec::new() } else { growth.transfer(&self.centre, 0.0) };
         let adam = AdamMemory {
             steps: self.adam.steps,
@@ -107,11 +105,11 @@ impl OpenEs {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
     fn first_centre(&self, seed: Seed) -> Vec<f64> {
-        let mut individual = WeightVector::zero(self.topology.clone());
+        let mut individual = WeightVector::zero(self.nets.topology.clone());
         self.settings.initial_centre.draw(&mut individual, &mut seed.stream(CENTRE));
         individual.weights().iter().map(|&weight| weight.into()).collect()
     }
@@ -119,7 +117,7 @@ impl OpenEs {
     /// The estimate of the gradient from the centred ranks of the samples.
     fn gradient(&self, ranks: &[f64]) -> Vec<f64> {
         let mut gradient = vec![0.0; self.centre.len()];
-        for (pair, ranks) in self.population[1..].chunks_exact(2).zip(ranks.chunks_exact(2)) {
+        for (pair, ranks) in self.nets.population[1..].chunks_exact(2).zip(ranks.chunks_exact(2)) {
             // σε, as it was rounded: half of the difference of the two.
             let scale =
                 0.5 * (ranks[0] - ranks[1]) / (self.settings.population as f64 * self.deviation * self.deviation);
@@ -143,8 +141,8 @@ impl Strategy for OpenEs {
         if self.centre.is_empty() {
             self.centre = self.first_centre(seed);
         }
-        self.population.resize_with(1 + self.settings.population, || WeightVector::zero(self.topology.clone()));
-        let (first, samples) = self.population.split_at_mut(1);
+        let mut population = self.nets.make_room(1 + self.settings.population);
+        let (first, samples) = population.split_at_mut(1);
         first[0].genes_mut().0.iter_mut().zip(&self.centre).for_each(|(gene, &x)| *gene = finite(x));
         let normal = Normal::new();
         for (index, pair) in samples.chunks_exact_mut(2).enumerate() {
@@ -156,13 +154,12 @@ impl Strategy for OpenEs {
                 (*plus, *minus) = (finite(x + noise), finite(x - noise));
             }
         }
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        self.asked = false;
+        debug_assert_eq!(evaluations.len(), self.nets.population.len());
+        self.nets.asked = false;
         let scores: Vec<_> = evaluations[1..].iter().map(Evaluation::fitness).collect();
         let gradient = self.gradient(&centred_ranks(&scores));
         self.gradient_length = gradient.iter().map(|slope| slope * slope).sum::<f64>().sqrt();

@@ -54,7 +54,7 @@ fn keeps_the_promises_of_a_strategy() {
 fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(CmaEsSettings::default()), 8);
     assert_resumes(new(full()), 8);
-    assert_resumes(new(CmaEsSettings::default()).with_mean(&[0.5; 26]).expect("26 weights"), 3);
+    assert_resumes(new(CmaEsSettings::default()).with_start(&[vec![0.5; 26]]).expect("26 weights"), 3);
     assert_resumes(new(restarting(Restart::Bipop)), 40);
     assert_resumes(new(CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) }), 60);
 }
@@ -109,8 +109,8 @@ fn errors_of_settings_name_the_field() {
     let flat = ne_net::DenseShape::new(3, vec![0], 2);
     let error = CmaEs::new(CmaEsSettings::default(), flat).expect_err("no neuron").to_string();
     assert_eq!(error, "topology.hidden[0] = 0: must be from 1 to 4096");
-    let error = new(CmaEsSettings::default()).with_mean(&[0.0; 3]).expect_err("three weights").to_string();
-    assert_eq!(error, "weights: found 3, a net of shape 3-4-2 has 26");
+    let error = new(CmaEsSettings::default()).with_start(&[vec![0.0; 3]]).expect_err("three weights").to_string();
+    assert_eq!(error, "start[0] = weights: found 3, a net of shape 3-4-2 has 26: must be weights of the net");
 }
 
 #[test]
@@ -131,7 +131,7 @@ fn damaged_states_are_errors_that_name_the_field() {
         &[
             (|s| s["settings"]["step_size"] = 0.into(), "step_size = 0: must be from 0.000001 to 1000"),
             (|s| s["topology"]["dense"]["hidden"][0] = 0.into(), "hidden[0] = 0: must be from 1 to 4096"),
-            (|s| s["start"] = json!([1.0]), "start = weights: found 1, a net of shape 3-4-2 has 26"),
+            (|s| s["start"] = json!([1.0]), "start[0] = weights: found 1, a net of shape 3-4-2 has 26"),
             (|s| s["restarts"]["population"] = 1.into(), "restarts.population = 1: must be from 2 to 1000000"),
             (
                 |s| s["restarts"]["large_population"] = 0.into(),
@@ -202,7 +202,7 @@ fn the_population_follows_the_number_of_weights() {
 #[test]
 fn begins_where_it_is_told() {
     let settings = CmaEsSettings { step_size: 1e-3, ..Default::default() };
-    let mut strategy = new(settings.clone()).with_mean(&[2.5; 26]).expect("26 weights");
+    let mut strategy = new(settings.clone()).with_start(&[vec![2.5; 26]]).expect("26 weights");
     assert_eq!(strategy.mean(), None);
     let first = strategy.ask(Seed::of_run(1)).to_vec();
     assert!(first.iter().flat_map(|genome| genome.weights()).all(|weight| (weight - 2.5).abs() < 0.01));
@@ -317,7 +317,7 @@ fn of_several_starts_the_one_that_got_farthest_goes_on() {
         (vec![0; 5], place),
         "a search that is carried on has one start"
     );
-    let told = far_apart(settings).with_mean(&[2.5; 26]).expect("26 weights");
+    let told = far_apart(settings).with_start(&[vec![2.5; 26]]).expect("26 weights");
     assert_eq!(searches(told, 9, |_, _| 1.0), [0; 9], "a search that is told where to begin has one start");
 }
 

@@ -43,7 +43,8 @@ fn full() -> CmaEsSettings {
 fn mean_evaluations(settings: &CmaEsSettings, n: usize, start: f32, cost: impl Fn(&[f64]) -> f64) -> f64 {
     let settings = CmaEsSettings { least_deviation: 1e-9, ..settings.clone() };
     let evaluations = |run| {
-        let strategy = CmaEs::new(settings.clone(), weights(n)).expect("valid").with_mean(&vec![start; n]).expect("n");
+        let strategy =
+            CmaEs::new(settings.clone(), weights(n)).expect("valid").with_start(&[vec![start; n]]).expect("n");
         evaluations_to(strategy, run, &cost, 1e-8, 100_000).expect("converges")
     };
     (1..=5).map(evaluations).sum::<usize>() as f64 / 5.0
@@ -79,7 +80,7 @@ fn full_does_not_mind_a_turned_function_and_separable_does() {
     let straight = mean_evaluations(&full(), 10, 1.0, ellipsoid);
     assert!((turned / straight - 1.0).abs() < 0.1, "{turned} turned, {straight} straight");
     let settings = CmaEsSettings::default();
-    let strategy = CmaEs::new(settings, weights(10)).expect("valid").with_mean(&[1.0; 10]).expect("10 weights");
+    let strategy = CmaEs::new(settings, weights(10)).expect("valid").with_start(&[vec![1.0; 10]]).expect("10 weights");
     assert_eq!(evaluations_to(strategy, 1, turned_ellipsoid, 1e-8, 20_000), None);
 }
 

@@ -165,7 +165,8 @@ fn a_centre_goes_on_in_grown_nets() {
     assert_same_behaviour(&old, new.clone().ask(seed)[0].weights());
     assert_resumes(new, 3);
     let champion = vec![0.25; dense().weight_count()];
-    let started = OpenEs::new(settings, dense()).map(|new| new.with_centre(&champion).expect("weights"));
+    let started =
+        OpenEs::new(settings, dense()).map(|new| new.with_start(std::slice::from_ref(&champion)).expect("weights"));
     assert_eq!(started.expect("valid").ask(seed)[0].weights(), champion);
 }
 
@@ -195,9 +196,25 @@ fn errors_name_what_does_not_fit() {
     let open_es = OpenEs::new(OpenEsSettings::default(), dense()).expect("valid");
     let error = open_es.remapped(OpenEsSettings::default(), topology.clone(), &same);
     assert_eq!(error.expect_err("too few").to_string(), message);
-    let error = cosyne.with_start(&[vec![0.0; 3]]).expect_err("too few").to_string();
-    assert!(error.starts_with("start[0] = weights: found 3, a net of shape 3-4-2 has 26"), "{error}");
-    let other = WeightVector::new(topology, vec![0.0; 39], 0.0).expect("a genome");
-    let error = conventional.with_start(vec![other]).expect_err("another shape").to_string();
-    assert_eq!(error, "start[0] = 5-4-3: must be of shape 3-4-2");
+    // One signature for all.
+    let begun = [
+        conventional.with_start(&[vec![0.0; 26], vec![0.0; 3]]).map(drop),
+        cosyne.with_start(&[vec![0.0; 26], vec![0.0; 3]]).map(drop),
+        CmaEs::new(CmaEsSettings::default(), dense())
+            .expect("valid")
+            .with_start(&[vec![0.0; 26], vec![0.0; 3]])
+            .map(drop),
+        OpenEs::new(OpenEsSettings::default(), dense())
+            .expect("valid")
+            .with_start(&[vec![0.0; 26], vec![0.0; 3]])
+            .map(drop),
+        Nsga2::new(Nsga2Settings::default(), dense())
+            .expect("valid")
+            .with_start(&[vec![0.0; 26], vec![0.0; 3]])
+            .map(drop),
+    ];
+    for error in begun {
+        let error = error.expect_err("too few").to_string();
+        assert_eq!(error, "start[1] = weights: found 3, a net of shape 3-4-2 has 26: must be weights of the net");
+    }
 }

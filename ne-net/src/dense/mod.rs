@@ -3,7 +3,4 @@
 mod net;
 mod shape;
 
-pub use {
-    net::{DenseNet, DenseNetError},
-    shape::DenseShape,
-};
+pub use {net::DenseNet, shape::DenseShape};

@@ -1,6 +1,6 @@
 use super::DenseShape;
-use crate::Activation;
-use ne_core::{Phenotype, SettingError};
+use crate::{Activation, NetworkError, error::check_weights};
+use ne_core::Phenotype;
 use serde::{Deserialize, Serialize};
 use std::{ops::Range, sync::Arc};
 
@@ -42,43 +42,16 @@ struct Layer {
     scale: f32,
 }
 
-/// Why a shape and weights are not a net.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DenseNetError {
-    /// The shape is out of range.
-    #[error("shape.{0}")]
-    Shape(#[from] SettingError),
-    /// There are too many or too few weights.
-    #[error("weights: found {found}, a net of shape {shape} has {expected}")]
-    WeightCount {
-        /// The widths, `9-10-8`.
-        shape: String,
-        /// How many there must be.
-        expected: usize,
-        /// How many there are.
-        found: usize,
-    },
-    /// A weight is NaN or infinite.
-    #[error("weights[{index}] = {value}: must be finite")]
-    NotFinite {
-        /// Which one, from 0.
-        index: usize,
-        /// The weight.
-        value: f32,
-    },
-}
-
 impl DenseNet {
     /// The net of this shape with these weights, in the order [`DenseShape`] documents.
     ///
     /// # Errors
     /// If the shape is out of range, the number of weights is not the shape's, or a weight is NaN or infinite; the error
     /// names the field.
-    pub fn new(shape: impl Into<Arc<DenseShape>>, weights: &[f32]) -> Result<Self, DenseNetError> {
+    pub fn new(shape: impl Into<Arc<DenseShape>>, weights: &[f32]) -> Result<Self, NetworkError> {
         let shape = shape.into();
         shape.validate()?;
-        Self::check_weights(&shape, weights)?;
+        check_weights(format!("shape {shape}"), shape.weight_count(), weights)?;
         Ok(Self::from_checked(shape, weights))
     }
 
@@ -94,21 +67,6 @@ impl DenseNet {
         let mut net = Self { shape, weights: weights.to_vec(), rows, values, layers };
         net.arrange_weights();
         net
-    }
-
-    /// Checks that these are weights for a net of this shape, which is not checked itself.
-    ///
-    /// # Errors
-    /// If their number is not the shape's or one is NaN or infinite.
-    pub fn check_weights(shape: &DenseShape, weights: &[f32]) -> Result<(), DenseNetError> {
-        let (expected, found) = (shape.weight_count(), weights.len());
-        if found != expected {
-            return Err(DenseNetError::WeightCount { shape: shape.to_string(), expected, found });
-        }
-        match weights.iter().position(|weight| !weight.is_finite()) {
-            Some(index) => Err(DenseNetError::NotFinite { index, value: weights[index] }),
-            None => Ok(()),
-        }
     }
 
     /// The shape.
@@ -236,9 +194,9 @@ impl From<DenseNet> for DenseNetData {
 }
 
 impl TryFrom<DenseNetData> for DenseNet {
-    type Error = DenseNetError;
+    type Error = NetworkError;
 
-    fn try_from(data: DenseNetData) -> Result<Self, DenseNetError> {
+    fn try_from(data: DenseNetData) -> Result<Self, NetworkError> {
         Self::new(data.shape, &data.weights)
     }
 }

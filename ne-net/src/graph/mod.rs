@@ -3,5 +3,5 @@
 mod net;
 mod shape;
 
-pub use net::{GraphNet, GraphNetError};
+pub use net::GraphNet;
 pub use shape::{GraphNeuron, GraphShape};

@@ -1,6 +1,6 @@
 use super::GraphShape;
-use crate::Activation;
-use ne_core::{Phenotype, SettingError};
+use crate::{Activation, NetworkError, error::check_weights};
+use ne_core::Phenotype;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -42,43 +42,16 @@ struct Group {
     neurons: u32,
 }
 
-/// Why a shape and weights are not a net.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum GraphNetError {
-    /// The shape is not one.
-    #[error("shape.{0}")]
-    Shape(#[from] SettingError),
-    /// There are too many or too few weights.
-    #[error("weights: found {found}, a net of {shape} has {expected}")]
-    WeightCount {
-        /// The shape in words.
-        shape: String,
-        /// How many there must be.
-        expected: usize,
-        /// How many there are.
-        found: usize,
-    },
-    /// A weight is NaN or infinite.
-    #[error("weights[{index}] = {value}: must be finite")]
-    NotFinite {
-        /// Which one, from 0.
-        index: usize,
-        /// The weight.
-        value: f32,
-    },
-}
-
 impl GraphNet {
     /// The net of this shape with these weights, in the order [`GraphShape`] documents.
     ///
     /// # Errors
     /// If the shape is not one, the number of weights is not the shape's, or a weight is NaN or infinite; the error names
     /// the field.
-    pub fn new(shape: impl Into<Arc<GraphShape>>, weights: &[f32]) -> Result<Self, GraphNetError> {
+    pub fn new(shape: impl Into<Arc<GraphShape>>, weights: &[f32]) -> Result<Self, NetworkError> {
         let shape = shape.into();
         shape.validate()?;
-        Self::check_weights(&shape, weights)?;
+        check_weights(&*shape, shape.weight_count(), weights)?;
         Ok(Self::from_checked(shape, weights))
     }
 
@@ -109,21 +82,6 @@ impl GraphNet {
         }
         let values = vec![0.0; shape.inputs + shape.neurons.len()];
         Self { shape, weights: weights.to_vec(), sources, neurons, groups, values }
-    }
-
-    /// Checks that these are weights for a net of this shape, which is not checked itself.
-    ///
-    /// # Errors
-    /// If their number is not the shape's or one is NaN or infinite.
-    pub fn check_weights(shape: &GraphShape, weights: &[f32]) -> Result<(), GraphNetError> {
-        let (expected, found) = (shape.weight_count(), weights.len());
-        if found != expected {
-            return Err(GraphNetError::WeightCount { shape: shape.to_string(), expected, found });
-        }
-        match weights.iter().position(|weight| !weight.is_finite()) {
-            Some(index) => Err(GraphNetError::NotFinite { index, value: weights[index] }),
-            None => Ok(()),
-        }
     }
 
     /// The shape.
@@ -215,9 +173,9 @@ impl From<GraphNet> for GraphNetData {
 }
 
 impl TryFrom<GraphNetData> for GraphNet {
-    type Error = GraphNetError;
+    type Error = NetworkError;
 
-    fn try_from(data: GraphNetData) -> Result<Self, GraphNetError> {
+    fn try_from(data: GraphNetData) -> Result<Self, NetworkError> {
         Self::new(data.shape, &data.weights)
     }
 }
