@@ -26,7 +26,6 @@ impl Curriculum for WiderAndWider {
         let passed = |leg: &StageRun| if leg.decision == Decision::Promote { 1.0 } else { -1.0 };
         let level = legs.iter().map(passed).sum::<f64>().max(0.0);
         let mut config = self.base.clone();
-        config.terrain = "gaps".parse().ok()?;
         config.terrain.difficulty = (level * STEP).min(1.0) as f32;
         let stage = level as usize;
         (legs.len() < self.stages).then(|| PlannedStage {
@@ -57,6 +56,7 @@ impl Promotion for KeepsUp {
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut base = Registry::default().config("default", creatures::find("tetrapod-2")?, "running")?;
+    base.terrain = Registry::default().terrains.terrain("gaps")?;
     base.strategy.set_population(16);
     base.training_steps = Some(100);
     let folder = tempfile::tempdir()?;
