@@ -337,7 +337,10 @@ fn errors_name_stage_and_field() {
     // A variation and a terrain can be named.
     let named = stages(two(json!({ "name": "b", "changes": { "variation": "none", "terrain": "gaps:0.5" } })));
     let named = named.expect("valid").configs().last().map(|(_, config)| (config.variation, config.terrain.clone()));
-    assert_eq!(named, Some((Variation::default(), "gaps:0.5".parse().expect("a terrain"))));
+    assert_eq!(
+        named,
+        Some((Variation::default(), Registry::default().terrains.terrain("gaps:0.5").expect("a terrain")))
+    );
     // NEAT can give up what a stage has added.
     let there_and_back = json!([
         { "name": "a", "promotion": { "generations": 3 }, "changes": { "strategy": { "neat": {} } } },
