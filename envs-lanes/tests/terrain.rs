@@ -97,7 +97,7 @@ fn every_shipped_creature_moves_on_mounds_as_in_rapier() {
 
 /// A terrain whose obstacles begin right before the creature and are close together.
 fn crowded(name: &str) -> Terrain {
-    let terrain: Terrain = name.parse().expect("a terrain");
+    let terrain = TERRAINS.iter().find(|entry| entry.name == name).expect("a terrain").terrain();
     Terrain { run_up: Some(0.1), length: 12.0, seed: 3, ..terrain.with_difficulty(0.35) }
 }
 

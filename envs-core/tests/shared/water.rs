@@ -1,5 +1,5 @@
 use crate::puppet::Puppet;
-use creatures::{Blueprint, BodyPart, Joint, Shape, Terrain};
+use creatures::{Blueprint, BodyPart, Joint, Shape, TERRAINS};
 use envs_core::{CreatureEnvironment, EnvironmentError, Hull, PhysicsSettings, Variation, Water, body_of};
 use proptest::prelude::*;
 use std::f32::consts::{FRAC_PI_2, TAU};
@@ -124,7 +124,7 @@ fn water_has_no_terrain() {
     let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
     let sensors = blueprint.creature().sensors.clone();
     let settings = PhysicsSettings { water: Some(Water::default()), ..PhysicsSettings::default() };
-    let terrain: Terrain = "gaps:0.5".parse().expect("a terrain");
+    let terrain = TERRAINS.iter().find(|entry| entry.name == "gaps").expect("a terrain").terrain();
     let built: Result<CreatureEnvironment<Puppet>, EnvironmentError> =
         CreatureEnvironment::on_terrain(blueprint, &sensors, 3.0, settings, Variation::default(), terrain);
     let said = built.err().expect("must be refused").to_string();
