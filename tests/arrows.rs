@@ -23,7 +23,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-experiments"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
-    ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "gambol-tasks"]),
+    ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "gambol-tasks", "gambol-creatures", "envs-core"]),
     ("gambol-tests",    &[]),
 ];
 

@@ -5,6 +5,10 @@
 mod own_movement {}
 
 #[cfg(doctest)]
+#[doc = include_str!("../docs/own-creature.md")]
+mod own_creature {}
+
+#[cfg(doctest)]
 #[doc = include_str!("../docs/own-strategy.md")]
 mod own_strategy {}
 

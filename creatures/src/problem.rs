@@ -208,4 +208,18 @@ pub enum Problem {
          not say \"leg\": false"
     )]
     NoFeet { path: String, sensor: &'static str },
+    /// A sensor of another crate, of which nothing is known.
+    #[error("{path}: this program has no sensor `{name}`; the program it was made for adds it to its registry")]
+    UnknownSensor {
+        path: String,
+        /// Its name.
+        name: String,
+    },
+    /// A sensor of another crate without channels, or with one that cannot be scaled.
+    #[error("{path}: `{name}` must have channels, each with a range of two finite numbers, the smaller first")]
+    BadChannels {
+        path: String,
+        /// Its name.
+        name: String,
+    },
 }

@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::bounds::INPUT_RANGE;
-use crate::{Blueprint, BodyView, Channel, CreatureError, Sensor, check};
+use crate::{Blueprint, BodyView, Channel, CreatureError, CustomSensor, Problem, Sensor, check};
 
 /// The range the thesis scales inputs to: -3 to 3, where tanh does most of its bending.
 pub const DEFAULT_INPUT_RANGE: f32 = 3.0;
@@ -27,6 +27,8 @@ const SPEED_HEADROOM: f32 = 2.0;
 pub struct Senses {
     channels: Vec<Channel>,
     probes: Vec<Probe>,
+    /// Of other crates.
+    custom: Vec<CustomSensor>,
     input_range: f32,
 }
 
@@ -100,6 +102,13 @@ pub enum Source {
         /// s.
         period: f32,
     },
+    /// What a sensor of another crate tells. Only [`Senses::read`] can ask it.
+    Custom {
+        /// Which of these sensors.
+        sensor: usize,
+        /// Which of its channels.
+        channel: usize,
+    },
 }
 
 impl Senses {
@@ -109,7 +118,7 @@ impl Senses {
     /// # Errors
     /// [`CreatureError::InputRange`] if `input_range` is not within 0.001 to 1000, [`CreatureError::Invalid`] if a
     /// sensor's settings are out of range, a sensor is listed twice, none is listed, or feet are to be sensed that the
-    /// creature does not have.
+    /// creature does not have, or nothing is known of a [`CustomSensor`].
     pub fn new(blueprint: &Blueprint, sensors: &[Sensor], input_range: f32) -> Result<Self, CreatureError> {
         if !INPUT_RANGE.contains(input_range) {
             return Err(CreatureError::InputRange { found: input_range });
@@ -119,11 +128,29 @@ impl Senses {
         if !problems.is_empty() {
             return Err(CreatureError::Invalid(problems));
         }
-        let mut senses = Self { channels: Vec::new(), probes: Vec::new(), input_range };
-        for sensor in sensors {
-            senses.add(blueprint, sensor);
+        let mut senses = Self { channels: Vec::new(), probes: Vec::new(), custom: Vec::new(), input_range };
+        for (index, sensor) in sensors.iter().enumerate() {
+            match sensor {
+                Sensor::Custom(sensor) => problems.extend(senses.add_custom(index, sensor).err()),
+                _ => senses.add(blueprint, sensor),
+            }
         }
-        Ok(senses)
+        if problems.is_empty() { Ok(senses) } else { Err(CreatureError::Invalid(problems)) }
+    }
+
+    fn add_custom(&mut self, index: usize, custom: &CustomSensor) -> Result<(), Problem> {
+        let (path, name) = (format!("sensors[{index}]"), custom.name.clone());
+        let Some(told) = custom.told() else { return Err(Problem::UnknownSensor { path, name }) };
+        let channels = &told.channels;
+        let is_sound = |range: [f32; 2]| range.iter().all(|bound| bound.is_finite()) && range[0] < range[1];
+        if channels.is_empty() || !channels.iter().all(|channel| is_sound(channel.range)) {
+            return Err(Problem::BadChannels { path, name });
+        }
+        for (channel, Channel { name, unit, range }) in channels.iter().enumerate() {
+            self.push(name.clone(), unit, *range, Source::Custom { sensor: self.custom.len(), channel });
+        }
+        self.custom.push(custom.clone());
+        Ok(())
     }
 
     fn add(&mut self, blueprint: &Blueprint, sensor: &Sensor) {
@@ -198,6 +225,8 @@ impl Senses {
                 self.push(format!("sine of {period} s clock from landing"), "", [-1.0, 1.0], sine);
                 self.push(format!("cosine of {period} s clock from landing"), "", [-1.0, 1.0], cosine);
             }
+            // Added by `add_custom`.
+            Sensor::Custom(_) => {}
         }
     }
 
@@ -237,11 +266,11 @@ impl Senses {
     ///
     /// # Panics
     /// If `inputs` is not as long as there are channels.
-    pub fn read<B: BodyView + ?Sized>(&self, body: &B, inputs: &mut [f32]) {
+    pub fn read<B: BodyView>(&self, body: &B, inputs: &mut [f32]) {
         assert_eq!(inputs.len(), self.probes.len(), "one input for each channel");
         let range = self.input_range;
         for (input, probe) in inputs.iter_mut().zip(&self.probes) {
-            let scaled = (probe.source.read(body) - probe.middle) * probe.factor;
+            let scaled = (probe.source.read(body, &self.custom) - probe.middle) * probe.factor;
             // `clamp` keeps NaN.
             *input = scaled.clamp(-range, range);
         }
@@ -250,7 +279,7 @@ impl Senses {
 
 impl Source {
     #[inline]
-    fn read<B: BodyView + ?Sized>(self, body: &B) -> f32 {
+    fn read<B: BodyView>(self, body: &B, custom: &[CustomSensor]) -> f32 {
         match self {
             Self::TorsoRotation => body.torso_rotation(),
             Self::TorsoSpin => body.torso_spin(),
@@ -268,6 +297,9 @@ impl Source {
             Self::ClockCosine { period } => libm::cosf(clock_phase(body.time(), period)),
             Self::LandingSine { period } => libm::sinf(clock_phase(body.time_since_landing(), period)),
             Self::LandingCosine { period } => libm::cosf(clock_phase(body.time_since_landing(), period)),
+            Self::Custom { sensor, channel } => {
+                custom[sensor].told().map_or(f32::NAN, |told| (told.read)(body, channel))
+            }
         }
     }
 }

@@ -1,12 +1,14 @@
 //! What a creature can sense.
 
+use crate::CustomSensor;
 use serde::{Deserialize, Serialize};
 
 /// One kind of sense, as a creature file or a run names it.
 ///
 /// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
 /// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`,
-/// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`, `{"landing-clock": {"period": 1}}`.
+/// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`, `{"landing-clock": {"period": 1}}`,
+/// `{"custom": {"name": "whiskers"}}`.
 /// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -64,11 +66,13 @@ pub enum Sensor {
         #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
         period: f32,
     },
+    /// A sensor of another crate, which only the program that has it can read: see [`Sense`](crate::Sense).
+    Custom(CustomSensor),
 }
 
 impl Sensor {
     /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 13] = [
+    pub const NAMES: [&'static str; 14] = [
         "torso-rotation",
         "joint-angles",
         "joint-speeds",
@@ -82,6 +86,7 @@ impl Sensor {
         "foot-slip",
         "next-gap",
         "landing-clock",
+        "custom",
     ];
 
     /// The sensor's name as files write it.
@@ -100,6 +105,7 @@ impl Sensor {
             Self::FootSlip => Self::NAMES[10],
             Self::NextGap { .. } => Self::NAMES[11],
             Self::LandingClock { .. } => Self::NAMES[12],
+            Self::Custom(_) => Self::NAMES[13],
         }
     }
 
@@ -111,7 +117,7 @@ impl Sensor {
 
 #[cfg(test)]
 mod tests {
-    use super::Sensor;
+    use super::{CustomSensor, Sensor};
 
     #[test]
     fn names_are_those_of_the_files() {
@@ -129,6 +135,7 @@ mod tests {
             Sensor::FootSlip,
             Sensor::NextGap { length: 4.0 },
             Sensor::LandingClock { period: 1.0 },
+            Sensor::Custom(CustomSensor::new("whiskers")),
         ];
         for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
             assert_eq!(sensor.name(), name);

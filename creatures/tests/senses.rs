@@ -2,10 +2,13 @@
 
 mod common;
 
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::{
+    f32::consts::{FRAC_PI_2, PI},
+    sync::Arc,
+};
 
 use common::small;
-use creatures::{Actuation, Blueprint, BodyView, CreatureError, Motors, Senses, Sensor};
+use creatures::{Actuation, Blueprint, BodyView, Channel, CreatureError, CustomSensor, Motors, Sense, Senses, Sensor};
 
 /// A body that tells made-up values.
 #[derive(Default)]
@@ -294,4 +297,46 @@ fn anchors_follow_turned_parts() {
     let near = |a: [f32; 2], b: [f32; 2]| (a[0] - b[0]).abs() + (a[1] - b[1]).abs() < 1e-5;
     assert!(near(hinge.parent_anchor, [0.0, -0.25]), "{hinge:?}");
     assert!(near(hinge.child_anchor, [0.0, -0.25]), "{hinge:?}");
+}
+
+/// How far each joint is from another angle.
+struct Off {
+    by: f32,
+    range: [f32; 2],
+}
+
+impl Sense for Off {
+    fn channels(&self, blueprint: &Blueprint) -> Vec<Channel> {
+        let channel = |&hinge: &usize| Channel { name: format!("hinge {hinge}, off"), unit: "rad", range: self.range };
+        blueprint.actuated().iter().map(channel).collect()
+    }
+
+    fn read(&self, body: &dyn BodyView, channel: usize) -> f32 {
+        body.joint_angle(channel) - self.by
+    }
+}
+
+#[test]
+fn sensors_of_other_crates_are_read_by_name() {
+    let written = r#"{"custom":{"name":"off","settings":{"by":0.5}}}"#;
+    let sensor: Sensor = serde_json::from_str(written).expect("a sensor");
+    assert_eq!(serde_json::to_string(&sensor).expect("plain data"), written);
+    let Sensor::Custom(custom) = &sensor else { panic!("{sensor:?}") };
+
+    // A creature may have it, but nobody can read it yet.
+    let mut file = small();
+    file["sensors"] = serde_json::json!(["torso-rotation", sensor]);
+    Blueprint::from_json(&file.to_string()).expect("valid");
+    let sensors = |custom: CustomSensor| [Sensor::TorsoRotation, Sensor::Custom(custom)];
+    let refused = |custom| Senses::new(&blueprint(), &sensors(custom), 3.0).expect_err("refused").to_string();
+    assert!(refused(custom.clone()).contains("sensors[1]: this program has no sensor `off`"));
+    let telling = |range| custom.clone().sensing(Arc::new(Off { by: 0.5, range }), &blueprint());
+    for range in [[1.0, 1.0], [0.0, f32::INFINITY]] {
+        assert!(refused(telling(range)).contains("sensors[1]: `off` must have channels"));
+    }
+
+    let senses = senses(&sensors(telling([-1.0, 1.0])), 3.0);
+    assert_eq!(senses.channels()[2].name, "hinge 1, off");
+    let body = Body { angles: [1.0, 9.0], ..Body::default() };
+    assert_eq!(read(&senses, &body), [0.0, 1.5, 3.0]);
 }

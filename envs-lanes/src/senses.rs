@@ -88,6 +88,8 @@ impl LaneSenses {
             Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
             Source::LandingSine { period } => clocks.since_landing.map(|time| libm::sinf(clock_phase(time, period))),
             Source::LandingCosine { period } => clocks.since_landing.map(|time| libm::cosf(clock_phase(time, period))),
+            // Lanes have no view of one body that it could be asked with; not a number fails the evaluation.
+            Source::Custom { .. } => Lanes::splat(f32::NAN),
         }
     }
 }

@@ -2,11 +2,11 @@
 
 use crate::{
     Registry,
-    config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig, VARIATIONS, variation},
+    catalogue::UnknownName,
+    config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig},
     strategies::StrategyError,
     suggest,
 };
-use creatures::Terrain;
 use ne_core::digest::Digest;
 use serde_json::{Map, Value, json};
 
@@ -48,28 +48,29 @@ impl From<StrategyError> for ConfigError {
 
 /// A configuration in the making.
 #[derive(Clone, Debug)]
-pub struct Assembly {
+pub struct Assembly<'a> {
     value: Value,
+    registry: &'a Registry,
 }
 
-impl Assembly {
-    /// Starts from a complete configuration.
-    pub fn new(base: &RunConfig) -> Self {
+impl<'a> Assembly<'a> {
+    /// Starts from a complete configuration. Names are those of the registry.
+    pub fn new(base: &RunConfig, registry: &'a Registry) -> Self {
         // Serialising plain data to a value cannot fail; were it to, the missing fields would be named at the end.
-        Self { value: serde_json::to_value(base).unwrap_or_default() }
+        Self { value: serde_json::to_value(base).unwrap_or_default(), registry }
     }
 
     /// Lays fields over what is there. Objects are merged; a choice (an object whose one key names what was chosen, with
     /// its settings, such as `{"tournament": {"size": 3}}`) replaces another choice. A variation or a terrain may be named
     /// (`"light"`, `"gaps:0.3"`), and replaces what is there.
     pub fn lay_over(&mut self, mut layer: Value) {
-        spell_out(&mut layer);
+        self.spell_out(&mut layer);
         merge(&mut self.value, layer);
     }
 
     /// Puts these fields back to what they are in `base`.
     pub(super) fn keep(&mut self, base: &RunConfig, fields: &[&str]) {
-        let base = Self::new(base);
+        let base = Self::new(base, self.registry);
         for &field in fields {
             self.value[field] = base.value[field].clone();
         }
@@ -117,45 +118,45 @@ impl Assembly {
     ///
     /// # Errors
     /// If a field is unknown, missing or of the wrong type.
-    pub fn finish(self, registry: &Registry) -> Result<RunConfig, ConfigError> {
-        self.check(registry)
+    pub fn finish(self) -> Result<RunConfig, ConfigError> {
+        self.check()
     }
 
     /// As [`finish`](Self::finish), for a look in between.
-    pub(super) fn check(&self, registry: &Registry) -> Result<RunConfig, ConfigError> {
+    pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
         self.check_names()?;
         let config: RunConfig = serde_path_to_error::deserialize(&self.value).map_err(|error| {
             let field = error.path().to_string();
             ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
         })?;
-        registry.strategies.check(&config.strategy)?;
+        self.registry.strategies.check(&config.strategy)?;
         Ok(config)
     }
 
     /// Names that could not be spelled out.
     fn check_names(&self) -> Result<(), ConfigError> {
         let name = |field: &str| self.value.get(field).and_then(Value::as_str);
-        let wrong = |field: &str, message| Err(ConfigError::Field { field: field.into(), message });
-        if let Some(name) = name("variation") {
-            return wrong("variation", suggest::unknown("variation", name, &VARIATIONS));
-        }
-        match name("terrain").map(str::parse::<Terrain>) {
-            Some(Err(error)) => wrong("terrain", error.to_string()),
-            _ => Ok(()),
-        }
+        let wrong = |field: &str| {
+            let field = field.to_owned();
+            move |error: UnknownName| ConfigError::Field { field, message: error.to_string() }
+        };
+        name("variation")
+            .map_or(Ok(()), |name| self.registry.variations.find(name).map(drop))
+            .map_err(wrong("variation"))?;
+        name("terrain").map_or(Ok(()), |text| self.registry.terrains.terrain(text).map(drop)).map_err(wrong("terrain"))
     }
-}
 
-/// Puts what they stand for in the place of a variation's and a terrain's names; unknown names stay.
-fn spell_out(layer: &mut Value) {
-    let name = |field: &str| layer.get(field).and_then(Value::as_str);
-    let named = name("variation").and_then(variation);
-    let terrain = name("terrain").and_then(|name| name.parse::<Terrain>().ok());
-    if let Some(variation) = named {
-        layer["variation"] = json!(variation);
-    }
-    if let Some(terrain) = terrain {
-        layer["terrain"] = json!(terrain);
+    /// Puts what they stand for in the place of a variation's and a terrain's names; unknown names stay.
+    fn spell_out(&self, layer: &mut Value) {
+        let name = |field: &str| layer.get(field).and_then(Value::as_str);
+        let variation = name("variation").and_then(|name| self.registry.variations.find(name).ok());
+        let terrain = name("terrain").and_then(|text| self.registry.terrains.terrain(text).ok());
+        if let Some(variation) = variation {
+            layer["variation"] = json!(variation);
+        }
+        if let Some(terrain) = terrain {
+            layer["terrain"] = json!(terrain);
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use crate::{
     Registry,
+    catalogue::UnknownName,
     config::{EngineChoice, RunConfig},
     strategies::StrategyError,
     suggest,
@@ -54,6 +55,15 @@ pub enum SetupError {
     /// The physics cannot build it.
     #[error("{0}")]
     Environment(#[from] EnvironmentError),
+    /// There is no such sensor, or its settings are wrong.
+    #[error("{0}")]
+    Sensor(#[from] UnknownName),
+    /// Lanes cannot ask a sensor of another crate.
+    #[error("engine: lanes cannot ask \"{name}\", a sensor of another crate; train it with --engine rapier")]
+    SensorInLanes {
+        /// The sensor.
+        name: String,
+    },
     /// The engine of training cannot do what rapier can.
     #[error("engine: {0}; train it with --engine rapier")]
     Engine(EnvironmentError),
@@ -105,11 +115,11 @@ impl EpisodeParts<'_> {
     /// Names the field that is wrong.
     pub fn build(&self, registry: &Registry) -> Result<Episode<RapierEnvironment>, SetupError> {
         let (movement, steps, blueprint) = self.pieces(registry)?;
-        let sensors = self.sensors.unwrap_or(&self.creature.sensors);
+        let sensors = registry.sensors.telling(self.sensors(), &blueprint)?;
         let variation = self.variation.for_trials(self.trials.count);
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
-            RapierEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)?
+            RapierEnvironment::on_terrain(blueprint, &sensors, self.input_range, physics, variation, terrain)?
                 .with_actuation(self.actuation)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
@@ -120,7 +130,10 @@ impl EpisodeParts<'_> {
     /// Names the field that is wrong, or what only rapier can do.
     pub fn build_lanes(&self, registry: &Registry) -> Result<LaneEpisode, SetupError> {
         let (movement, steps, blueprint) = self.pieces(registry)?;
-        let sensors = self.sensors.unwrap_or(&self.creature.sensors);
+        let sensors = self.sensors();
+        if let Some(Sensor::Custom(custom)) = sensors.iter().find(|sensor| matches!(sensor, Sensor::Custom(_))) {
+            return Err(SetupError::SensorInLanes { name: custom.name.clone() });
+        }
         let variation = self.variation.for_trials(self.trials.count);
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
@@ -135,6 +148,10 @@ impl EpisodeParts<'_> {
         let movement = registry.movements.build(self.movement)?;
         let steps = registry.movements.steps(self.movement)?;
         Ok((movement, steps, Blueprint::new(self.creature.clone())?))
+    }
+
+    fn sensors(&self) -> &[Sensor] {
+        self.sensors.unwrap_or(&self.creature.sensors)
     }
 
     /// The same without variation, and with one trial: more would all be alike.

@@ -9,7 +9,7 @@
 //! | module | what it does |
 //! |---|---|
 //! | [`config`] | the configuration of a run, as plain data |
-//! | [`strategies`], [`defaults`], [`presets`], [`Registry`] | what a configuration can name |
+//! | [`strategies`], [`defaults`], [`presets`], [`catalogue`], [`Registry`] | what a configuration can name |
 //! | [`assembly`] | a configuration put together from parts, later ones winning |
 //! | [`episode_parts`], [`training_task`] | what a population is evaluated on |
 //! | [`stage`] | where gaits are judged: the reference world, and worlds near it |
@@ -44,6 +44,7 @@
 //! ```
 
 pub mod assembly;
+pub mod catalogue;
 pub mod champion;
 mod champion_selection;
 pub mod config;

@@ -1,10 +1,12 @@
 use crate::{
+    catalogue::{Catalogue, MakeSense},
     config::RunConfig,
     defaults::DefaultsCatalogue,
     presets::{Preset, PresetCatalogue},
     strategies::StrategyCatalogue,
 };
-use creatures::Creature;
+use creatures::{Creature, Terrain};
+use envs_rapier::Variation;
 use tasks::MovementCatalogue;
 
 /// Everything that a configuration can name and that a program can add to: what `gambol::program` is given.
@@ -38,6 +40,14 @@ pub struct Registry {
     pub presets: PresetCatalogue,
     /// What the default preset adds for each movement. Default: what there is for the built-in ones.
     pub defaults: DefaultsCatalogue,
+    /// Creatures. Default: the shipped ones.
+    pub creatures: Catalogue<Creature>,
+    /// Terrains. Default: the built-in ones.
+    pub terrains: Catalogue<Terrain>,
+    /// Variations of the world. Default: the built-in ones.
+    pub variations: Catalogue<Variation>,
+    /// Sensors beside those of the creature file's format. Default: none.
+    pub sensors: Catalogue<MakeSense>,
 }
 
 /// There is no preset of this name; the message has those there are, and the nearest.

@@ -3,15 +3,16 @@
 use crate::{
     Registry,
     assembly::{self, Assembly, ConfigError},
+    catalogue::UnknownName,
     champion::{Champion, ChannelRecord},
-    config::{EngineChoice, FrozenTopology, RunConfig, VARIATIONS, variation},
+    config::{EngineChoice, FrozenTopology, RunConfig},
     presets::Preset,
     shaping::{self, ShapingError},
     source::{self, SourceError},
     strategies::StrategyEntry,
     suggest,
 };
-use creatures::{Blueprint, Creature, CreatureError, Terrain, UnknownTerrain};
+use creatures::{Blueprint, Creature, CreatureError};
 use envs_rapier::Variation;
 use ne_core::{
     archive::ArchiveError,
@@ -49,9 +50,9 @@ pub struct Request {
     pub set: Vec<String>,
     /// The engine of training, by name.
     pub engine: Option<String>,
-    /// The variation, by name: one of [`VARIATIONS`].
+    /// The variation, by name: see [`Registry::variations`].
     pub variation: Option<String>,
-    /// The terrain, `NAME` or `NAME:DIFFICULTY`: one of [`TERRAINS`](creatures::TERRAINS).
+    /// The terrain, `NAME` or `NAME:DIFFICULTY`: see [`Registry::terrains`].
     pub terrain: Option<String>,
     /// Whether to leave out the preset's variation, so that the fitnesses of all generations can be compared.
     pub unvaried: bool,
@@ -67,9 +68,9 @@ pub enum RequestError {
     /// A name is not known; the message has the nearest one.
     #[error("{0}")]
     Unknown(String),
-    /// There is no such terrain.
+    /// There is no such terrain or variation.
     #[error(transparent)]
-    Terrain(#[from] UnknownTerrain),
+    Name(#[from] UnknownName),
     /// Something that a run needs was not said.
     #[error("{0}")]
     Missing(&'static str),
@@ -113,9 +114,9 @@ impl Request {
     pub fn resolve(&self, registry: &Registry) -> Result<RunConfig, RequestError> {
         let mut layer = self.config.as_deref().map(Layer::read).transpose()?;
         if let Some(layer) = &mut layer {
-            layer.find_creatures()?;
+            layer.find_creatures(registry)?;
         }
-        let creature = self.creature(layer.as_ref())?;
+        let creature = self.creature(layer.as_ref(), registry)?;
         let movement = self.movement(layer.as_ref(), registry)?;
         let mut base = registry.configure(self.preset(layer.as_ref(), registry)?, creature, &movement);
         let entry = self.strategy(layer.as_mut(), registry)?;
@@ -129,7 +130,7 @@ impl Request {
         if let (Some(source), None) = (&self.from, &layer) {
             base = shaping::adopt(&base, source).map_err(|error| RequestError::From(Box::new(error)))?;
         }
-        let mut assembly = Assembly::new(&base);
+        let mut assembly = Assembly::new(&base, registry);
         if let Some(Layer { path, value }) = layer {
             if value.get("variation").is_some() {
                 // What a file leaves out of its variation does not vary, whatever the preset says.
@@ -139,23 +140,23 @@ impl Request {
             // What was said on its own wins over the file.
             assembly.keep(&base, &["creature", "preset"]);
             assembly.keep_movement(&movement);
-            assembly.check(registry).map_err(|source| RequestError::File { path, source })?;
+            assembly.check().map_err(|source| RequestError::File { path, source })?;
         }
         if let Some(path) = &self.topology_from {
             let topology = FrozenTopology::of(&Champion::read(path)?);
             assembly.lay_over(json!({ "topology": topology }));
         }
         if !self.further_bodies.is_empty() {
-            let further_bodies = self.further_bodies.iter().map(|name| source::creature(name));
+            let further_bodies = self.further_bodies.iter().map(|name| source::creature(name, registry));
             assembly.lay_over(json!({ "further_bodies": further_bodies.collect::<Result<Vec<_>, _>>()? }));
         }
-        assembly.lay_over(self.choices()?);
+        assembly.lay_over(self.choices(registry)?);
         for assignment in &self.set {
             check_strategy_of(assignment, base.strategy.name(), registry)?;
-            let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check(registry));
+            let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        let config = assembly.finish(registry).map_err(|source| RequestError::Unknown(source.to_string()))?;
+        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
@@ -163,7 +164,7 @@ impl Request {
     }
 
     /// The engine, the variation and the terrain that were asked for by name.
-    fn choices(&self) -> Result<Value, RequestError> {
+    fn choices(&self, registry: &Registry) -> Result<Value, RequestError> {
         let mut choices = json!({});
         if let Some(name) = &self.engine {
             let unknown =
@@ -171,23 +172,22 @@ impl Request {
             choices["engine"] = json!(EngineChoice::find(name).ok_or_else(unknown)?);
         }
         if let Some(name) = &self.variation {
-            let unknown = || RequestError::Unknown(suggest::unknown("variation", name, &VARIATIONS));
-            choices["variation"] = json!(variation(name).ok_or_else(unknown)?);
+            choices["variation"] = json!(registry.variations.find(name)?);
         }
         if let Some(name) = &self.terrain {
-            choices["terrain"] = json!(name.parse::<Terrain>()?);
+            choices["terrain"] = json!(registry.terrains.terrain(name)?);
         }
         Ok(choices)
     }
 
-    fn creature(&self, layer: Option<&Layer>) -> Result<Creature, RequestError> {
+    fn creature(&self, layer: Option<&Layer>, registry: &Registry) -> Result<Creature, RequestError> {
         if let Some(name) = &self.creature {
-            return Ok(source::creature(name)?);
+            return Ok(source::creature(name, registry)?);
         }
         let Some((layer, value)) = layer.and_then(|layer| Some((layer, layer.value.get("creature")?))) else {
             return Err(RequestError::Missing("say which creature: a name (see: gambol creatures) or a creature file"));
         };
-        layer.creature("creature", value)
+        layer.creature("creature", value, registry)
     }
 
     fn movement(&self, layer: Option<&Layer>, registry: &Registry) -> Result<String, RequestError> {
@@ -307,12 +307,12 @@ impl Layer {
     }
 
     /// The creature that a field of this file names, or is.
-    fn creature(&self, field: &str, value: &Value) -> Result<Creature, RequestError> {
+    fn creature(&self, field: &str, value: &Value, registry: &Registry) -> Result<Creature, RequestError> {
         if let Some(name) = value.as_str() {
             let beside = self.path.parent().map(|folder| folder.join(name)).filter(|path| path.is_file());
             return match beside {
                 Some(path) => Ok(source::creature_file(&path)?),
-                None => source::creature(name).map_err(|error| self.wrong(field, error)),
+                None => source::creature(name, registry).map_err(|error| self.wrong(field, error)),
             };
         }
         let blueprint =
@@ -322,7 +322,7 @@ impl Layer {
 
     /// Puts creatures in the place of their names: of the further bodies of the run, and of the creature and the further bodies of
     /// each of its stages.
-    fn find_creatures(&mut self) -> Result<(), RequestError> {
+    fn find_creatures(&mut self, registry: &Registry) -> Result<(), RequestError> {
         let stages = self.value.get("stages").and_then(Value::as_array).map_or(0, Vec::len);
         let of_stage = |stage| {
             (format!("/stages/{stage}/changes/further_bodies"), format!("stages[{stage}].changes.further_bodies"))
@@ -330,7 +330,8 @@ impl Layer {
         let of_run = ("/further_bodies".to_owned(), "further_bodies".to_owned());
         for (place, field) in std::iter::once(of_run).chain((0..stages).map(of_stage)) {
             let Some(named) = self.value.pointer(&place).and_then(Value::as_array) else { continue };
-            let found = named.iter().enumerate().map(|(index, it)| self.creature(&format!("{field}[{index}]"), it));
+            let find = |(index, it)| self.creature(&format!("{field}[{index}]"), it, registry);
+            let found = named.iter().enumerate().map(find);
             let found = json!(found.collect::<Result<Vec<_>, _>>()?);
             if let Some(further_bodies) = self.value.pointer_mut(&place) {
                 *further_bodies = found;
@@ -339,7 +340,7 @@ impl Layer {
         for stage in 0..stages {
             let place = format!("/stages/{stage}/changes/creature");
             let Some(named) = self.value.pointer(&place) else { continue };
-            let found = json!(self.creature(&format!("stages[{stage}].changes.creature"), named)?);
+            let found = json!(self.creature(&format!("stages[{stage}].changes.creature"), named, registry)?);
             if let Some(creature) = self.value.pointer_mut(&place) {
                 *creature = found;
             }

@@ -1,6 +1,7 @@
 //! Finding a creature by its name or its file.
 
-use creatures::{Blueprint, Creature, CreatureError, UnknownCreature};
+use crate::{Registry, catalogue::UnknownName};
+use creatures::{Blueprint, Creature, CreatureError};
 use ne_core::bounded_read::{LARGEST_TEXT, read_text};
 use std::{
     io,
@@ -11,9 +12,9 @@ use std::{
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SourceError {
-    /// No shipped creature has this name.
+    /// No creature of the registry has this name.
     #[error("{0}\n(a creature of your own is given by its file, such as ./my-creature.json)")]
-    Unknown(#[from] UnknownCreature),
+    Unknown(#[from] UnknownName),
     /// The file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -32,15 +33,15 @@ pub enum SourceError {
     },
 }
 
-/// The shipped creature of this name, or the one in this file. What has a slash, a backslash or `.json` in it is a file.
+/// The creature of this name in the registry, or the one in this file. What has a slash, a backslash or `.json` in it is a file.
 ///
 /// # Errors
 /// If there is no such creature or its file is not valid.
-pub fn creature(name_or_path: &str) -> Result<Creature, SourceError> {
+pub fn creature(name_or_path: &str, registry: &Registry) -> Result<Creature, SourceError> {
     if name_or_path.contains(['/', '\\']) || name_or_path.ends_with(".json") {
         creature_file(Path::new(name_or_path))
     } else {
-        Ok(creatures::find(name_or_path)?)
+        Ok(registry.creatures.find(name_or_path)?.clone())
     }
 }
 

@@ -14,7 +14,8 @@ pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) ->
 pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
     let hint = nearest(name, known.iter().copied())
         .map_or_else(String::new, |nearest| format!("; did you mean \"{nearest}\"?"));
-    format!("there is no {kind} \"{name}\"{hint} (there are: {})", known.join(", "))
+    let known = if known.is_empty() { "none".into() } else { known.join(", ") };
+    format!("there is no {kind} \"{name}\"{hint} (there are: {known})")
 }
 
 /// Adds the nearest valid name to serde's "unknown field `x`, expected one of `a`, `b`".

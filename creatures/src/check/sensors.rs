@@ -45,7 +45,8 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             | Sensor::TorsoSpin
             | Sensor::FootContacts
             | Sensor::HeightAboveGround
-            | Sensor::FootSlip => {}
+            | Sensor::FootSlip
+            | Sensor::Custom(_) => {}
         }
     }
 }

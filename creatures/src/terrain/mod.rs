@@ -8,7 +8,7 @@ mod named;
 mod obstacles;
 
 pub use error::TerrainError;
-pub use named::{TERRAINS, TerrainEntry, UnknownTerrain};
+pub use named::{TERRAINS, TerrainEntry};
 pub use obstacles::{BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles};
 
 use crate::bounds::{Bounds, MOST_OBSTACLE_KINDS, TERRAIN_DIFFICULTY, TERRAIN_JITTER, TERRAIN_LENGTH, TERRAIN_RUN_UP};

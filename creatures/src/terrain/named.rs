@@ -1,7 +1,6 @@
 //! Terrains by name, in the default sizes.
 
-use super::{Direction, Obstacles, Terrain, TerrainError};
-use crate::names::{did_you_mean, nearest, shortened};
+use super::{Direction, Obstacles, Terrain};
 
 /// A terrain that can be asked for by name.
 #[derive(Clone, Copy, Debug)]
@@ -55,60 +54,9 @@ fn stairs(direction: Direction) -> Obstacles {
     Obstacles::Stairs { rise: None, tread: None, direction, spacing: None }
 }
 
-/// What was asked for by name is no terrain.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum UnknownTerrain {
-    /// There is none of this name.
-    #[error("there is no terrain \"{name}\"{} (there are: {})", did_you_mean(.nearest), names())]
-    Name {
-        /// What was asked for.
-        name: String,
-        /// The name most like it.
-        nearest: Option<String>,
-    },
-    /// What stands behind the colon is no difficulty.
-    #[error("terrain \"{text}\": \"{found}\" is no difficulty; write it as in gaps:0.5")]
-    Difficulty {
-        /// What was asked for.
-        text: String,
-        /// What stands behind the colon.
-        found: String,
-    },
-    /// The difficulty is out of range.
-    #[error("terrain.{0}")]
-    Range(#[from] TerrainError),
-}
-
-fn names() -> String {
-    TERRAINS.iter().map(|entry| entry.name).collect::<Vec<_>>().join(", ")
-}
-
 impl TerrainEntry {
     /// The terrain, at difficulty 0.5.
     pub fn terrain(&self) -> Terrain {
         Terrain::of((self.obstacles)())
-    }
-}
-
-impl std::str::FromStr for Terrain {
-    type Err = UnknownTerrain;
-
-    /// `NAME` or `NAME:DIFFICULTY`, such as `gaps:0.5`: one of [`TERRAINS`].
-    fn from_str(text: &str) -> Result<Self, UnknownTerrain> {
-        let (name, difficulty) = text.split_once(':').map_or((text, None), |(name, rest)| (name, Some(rest)));
-        let entry = TERRAINS.iter().find(|entry| entry.name == name).ok_or_else(|| UnknownTerrain::Name {
-            name: shortened(name),
-            nearest: nearest(name, TERRAINS.iter().map(|entry| entry.name)),
-        })?;
-        let terrain = entry.terrain();
-        let Some(found) = difficulty else { return Ok(terrain) };
-        let difficulty = found.trim().parse().map_err(|_| {
-            let [text, found] = [text, found].map(shortened);
-            UnknownTerrain::Difficulty { text, found }
-        })?;
-        let terrain = terrain.with_difficulty(difficulty);
-        terrain.validate()?;
-        // Flat ground has no difficulty; a file would only keep it for nothing.
-        Ok(if terrain.is_flat() { Self::default() } else { terrain })
     }
 }

@@ -1,5 +1,7 @@
-//! The high kick: what it is, and when it is one.
+//! The high kick: what it is, when it is one, and what a body feels of it.
 
+use creatures::{Blueprint, BodyView, Channel, Sense};
+use serde::Deserialize;
 use tasks::{
     Movement, Snapshot, Verdict,
     gait::{Findings, GaitReport, Goal, Reason, Rules, Trajectory, View},
@@ -72,5 +74,30 @@ impl Rules for CleanKick {
             Reason::other("tumbling", format!("torso: tilted by {tilt:.0}°, at most {LARGEST_TILT:.0}° allowed"))
         });
         Findings::new(low.into_iter().chain(tumbling))
+    }
+}
+
+/// The sensor: how far each joint of a leg is lifted from its start pose, as a share of `most` degrees.
+#[derive(Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub(crate) struct Lift {
+    most: f32,
+}
+
+impl Default for Lift {
+    fn default() -> Self {
+        Self { most: 90.0 }
+    }
+}
+
+impl Sense for Lift {
+    fn channels(&self, blueprint: &Blueprint) -> Vec<Channel> {
+        let part = |&hinge: &usize| &blueprint.parts()[blueprint.hinges()[hinge].child].name;
+        let channel = |hinge| Channel { name: format!("lift of {}", part(hinge)), unit: "", range: [0.0, 1.0] };
+        blueprint.actuated().iter().map(channel).collect()
+    }
+
+    fn read(&self, body: &dyn BodyView, channel: usize) -> f32 {
+        body.joint_angle(channel).to_degrees() / self.most
     }
 }

@@ -140,6 +140,60 @@ fn every_command_knows_the_strategy() {
     assert!(scores.contains("annealing"), "{scores}");
 }
 
+#[test]
+fn creatures_sensors_terrains_and_variations_are_known_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let here = folder.path();
+    for (list, name) in [("creatures", "kicker"), ("terrains", "kerbs"), ("variations", "icy"), ("creatures", "apod")] {
+        assert!(said(here, 0, &[list]).contains(name), "{list} has {name}");
+    }
+    let variations: serde_json::Value = serde_json::from_str(&said(here, 0, &["variations", "--json"])).expect("JSON");
+    let icy = variations.as_array().and_then(|rows| rows.last()).expect("a list");
+    assert_eq!((&icy["name"], icy["variation"]["mass"].as_f64()), (&"icy".into(), Some(0.0)));
+    assert!(said(here, 0, &["check", "kicker"]).contains("in   lift of fore leg: 0 to 1"));
+
+    let kicker = ["train", "kicker", "running", "--set", "movement.steps=150", "--generations", "4", "--seed", "1"];
+    let named = ["--terrain", "kerbs", "--variation", "icy", "--quiet"];
+    let kicker = [&kicker[..], &named].concat();
+    let refused = said(here, 1, &[&kicker[..], &["--out", "lanes"]].concat());
+    assert!(refused.contains("lanes cannot ask \"lift\"") && refused.contains("--engine rapier"), "{refused}");
+    let kicker = [&kicker[..], &["--engine", "rapier"]].concat();
+    said(here, 0, &[&kicker[..], &["--out", "whole"]].concat());
+    let config = fs::read_to_string(here.join("whole/config.json")).expect("a configuration");
+    let config: serde_json::Value = serde_json::from_str(&config).expect("JSON");
+    let (creature, terrain) = (&config["content"]["creature"], &config["content"]["terrain"]);
+    assert_eq!((&creature["name"], &terrain["obstacles"][0]["hurdles"]["height"]), (&"kicker".into(), &0.05.into()));
+    assert!(fs::read_to_string(here.join("whole/report.html")).expect("a report").contains("\"icy\""), "by its name");
+    assert!(said(here, 0, &["verify", "whole/champion.json"]).contains("identical"));
+    said(here, 0, &["resume", "whole", "--generations", "5", "--quiet"]);
+
+    // In a file, and in the changes of a stage.
+    let stages = serde_json::json!({ "creature": "kicker", "movement": { "name": "running", "steps": 100 },
+        "terrain": "kerbs", "variation": "icy", "engine": "rapier", "stages": [
+            { "name": "flat", "changes": { "terrain": "flat" }, "promotion": { "generations": 2 } },
+            { "name": "kerbs", "changes": { "terrain": "kerbs:0.5", "variation": "none" } },
+        ] });
+    fs::write(here.join("stages.json"), stages.to_string()).expect("a file");
+    assert!(said(here, 0, &["check", "stages.json"]).contains("a valid configuration"));
+
+    let compare = ["compare", "--strategies", "ga,cma-es", "--creatures", "kicker", "--set", "movement.steps=100"];
+    let small = ["--seeds", "1", "--evaluations", "100", "--engine", "rapier", "--out", "comparison"];
+    said(here, 0, &[&compare[..], &small].concat());
+
+    // What is wrong with a sensor is said by its name.
+    for (sensor, says) in [
+        (
+            r#"{"custom":{"name":"lfit"}}"#,
+            "sensors[0].custom.name: there is no custom sensor \"lfit\"; did you mean \"lift\"?",
+        ),
+        (r#"{"custom":{"name":"lift","settings":{"mots":3}}}"#, "sensors[0].custom.settings: unknown field `mots`"),
+    ] {
+        let wrong = format!("sensors=[{sensor}]");
+        let message = said(here, 1, &[&kicker[..], &["--set", &wrong, "--out", "wrong"]].concat());
+        assert!(message.contains(says), "{message}");
+    }
+}
+
 /// What it printed, whatever its code says of the gait.
 fn run_json(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(run(folder, arguments).stdout).expect("text")

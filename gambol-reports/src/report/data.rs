@@ -10,13 +10,7 @@ use super::{
 };
 use creatures::{Creature, Terrain};
 use envs_rapier::PhysicsSettings;
-use gambol_runs::{
-    Registry,
-    champion::Champion,
-    config::{self, RunConfig, VARIATIONS},
-    strategies::StrategyEntry,
-    trajectory::Recording,
-};
+use gambol_runs::{Registry, champion::Champion, config::RunConfig, strategies::StrategyEntry, trajectory::Recording};
 use serde::Serialize;
 use serde_json::Value;
 use tasks::Snapshot;
@@ -201,7 +195,7 @@ pub(super) fn settings(config: &RunConfig, registry: &Registry) -> Vec<Fact> {
         Fact::new("Strategy", config.strategy.name()),
         Fact::new("Engine", config.engine.name()),
         Fact::new("Trials", config.trials.count),
-        Fact::new("Variation", variation(config)),
+        Fact::new("Variation", registry.variations.name_of(&config.variation).unwrap_or("of its own")),
         Fact::new("Terrain", terrain(&config.terrain, &config.physics)),
         Fact::new("Time step", format!("{} s", config.physics.time_step)),
         Fact::new("Seed", config.seed),
@@ -229,11 +223,6 @@ pub(super) fn terrain(terrain: &Terrain, physics: &PhysicsSettings) -> String {
         true => "flat".into(),
         false => format!("{}, difficulty {}, seed {}", kinds.join(" + "), terrain.difficulty, terrain.seed),
     }
-}
-
-/// The variation by its name, if it has one.
-fn variation(config: &RunConfig) -> &'static str {
-    VARIATIONS.into_iter().find(|name| config::variation(name) == Some(config.variation)).unwrap_or("of its own")
 }
 
 /// What is settled about the net before the run.

@@ -5,14 +5,12 @@ mod origin;
 mod rungs;
 mod stage;
 mod strategy;
-mod variations;
 
 pub use engine::EngineChoice;
 pub use origin::{Origin, Transferred};
 pub use rungs::RungSettings;
 pub use stage::StageSettings;
 pub use strategy::StrategySettings;
-pub use variations::{VARIATIONS, variation};
 
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};

@@ -152,7 +152,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         let allowed = "left to the whole run; what ends a stage is its promotion";
         return Err(SettingError::new(format!("changes.{field}"), "a change", allowed).into());
     }
-    let mut assembly = Assembly::new(before);
+    let mut assembly = Assembly::new(before, registry);
     let mut creature = before.creature.clone();
     if let Some(changed) = settings.changes.get("creature") {
         creature = serde_json::from_value(changed.clone())
@@ -187,7 +187,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         assembly.lay_over(json!({ "terrain": null }));
     }
     assembly.lay_over(Value::Object(settings.changes.clone()));
-    let mut config = assembly.finish(registry)?;
+    let mut config = assembly.finish()?;
     if !settings.add_sensors.is_empty() {
         let own = config.creature.sensors.clone();
         let sensors: &mut Vec<Sensor> = config.sensors.get_or_insert(own);

@@ -57,7 +57,7 @@ pub(super) struct Gaits {
     /// The strategy [default: the preset's]
     #[arg(long, value_name = "NAME")]
     strategy: Option<String>,
-    /// How the world varies in training: none, near, pushed, light, bumpy, strong, physics [default: the preset's]
+    /// How the world varies in training: a name (see: gambol variations) [default: the preset's]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// Leave out the pieces of the default preset one by one, or put others in their place, and say what each is worth;
@@ -105,8 +105,8 @@ struct Run {
 
 impl Gaits {
     pub(super) fn run(self, registry: &Registry) -> Outcome {
-        let shipped = || creatures::shipped().iter().map(|creature| creature.name.to_owned()).collect();
-        let creatures = if self.creatures.is_empty() { shipped() } else { self.creatures.clone() };
+        let known = || registry.creatures.names().into_iter().map(str::to_owned).collect();
+        let creatures = if self.creatures.is_empty() { known() } else { self.creatures.clone() };
         if let Some(text) = &self.ablate {
             return self.ablation(&creatures, text, registry);
         }

@@ -44,7 +44,7 @@ impl Check {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let path = &self.file;
         if let Some(name) = path.to_str().filter(|name| !path.exists() && !name.contains(['/', '\\', '.'])) {
-            check_creature(path, source::creature(name)?)?;
+            check_creature(path, source::creature(name, registry)?, registry)?;
             return Ok(ExitCode::SUCCESS);
         }
         let text = read_text(path, LARGEST_DATA).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
@@ -56,9 +56,9 @@ impl Check {
             Some(CHECKPOINT_FORMAT) => {
                 return Err(format!("a checkpoint is checked by: {} resume FOLDER", program_name()).into());
             }
-            Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?)?,
+            Some(creatures::FORMAT) => check_creature(path, source::creature_file(path)?, registry)?,
             _ if !value.is_object() || value.get("parts").is_some() => {
-                check_creature(path, source::creature_file(path)?)?
+                check_creature(path, source::creature_file(path)?, registry)?
             }
             _ => check_config(path, &value, registry)?,
         }
@@ -66,9 +66,10 @@ impl Check {
     }
 }
 
-fn check_creature(path: &Path, creature: Creature) -> Result<(), Box<dyn Error>> {
+fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Result<(), Box<dyn Error>> {
     let blueprint = Blueprint::new(creature)?;
-    let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
+    let sensors = registry.sensors.telling(&blueprint.creature().sensors, &blueprint)?;
+    let senses = Senses::new(&blueprint, &sensors, DEFAULT_INPUT_RANGE)?;
     let motors = Motors::new(&blueprint);
     say!(
         "{}: a valid creature, \"{}\": {} parts, {} joints, {} inputs, {} outputs",

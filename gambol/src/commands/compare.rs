@@ -46,7 +46,7 @@ pub(crate) struct Compare {
     /// What steps the creatures of all runs in training: lanes, rapier [default: what each strategy's settings say]
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
-    /// How the worlds of all runs vary in training: none, near, pushed, light, bumpy, strong, physics [default: what
+    /// How the worlds of all runs vary in training: a name (see: gambol variations) [default: what
     /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last re-evaluation, up to 10
     /// generations old
     #[arg(long, value_name = "NAME")]

@@ -133,7 +133,7 @@ fn of_trajectory(
     with_sheet: bool,
     registry: &Registry,
 ) -> Result<Measured, Box<dyn Error>> {
-    let blueprint = Blueprint::new(source::creature(creature)?)?;
+    let blueprint = Blueprint::new(source::creature(creature, registry)?)?;
     let text = read_text(path, LARGEST_DATA).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
     let body = envs_core::body_of(&blueprint);
     let read = read_csv(&text, &body).map_err(|error| format!("{}, {error}", path.display()))?;

@@ -1,7 +1,12 @@
 use super::Outcome;
-use crate::{Registry, strategies::StrategyEntry};
+use crate::{
+    Registry,
+    catalogue::{Catalogue, Named},
+    strategies::StrategyEntry,
+};
 use clap::Args;
-use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, TERRAINS, TerrainEntry};
+use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use serde::Serialize;
 use serde_json::json;
 use std::process::ExitCode;
 
@@ -17,14 +22,18 @@ pub(crate) struct Creatures {
 }
 
 impl Creatures {
-    pub(crate) fn run(self) -> Outcome {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let mut rows = Vec::new();
-        for shipped in creatures::shipped() {
-            let blueprint = Blueprint::from_json(shipped.json)?;
-            let senses = Senses::new(&blueprint, &blueprint.creature().sensors, DEFAULT_INPUT_RANGE)?;
+        for entry in registry.creatures.entries() {
+            let blueprint = Blueprint::new(entry.value.clone())?;
+            let senses = Senses::new(
+                &blueprint,
+                &registry.sensors.telling(&entry.value.sensors, &blueprint)?,
+                DEFAULT_INPUT_RANGE,
+            )?;
             let counts =
                 [blueprint.parts().len(), blueprint.hinges().len(), senses.len(), Motors::new(&blueprint).len()];
-            rows.push((shipped.name, blueprint.creature().title.clone(), counts));
+            rows.push((&entry.name, &entry.description, counts));
         }
         if self.json {
             let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs });
@@ -113,16 +122,44 @@ pub(crate) struct Terrains {
 }
 
 impl Terrains {
-    pub(crate) fn run(self) -> Outcome {
-        if self.json {
-            let row = |entry: &TerrainEntry| json!({ "name": entry.name, "description": entry.description, "terrain": entry.terrain() });
-            say!("{}", TERRAINS.iter().map(row).collect::<serde_json::Value>())?;
-            return Ok(ExitCode::SUCCESS);
-        }
-        say!("terrains, as in --terrain NAME or --terrain NAME:DIFFICULTY; the sizes are those at difficulty 1")?;
-        for entry in TERRAINS {
-            say!("  {:<12} {}", entry.name, entry.description)?;
-        }
-        Ok(ExitCode::SUCCESS)
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        let heading =
+            "terrains, as in --terrain NAME or --terrain NAME:DIFFICULTY; the sizes are those at difficulty 1";
+        named(&registry.terrains, (!self.json).then_some(heading), "terrain")
     }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol variations
+  gambol train biped-1 running --variation strong")]
+pub(crate) struct Variations {
+    /// Print as JSON, with the fields of a configuration
+    #[arg(long)]
+    json: bool,
+}
+
+impl Variations {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        let heading = "variations of the world in training, as in --variation NAME";
+        named(&registry.variations, (!self.json).then_some(heading), "variation")
+    }
+}
+
+/// Lists a catalogue under this heading, or without one as JSON, with what names stand for in this field.
+fn named<T: Serialize>(catalogue: &Catalogue<T>, heading: Option<&str>, field: &str) -> Outcome {
+    match heading {
+        None => {
+            let row = |it: &Named<T>| json!({ "name": it.name, "description": it.description, field: it.value });
+            say!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>())?;
+        }
+        Some(heading) => {
+            say!("{heading}")?;
+            for entry in catalogue.entries() {
+                say!("  {:<12} {}", entry.name, entry.description)?;
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
 }

@@ -147,12 +147,14 @@ enum Command {
     Reproduce(reproduce::Reproduce),
     /// Measures the strategies, and how long training takes
     Bench(bench::Bench),
-    /// Lists the shipped creatures
+    /// Lists the creatures that have a name
     Creatures(list::Creatures),
     /// Lists the movements and the terms that can be added to them
     Movements(list::Movements),
     /// Lists the terrains that can be asked for by name
     Terrains(list::Terrains),
+    /// Lists the variations of the world that can be asked for by name
+    Variations(list::Variations),
     /// Lists the strategies: ways to search
     Strategies(list::Strategies),
 }
@@ -173,9 +175,10 @@ impl Command {
             Self::Merge(merge) => merge.run(),
             Self::Reproduce(reproduce) => reproduce.run(registry),
             Self::Bench(bench) => bench.run(registry),
-            Self::Creatures(creatures) => creatures.run(),
+            Self::Creatures(creatures) => creatures.run(registry),
             Self::Movements(movements) => movements.run(registry),
-            Self::Terrains(terrains) => terrains.run(),
+            Self::Terrains(terrains) => terrains.run(registry),
+            Self::Variations(variations) => variations.run(registry),
             Self::Strategies(strategies) => strategies.run(registry),
         }
     }

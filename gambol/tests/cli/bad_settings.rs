@@ -20,7 +20,7 @@ const FLAGS: &[(&[&str], &[&str])] = &[
     (&["--target", "-inf"],      &["stop.target = -inf: must be a finite number"]),
     (&["--engine", "lnaes"],     &["there is no engine \"lnaes\"; did you mean \"lanes\"? (there are: lanes, rapier)"]),
     (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, near, pushed, light, bumpy, strong, physics)"]),
-    (&["--terrain", "gasp"],     &["there is no terrain \"gasp\"; did you mean `gaps`? (there are: flat, gaps, "]),
+    (&["--terrain", "gasp"],     &["there is no terrain \"gasp\"; did you mean \"gaps\"? (there are: flat, gaps, "]),
     (&["--terrain", "gaps:2"],   &["terrain.difficulty = 2: must be from 0 to 1"]),
     (&["--terrain", "gaps:x"],   &["terrain \"gaps:x\": \"x\" is no difficulty; write it as in gaps:0.5"]),
     (&["--preset", "thesys"],    &["there is no preset \"thesys\"", "did you mean \"thesis\"?"]),
@@ -138,7 +138,7 @@ const FILES: &[(&str, &[&str])] = &[
 /// Configuration files that say creature and movement themselves.
 #[rustfmt::skip]
 const WHOLE_FILES: &[(&str, &[&str])] = &[
-    ("{\"creature\": \"bipde-1\", \"movement\": {\"name\": \"running\"}}", &["creature: there is no creature", "did you mean `biped-1`?"]),
+    ("{\"creature\": \"bipde-1\", \"movement\": {\"name\": \"running\"}}", &["creature: there is no creature", "did you mean \"biped-1\"?"]),
     ("{\"creature\": \"biped-1\", \"movement\": {\"name\": \"runing\"}}",  &["movement.name: there is no movement", "did you mean \"running\"?"]),
     ("{\"creature\": \"no/such/file.json\", \"movement\": {\"name\": \"running\"}}", &["creature: cannot read no/such/file.json"]),
     ("{\"creature\": 7, \"movement\": {\"name\": \"running\"}}",           &["creature: invalid type: integer `7`, expected an object"]),
@@ -232,7 +232,7 @@ fn a_file_is_not_blamed_for_what_a_flag_says() -> Outcome {
 
 #[test]
 fn unknown_names_are_answered_with_the_nearest() -> Outcome {
-    refused(&["bipde-1", "running"], &["there is no creature `bipde-1`", "did you mean `biped-1`?", "decapod-2"])?;
+    refused(&["bipde-1", "running"], &["there is no creature \"bipde-1\"", "did you mean \"biped-1\"?", "decapod-2"])?;
     refused(&["biped-1", "runing"], &["there is no movement \"runing\"", "did you mean \"running\"?"])?;
     refused(&["biped-1", "energy"], &["movement.steps", "since this movement has no length of its own"])?;
     refused(&["biped-1"], &["say which movement", "gambol movements"])?;

@@ -151,7 +151,7 @@ fn a_shipped_creature_is_checked_by_its_name() {
     );
     assert_says(
         &fail(gambol("check").arg("tetrapd-2")),
-        &["there is no creature `tetrapd-2`", "did you mean `tetrapod-2`?"],
+        &["there is no creature \"tetrapd-2\"", "did you mean \"tetrapod-2\"?"],
     );
     // What can only be a file is sought as one.
     for file in ["tetrapod-2.json", "./tetrapod-2"] {

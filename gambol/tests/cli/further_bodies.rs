@@ -161,8 +161,8 @@ fn a_stage_may_have_further_bodies_by_name_and_the_next_drop_them() -> Outcome {
         &wrong(second, json!("bipde-1")),
         &[
             text(&path),
-            "stages[0].changes.further_bodies[1]: there is no creature `bipde-1`",
-            "did you mean `biped-1`?",
+            "stages[0].changes.further_bodies[1]: there is no creature \"bipde-1\"",
+            "did you mean \"biped-1\"?",
         ],
     );
     assert_says(
@@ -202,7 +202,7 @@ fn flags_and_files_name_further_bodies() -> Outcome {
     assert_eq!((further_bodies.as_array().map(Vec::len), &further_bodies[0]["name"]), (Some(1), &json!("biped-1")));
     let refused =
         |further_body: &str| fail(gambol("train").args(["biped-1", "running", "--further-body", further_body]));
-    assert_says(&refused("bipde-1"), &["there is no creature `bipde-1`", "did you mean `biped-1`?"]);
+    assert_says(&refused("bipde-1"), &["there is no creature \"bipde-1\"", "did you mean \"biped-1\"?"]);
     assert_says(
         &refused("apod"),
         &["error: further_bodies[0] (\"apod\"): one net cannot move it and the creature: it has "],

@@ -1,6 +1,6 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "train",
     "resume",
     "report",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 17] = [
     "creatures",
     "movements",
     "terrains",
+    "variations",
     "strategies",
 ];
 
