@@ -6,6 +6,8 @@ mod circles;
 mod documents;
 mod engines;
 mod golden;
+mod packages;
+mod tables;
 mod thirty_lines;
 mod transfer;
 
