@@ -1,20 +1,9 @@
 //! Sensors that other crates add.
 
-use crate::{Blueprint, BodyView, Channel};
+use crate::{BodyView, Channel};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::{fmt, sync::Arc};
-
-/// What a sensor of another crate tells, and how. It knows a body as [`BodyView`] shows it, and remembers nothing.
-pub trait Sense: Send + Sync {
-    /// Its channels in a body, at least one; each with a range of two finite numbers, the smaller first. Names say what is
-    /// sensed of which part, and no two of a creature are alike.
-    fn channels(&self, blueprint: &Blueprint) -> Vec<Channel>;
-
-    /// The raw value of a channel, in the order of [`channels`](Self::channels). Equal bodies give equal bits; nothing is
-    /// allocated. Scaling and clamping are done for you.
-    fn read(&self, body: &dyn BodyView, channel: usize) -> f32;
-}
 
 /// A sensor of another crate, by its name. A file holds name and settings; the program that reads it has to know the sense.
 #[derive(Clone, Serialize, Deserialize)]
@@ -27,23 +16,38 @@ pub struct CustomSensor {
     #[serde(default, skip_serializing_if = "Map::is_empty")]
     pub settings: Map<String, Value>,
     #[serde(skip)]
-    sense: Option<Arc<dyn Sense>>,
+    told: Option<Told>,
+}
+
+/// The value of a channel.
+type Read = dyn Fn(&dyn BodyView, usize) -> f32 + Send + Sync;
+
+/// What is told of one body: the channels, and how they are read.
+#[derive(Clone)]
+pub(crate) struct Told {
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) read: Arc<Read>,
 }
 
 impl CustomSensor {
     /// A sensor that tells nothing yet.
     pub fn new(name: &str) -> Self {
-        Self { name: name.into(), settings: Map::new(), sense: None }
+        Self { name: name.into(), settings: Map::new(), told: None }
     }
 
-    /// The same sensor, which tells this. [`Senses::new`](crate::Senses::new) refuses one that tells nothing.
+    /// The same sensor, which tells these channels of a body; see [`sensing`](Self::sensing).
+    /// [`Senses::new`](crate::Senses::new) refuses one that tells nothing.
     #[must_use]
-    pub fn telling(self, sense: Arc<dyn Sense>) -> Self {
-        Self { sense: Some(sense), ..self }
+    pub fn telling(
+        self,
+        channels: Vec<Channel>,
+        read: impl Fn(&dyn BodyView, usize) -> f32 + Send + Sync + 'static,
+    ) -> Self {
+        Self { told: Some(Told { channels, read: Arc::new(read) }), ..self }
     }
 
-    pub(crate) fn sense(&self) -> Option<&Arc<dyn Sense>> {
-        self.sense.as_ref()
+    pub(crate) fn told(&self) -> Option<&Told> {
+        self.told.as_ref()
     }
 }
 

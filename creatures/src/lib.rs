@@ -68,6 +68,7 @@ mod parse;
 mod problem;
 #[cfg(feature = "schema")]
 mod schema;
+mod sense;
 mod senses;
 mod sensor;
 mod shape;
@@ -81,7 +82,7 @@ pub use bounds::Bounds;
 pub use channel::Channel;
 pub use colour::Colour;
 pub use creature::{Creature, Joint, Motor, Part};
-pub use custom::{CustomSensor, Sense};
+pub use custom::CustomSensor;
 pub use error::{CreatureError, UnknownName};
 pub use format::{FORMAT, VERSION};
 pub use landings::Landings;
@@ -90,6 +91,7 @@ pub use motors::{Actuation, Drive, Motors};
 pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::json_schema;
+pub use sense::Sense;
 pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase};
 pub use sensor::Sensor;
 pub use shape::Shape;

@@ -131,23 +131,23 @@ impl Senses {
         let mut senses = Self { channels: Vec::new(), probes: Vec::new(), custom: Vec::new(), input_range };
         for (index, sensor) in sensors.iter().enumerate() {
             match sensor {
-                Sensor::Custom(sensor) => problems.extend(senses.add_custom(blueprint, index, sensor).err()),
+                Sensor::Custom(sensor) => problems.extend(senses.add_custom(index, sensor).err()),
                 _ => senses.add(blueprint, sensor),
             }
         }
         if problems.is_empty() { Ok(senses) } else { Err(CreatureError::Invalid(problems)) }
     }
 
-    fn add_custom(&mut self, blueprint: &Blueprint, index: usize, custom: &CustomSensor) -> Result<(), Problem> {
+    fn add_custom(&mut self, index: usize, custom: &CustomSensor) -> Result<(), Problem> {
         let (path, name) = (format!("sensors[{index}]"), custom.name.clone());
-        let Some(sense) = custom.sense() else { return Err(Problem::UnknownSensor { path, name }) };
-        let channels = sense.channels(blueprint);
+        let Some(told) = custom.told() else { return Err(Problem::UnknownSensor { path, name }) };
+        let channels = &told.channels;
         let is_sound = |range: [f32; 2]| range.iter().all(|bound| bound.is_finite()) && range[0] < range[1];
         if channels.is_empty() || !channels.iter().all(|channel| is_sound(channel.range)) {
             return Err(Problem::BadChannels { path, name });
         }
-        for (channel, Channel { name, unit, range }) in channels.into_iter().enumerate() {
-            self.push(name, unit, range, Source::Custom { sensor: self.custom.len(), channel });
+        for (channel, Channel { name, unit, range }) in channels.iter().enumerate() {
+            self.push(name.clone(), unit, *range, Source::Custom { sensor: self.custom.len(), channel });
         }
         self.custom.push(custom.clone());
         Ok(())
@@ -298,7 +298,7 @@ impl Source {
             Self::LandingSine { period } => libm::sinf(clock_phase(body.time_since_landing(), period)),
             Self::LandingCosine { period } => libm::cosf(clock_phase(body.time_since_landing(), period)),
             Self::Custom { sensor, channel } => {
-                custom[sensor].sense().map_or(f32::NAN, |sense| sense.read(body, channel))
+                custom[sensor].told().map_or(f32::NAN, |told| (told.read)(body, channel))
             }
         }
     }

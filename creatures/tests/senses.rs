@@ -330,7 +330,7 @@ fn sensors_of_other_crates_are_read_by_name() {
     let sensors = |custom: CustomSensor| [Sensor::TorsoRotation, Sensor::Custom(custom)];
     let refused = |custom| Senses::new(&blueprint(), &sensors(custom), 3.0).expect_err("refused").to_string();
     assert!(refused(custom.clone()).contains("sensors[1]: this program has no sensor `off`"));
-    let telling = |range| custom.clone().telling(Arc::new(Off { by: 0.5, range }));
+    let telling = |range| custom.clone().sensing(Arc::new(Off { by: 0.5, range }), &blueprint());
     for range in [[1.0, 1.0], [0.0, f32::INFINITY]] {
         assert!(refused(telling(range)).contains("sensors[1]: `off` must have channels"));
     }

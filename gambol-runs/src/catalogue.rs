@@ -165,18 +165,18 @@ impl Catalogue<MakeSense> {
         self.add(name, description, MakeSense(Arc::new(make)))
     }
 
-    /// These sensors, of which those of other crates tell what they are named for.
+    /// These sensors, of which those of other crates tell of this body what they are named for.
     ///
     /// # Errors
     /// If a name or a setting is not known. The message says which sensor.
-    pub fn telling(&self, sensors: &[Sensor]) -> Result<Vec<Sensor>, UnknownName> {
+    pub fn telling(&self, sensors: &[Sensor], blueprint: &Blueprint) -> Result<Vec<Sensor>, UnknownName> {
         let tell = |(index, sensor): (usize, &Sensor)| {
             let Sensor::Custom(custom) = sensor else { return Ok(sensor.clone()) };
             let place = format!("sensors[{index}].custom");
             let make = self.find(&custom.name).map_err(|error| UnknownName(format!("{place}.name: {error}")))?;
             let sense = (make.0)(&custom.settings)
                 .map_err(|error| UnknownName(format!("{place}.settings: {}", suggest::explain(&error.to_string()))))?;
-            Ok(Sensor::Custom(custom.clone().telling(sense)))
+            Ok(Sensor::Custom(custom.clone().sensing(sense, blueprint)))
         };
         sensors.iter().enumerate().map(tell).collect()
     }

@@ -115,7 +115,7 @@ impl EpisodeParts<'_> {
     /// Names the field that is wrong.
     pub fn build(&self, registry: &Registry) -> Result<Episode<RapierEnvironment>, SetupError> {
         let (movement, steps, blueprint) = self.pieces(registry)?;
-        let sensors = registry.sensors.telling(self.sensors())?;
+        let sensors = registry.sensors.telling(self.sensors(), &blueprint)?;
         let variation = self.variation.for_trials(self.trials.count);
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =

@@ -67,8 +67,8 @@ impl Check {
 }
 
 fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Result<(), Box<dyn Error>> {
-    let sensors = registry.sensors.telling(&creature.sensors)?;
     let blueprint = Blueprint::new(creature)?;
+    let sensors = registry.sensors.telling(&blueprint.creature().sensors, &blueprint)?;
     let senses = Senses::new(&blueprint, &sensors, DEFAULT_INPUT_RANGE)?;
     let motors = Motors::new(&blueprint);
     say!(

@@ -26,8 +26,11 @@ impl Creatures {
         let mut rows = Vec::new();
         for entry in registry.creatures.entries() {
             let blueprint = Blueprint::new(entry.value.clone())?;
-            let senses =
-                Senses::new(&blueprint, &registry.sensors.telling(&entry.value.sensors)?, DEFAULT_INPUT_RANGE)?;
+            let senses = Senses::new(
+                &blueprint,
+                &registry.sensors.telling(&entry.value.sensors, &blueprint)?,
+                DEFAULT_INPUT_RANGE,
+            )?;
             let counts =
                 [blueprint.parts().len(), blueprint.hinges().len(), senses.len(), Motors::new(&blueprint).len()];
             rows.push((&entry.name, &entry.description, counts));
