@@ -2,15 +2,11 @@ use super::{ConventionalNe, ConventionalNeSettings};
 use crate::{Setting, StateError, WeightVector, state_error::generation};
 use ne_core::Fitness;
 use ne_net::Topology;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// A [`ConventionalNe`] as a checkpoint has it: the topology once, and no memory that is only kept for reuse.
-#[derive(Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    rename = "ConventionalNe",
-    bound(serialize = "S: Setting, C: Setting, M: Setting", deserialize = "S: Setting, C: Setting, M: Setting")
-)]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "ConventionalNe", bound = "S: Setting, C: Setting, M: Setting")]
 pub(super) struct State<S, C, M> {
     settings: ConventionalNeSettings<S, C, M>,
     topology: Topology,
@@ -18,7 +14,7 @@ pub(super) struct State<S, C, M> {
     stagnation: u64,
     distinct_parents: usize,
     /// The first generation, if it is not drawn; empty after it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     start: Vec<Genes>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
@@ -26,40 +22,78 @@ pub(super) struct State<S, C, M> {
     asked: Vec<Genes>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parent {
     fitness: Option<Fitness>,
     genes: Genes,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Genes {
     mutation_deviation: f32,
     weights: Vec<f32>,
 }
 
-impl From<&WeightVector> for Genes {
-    fn from(genome: &WeightVector) -> Self {
-        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights().to_vec() }
+/// The same [`State`], borrowed: writing a large population copies none of it.
+#[derive(Serialize)]
+#[serde(rename = "ConventionalNe", bound = "S: Setting, C: Setting, M: Setting")]
+struct BorrowedState<'a, S, C, M> {
+    settings: &'a ConventionalNeSettings<S, C, M>,
+    topology: &'a Topology,
+    best: Option<Fitness>,
+    stagnation: u64,
+    distinct_parents: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty", serialize_with = "genes")]
+    start: &'a [WeightVector],
+    parents: Parents<'a>,
+    #[serde(serialize_with = "genes")]
+    asked: &'a [WeightVector],
+}
+
+struct Parents<'a> {
+    genomes: &'a [WeightVector],
+    scores: &'a [Option<Fitness>],
+}
+
+#[derive(Serialize)]
+struct BorrowedParent<'a> {
+    fitness: Option<Fitness>,
+    genes: BorrowedGenes<'a>,
+}
+
+#[derive(Serialize)]
+struct BorrowedGenes<'a> {
+    mutation_deviation: f32,
+    weights: &'a [f32],
+}
+
+impl<'a> From<&'a WeightVector> for BorrowedGenes<'a> {
+    fn from(genome: &'a WeightVector) -> Self {
+        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights() }
     }
 }
 
-impl<S, C, M> From<ConventionalNe<S, C, M>> for State<S, C, M> {
-    fn from(strategy: ConventionalNe<S, C, M>) -> Self {
-        let parents = strategy.parents.iter().zip(&strategy.scores);
-        let asked: &[_] = if strategy.asked { &strategy.population } else { &[] };
-        Self {
-            parents: parents.map(|(parent, &fitness)| Parent { fitness, genes: parent.into() }).collect(),
-            asked: asked.iter().map(Genes::from).collect(),
-            start: strategy.start.iter().map(Genes::from).collect(),
-            settings: strategy.settings,
-            topology: strategy.topology,
-            best: strategy.best,
-            stagnation: strategy.stagnation,
-            distinct_parents: strategy.distinct_parents,
-        }
+fn genes<R: Serializer>(genomes: &[WeightVector], serializer: R) -> Result<R::Ok, R::Error> {
+    serializer.collect_seq(genomes.iter().map(BorrowedGenes::from))
+}
+
+impl Serialize for Parents<'_> {
+    fn serialize<R: Serializer>(&self, serializer: R) -> Result<R::Ok, R::Error> {
+        let parents = self.genomes.iter().zip(self.scores);
+        serializer.collect_seq(parents.map(|(parent, &fitness)| BorrowedParent { fitness, genes: parent.into() }))
+    }
+}
+
+impl<S: Setting, C: Setting, M: Setting> Serialize for ConventionalNe<S, C, M> {
+    fn serialize<R: Serializer>(&self, serializer: R) -> Result<R::Ok, R::Error> {
+        let Self { settings, topology, best, stagnation, distinct_parents, start, .. } = self;
+        let (best, stagnation, distinct_parents) = (*best, *stagnation, *distinct_parents);
+        let parents = Parents { genomes: &self.parents, scores: &self.scores };
+        let asked = if self.asked { &self.population[..] } else { &[] };
+        let state = BorrowedState { settings, topology, best, stagnation, distinct_parents, start, parents, asked };
+        state.serialize(serializer)
     }
 }
 
