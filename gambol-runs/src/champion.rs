@@ -22,7 +22,7 @@ use tasks::{Episode, MovementSpec, Trials};
 pub const CHAMPION_FORMAT: &str = "gambol champion";
 
 /// The version of the champion file this Gambol writes and reads.
-pub const CHAMPION_VERSION: u32 = 1;
+pub const CHAMPION_VERSION: u32 = 2;
 
 /// A saved champion. A game needs `creature`, `inputs`, `outputs`, `network` and the settings of the physics; the rest
 /// is for repeating and proving it.
@@ -225,9 +225,13 @@ impl Champion {
     /// Builds the task the champion was evaluated on.
     ///
     /// # Errors
-    /// If a field is out of range or the movement is unknown.
+    /// If a field is out of range, the movement is unknown, or inputs and outputs are not those of the body.
     pub fn episode(&self, registry: &Registry) -> Result<Episode<RapierEnvironment>, SetupError> {
-        self.episode_parts().build(registry)
+        let episode = self.episode_parts().build(registry)?;
+        let environment = episode.environment();
+        check_channels("inputs", &self.inputs, environment.senses().channels())?;
+        check_channels("outputs", &self.outputs, environment.motors().channels())?;
+        Ok(episode)
     }
 
     /// Replays the champion and compares it with what the file says.
@@ -240,6 +244,28 @@ impl Champion {
         let diverges_at = self.trajectory.first_difference(&trajectory);
         Ok(Verification { evaluation, recorded: self.fitness, diverges_at })
     }
+}
+
+/// Checks that what a file says of inputs or outputs is what the body has: a game goes by it.
+fn check_channels(field: &str, said: &[ChannelRecord], body: &[Channel]) -> Result<(), SetupError> {
+    let wrong = |field: String, found: String, expected: String| Err(SetupError::Channel { field, found, expected });
+    if said.len() != body.len() {
+        return wrong(field.into(), format!("{} of them", said.len()), format!("{}", body.len()));
+    }
+    for (index, (said, body)) in said.iter().zip(body).enumerate() {
+        let at = |name: &str| format!("{field}[{index}].{name}");
+        let body = ChannelRecord::from(body);
+        if said.name != body.name {
+            return wrong(at("name"), format!("\"{}\"", said.name), format!("\"{}\"", body.name));
+        }
+        if said.unit != body.unit {
+            return wrong(at("unit"), format!("\"{}\"", said.unit), format!("\"{}\"", body.unit));
+        }
+        if said.range != body.range {
+            return wrong(at("range"), format!("{:?}", said.range), format!("{:?}", body.range));
+        }
+    }
+    Ok(())
 }
 
 /// What a replay of a champion showed.

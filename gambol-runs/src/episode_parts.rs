@@ -43,6 +43,16 @@ pub enum SetupError {
     /// Two bodies cannot have one net.
     #[error("one net cannot move it and the creature: {0}")]
     Channels(String),
+    /// What a champion file says of an input or output is not what the body has.
+    #[error("{field}: {found}, where the creature with these sensors and motors has {expected}")]
+    Channel {
+        /// Which.
+        field: String,
+        /// What the file says.
+        found: String,
+        /// What the body has.
+        expected: String,
+    },
     /// A topology is given to a strategy that searches for one.
     #[error("topology: {strategy} finds its own, and cannot keep one; choose another strategy for its weights")]
     Evolving {

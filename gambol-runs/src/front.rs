@@ -17,7 +17,7 @@ use std::path::Path;
 pub const FRONT_FORMAT: &str = "gambol front";
 
 /// The version of the front file this Gambol writes and reads.
-pub const FRONT_VERSION: u32 = 1;
+pub const FRONT_VERSION: u32 = 2;
 
 /// What a strategy that searches for several objectives had found by its last checkpoint: no individual in it is better
 /// than another in one objective without being worse in another.

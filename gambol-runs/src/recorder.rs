@@ -15,7 +15,10 @@ use ne_core::{
     promotion::Decision,
 };
 use ne_net::Network;
-use std::time::Instant;
+use std::{cmp::Reverse, time::Instant};
+
+/// So many individuals of a population are in the gallery at most: a report shows fewer, and a line is made in memory.
+pub(crate) const GALLERY_MEMBERS: usize = 1000;
 
 /// The observer that fills a run folder.
 ///
@@ -75,10 +78,11 @@ impl<'a> Recorder<'a> {
         Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), written: None, called })
     }
 
-    /// Brings everything to the disk: lines first, then champion and front, then checkpoint.
+    /// The last save: brings everything to the disk, lines first, then champion and front, then the checkpoint, which says
+    /// that it is the last.
     ///
     /// `champion`: what the champion file is to have, which may be one that the checkpoint does not know of.
-    pub(crate) fn save<S: Strategy>(
+    pub(crate) fn finish<S: Strategy>(
         &mut self,
         evolution: &Evolution<S>,
         champion: Option<&ne_core::Champion<S::Genome>>,
@@ -90,7 +94,7 @@ impl<'a> Recorder<'a> {
         self.sync()?;
         self.write_champion(evolution.strategy().name(), champion)?;
         self.write_front(evolution.strategy(), evolution.progress().generations)?;
-        Ok(evolution.write_checkpoint(&self.folder.checkpoint())?)
+        Ok(evolution.write_last_checkpoint(&self.folder.checkpoint())?)
     }
 
     /// Whether there is a champion, and its file is up to date.
@@ -150,7 +154,8 @@ impl<'a> Recorder<'a> {
                 fitness: evaluation.fitness(),
                 network: genome.express().into(),
             };
-            let members = event.genomes.iter().zip(event.evaluations).map(member).collect();
+            let kept = spread_by_rank(event.evaluations).into_iter();
+            let members = kept.map(|index| member((&event.genomes[index], &event.evaluations[index]))).collect();
             self.keep(generation, GalleryKind::Population, members)?;
         }
         let seconds = self.last.elapsed().as_secs_f64();
@@ -167,6 +172,18 @@ impl<'a> Recorder<'a> {
         }
         Ok(())
     }
+}
+
+/// The indices of those who are kept of a population: all of one that is not too large, else from the best to the worst, evenly.
+fn spread_by_rank(evaluations: &[Evaluation]) -> Vec<usize> {
+    let mut indices: Vec<usize> = (0..evaluations.len()).collect();
+    if evaluations.len() > GALLERY_MEMBERS {
+        indices.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
+        let last = evaluations.len() - 1;
+        indices = (0..GALLERY_MEMBERS).map(|place| indices[place * last / (GALLERY_MEMBERS - 1)]).collect();
+        indices.sort_unstable();
+    }
+    indices
 }
 
 impl<S: Strategy> Observer<S> for &mut Recorder<'_>

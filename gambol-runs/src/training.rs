@@ -9,7 +9,7 @@ use crate::{
     recorder::{EarlierLines, Recorder},
     run_folder::{FolderError, RunFolder},
     setup::Setup,
-    strategies::AnyStrategy,
+    strategies::{AnyGenome, AnyStrategy},
 };
 use ne_core::{
     Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
@@ -137,9 +137,12 @@ pub(crate) fn train_stage_run(
     options: TrainOptions<'_>,
 ) -> Result<Outcome, TrainError> {
     let evaluator = Arc::new(Parallel::new(options.threads)?);
-    let (folder, _lock) = RunFolder::create(folder, config)?;
-    let earlier = EarlierLines::check(&folder, config, 0)?;
+    let (folder, _lock) = RunFolder::create(folder)?;
     let evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
+    // The configuration comes last: what is a run can be resumed, wherever it was killed.
+    evolution.write_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?;
+    folder.write_config(config)?;
+    let earlier = EarlierLines::check(&folder, config, 0)?;
     drive(evolution, config, setup, folder, earlier, evaluator, options)
 }
 
@@ -214,9 +217,13 @@ fn resume_checked(
     {
         return Err(foreign("the inputs and outputs of its champion").into());
     }
+    if let Some(champion) = &checkpoint.champion {
+        check_repeats(champion, &setup, &folder)?;
+    }
     let best = checkpoint.champion.as_ref().map(ne_core::Champion::standing);
     let is_over = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO);
-    if let Some(reason) = is_over.filter(|_| promotion.is_none()) {
+    // One that was killed before its last save still has that to come.
+    if let Some(reason) = is_over.filter(|_| promotion.is_none() && checkpoint.last) {
         return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
     }
     let earlier = EarlierLines::check(&folder, &config, checkpoint.progress.generations)?;
@@ -226,6 +233,26 @@ fn resume_checked(
     }
     let evolution = with_rules(Evolution::resume(checkpoint, now.unwrap_or(config.stop)), promotion);
     drive(evolution, &config, &setup, folder, earlier, evaluator, options)
+}
+
+/// Checks that the champion of a checkpoint is worth what it says.
+fn check_repeats(
+    champion: &ne_core::Champion<AnyGenome>,
+    setup: &Setup,
+    folder: &RunFolder,
+) -> Result<(), FolderError> {
+    let evaluation = match &setup.reference {
+        Some(reference) => reference.replay(&champion.genome.express(), champion.seed).1,
+        None => setup.task.evaluate(&mut champion.genome.express(), champion.seed),
+    };
+    if evaluation.fitness() == Some(champion.fitness) {
+        return Ok(());
+    }
+    let found = match evaluation.outcome {
+        Ok(fitness) => fitness.to_string(),
+        Err(failure) => format!("no fitness ({failure})"),
+    };
+    Err(FolderError::Unrepeatable { path: folder.checkpoint(), recorded: champion.fitness, found })
 }
 
 fn drive(
@@ -245,12 +272,7 @@ fn drive(
             ReferenceSelection::new(reference, evaluator.clone()),
         );
     }
-    let generations = evolution.progress().generations;
     let mut recorder = Recorder::new(&folder, config, setup, earlier, options.on_generation)?;
-    if generations == 0 {
-        // So that a run killed in its first generations can be resumed too.
-        recorder.save(&evolution, None)?;
-    }
     let ended = {
         let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(&mut recorder)];
         // The champion selection evaluates its candidates without rungs: all of them are promising.
@@ -262,7 +284,7 @@ fn drive(
     // Between two re-evaluations the champion file has the one that would be champion now. The checkpoint does not know of it,
     // so that the run goes on as if it had not been asked for.
     let champion = evolution.champion_if_re_evaluated().map_err(broke_off)?;
-    recorder.save(&evolution, champion.as_ref())?;
+    recorder.finish(&evolution, champion.as_ref())?;
     let champion = match recorder.has_champion() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
         false => None,

@@ -10,14 +10,19 @@
 //! temporary file beside it, flushed to the disk and renamed: whatever happens meanwhile, the old or the new file is
 //! there, whole.
 
+pub use crate::whole_file::{check_replaceable, is_temporary, make_folder, write_whole, write_whole_with};
 use crate::{
     bounded_read::{self, LARGEST_DATA},
-    digest::Digest,
+    digest::JsonDigest,
 };
-use serde::{Deserialize, Serialize, de::DeserializeOwned};
+use serde::{
+    Deserialize, Deserializer, Serialize,
+    de::{DeserializeOwned, IgnoredAny, MapAccess, SeqAccess, Visitor},
+};
 use serde_json::Value;
 use std::{
-    io::{self, Write},
+    fmt,
+    io::{self, BufReader, BufWriter, Read, Seek, SeekFrom, Write},
     path::{Path, PathBuf},
 };
 
@@ -114,7 +119,10 @@ struct Envelope<C> {
     content: C,
 }
 
-/// Writes `content` to `path`, whole or not at all.
+/// What stands in the place of the digest until it is known.
+const NO_DIGEST: &str = "................";
+
+/// Writes `content` to `path`, whole or not at all. The memory it takes does not grow with the content.
 ///
 /// # Errors
 /// [`ArchiveError::Write`] if the folder does not exist, is not writable, or the disk is full.
@@ -125,18 +133,29 @@ pub fn write(
     content: &impl Serialize,
     layout: Layout,
 ) -> Result<(), ArchiveError> {
-    // Through text, because a reader will see the numbers as text has them: an f32 as its shortest decimal.
-    let failed = |source: serde_json::Error| ArchiveError::Write { path: path.into(), source: source.into() };
-    let content: Value = serde_json::from_str(&serde_json::to_string(content).map_err(failed)?).map_err(failed)?;
-    let digest = Digest::of_json(&content).to_string();
-    let envelope = Envelope { format: format.into(), version, digest, content };
-    let mut text = match layout {
-        Layout::Compact => serde_json::to_string(&envelope),
-        Layout::Pretty => serde_json::to_string_pretty(&envelope),
-    }
-    .map_err(failed)?;
-    text.push('\n');
-    write_whole(path, text.as_bytes()).map_err(|source| ArchiveError::Write { path: path.into(), source })
+    let envelope = Envelope { format: format.into(), version, digest: NO_DIGEST.into(), content };
+    write_whole_with(path, |file| {
+        let mut text = BufWriter::new(&mut *file);
+        match layout {
+            Layout::Compact => serde_json::to_writer(&mut text, &envelope),
+            Layout::Pretty => serde_json::to_writer_pretty(&mut text, &envelope),
+        }?;
+        text.write_all(b"\n")?;
+        text.flush()?;
+        drop(text);
+        // The digest is that of what a reader will see: an f32 as its shortest decimal.
+        file.rewind()?;
+        let header = read_header(&mut serde_json::Deserializer::from_reader(BufReader::new(&mut *file)))?;
+        let mut beginning = [0; 256];
+        file.rewind()?;
+        let length = file.read(&mut beginning)?;
+        let place = beginning[..length].windows(NO_DIGEST.len()).position(|bytes| bytes == NO_DIGEST.as_bytes());
+        let missing = || io::Error::other("the name of a format is too long");
+        let (place, digest) = place.zip(header.found).ok_or_else(missing)?;
+        file.seek(SeekFrom::Start(place as u64))?;
+        file.write_all(digest.as_bytes())
+    })
+    .map_err(|source| ArchiveError::Write { path: path.into(), source })
 }
 
 /// Reads the content of the file at `path`.
@@ -144,12 +163,11 @@ pub fn write(
 /// # Errors
 /// Any variant but `Write`; see [`ArchiveError`].
 pub fn read<C: DeserializeOwned>(path: &Path, format: &str, version: u32) -> Result<C, ArchiveError> {
-    let (value, digests) = read_unverified(path, format, version)?;
-    let Digests { expected, found } = digests;
-    if expected != found {
-        return Err(ArchiveError::Damaged { path: path.into(), expected, found });
-    }
-    content(path, value)
+    let (content, digests) = read_content(path, format, version)?;
+    content.and_then(|content| match digests.expected == digests.found {
+        true => Ok(content),
+        false => Err(digests.damaged(path)),
+    })
 }
 
 /// The digest a file carries and the one its content has.
@@ -161,30 +179,89 @@ pub struct Digests {
     pub found: String,
 }
 
+impl Digests {
+    fn damaged(self, path: &Path) -> ArchiveError {
+        ArchiveError::Damaged { path: path.into(), expected: self.expected, found: self.found }
+    }
+}
+
 /// Reads a file whose content may have been changed by hand, for tools that want to look at it all the same.
 ///
 /// # Errors
 /// As [`read`], without `Damaged`; `Content` only if a field around the content is missing or wrong.
 pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value, Digests), ArchiveError> {
+    let (content, digests) = read_content(path, format, version)?;
+    Ok((content?, digests))
+}
+
+/// The content, or what is wrong with it, and the digests; an error if there is something wrong around it.
+fn read_content<C: DeserializeOwned>(
+    path: &Path,
+    format: &str,
+    version: u32,
+) -> Result<(Result<C, ArchiveError>, Digests), ArchiveError> {
     // As bytes: should they not be UTF-8, the parser says where.
     let bytes =
         bounded_read::read(path, LARGEST_DATA).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
-    let value: Value = serde_json::from_slice(&bytes).map_err(|error| malformed(path, &error))?;
-    let header = |field: &str| value.get(field);
-    let found_format = header("format").and_then(Value::as_str).unwrap_or("unknown").to_owned();
-    if found_format != format {
-        return Err(ArchiveError::Format { path: path.into(), found: found_format, expected: format.into() });
+    let mut reader = serde_json::Deserializer::from_slice(&bytes);
+    let header = read_header(&mut reader).and_then(|header| reader.end().map(|()| header));
+    let header = header.map_err(|error| malformed(path, &error))?;
+    if header.format.as_str() != Some(format) {
+        let found = header.format.as_str().unwrap_or("unknown").to_owned();
+        return Err(ArchiveError::Format { path: path.into(), found, expected: format.into() });
     }
     // The version comes before the rest: a future version may look quite different.
-    if let Some(found) = header("version").and_then(Value::as_u64)
-        && found != u64::from(version)
-    {
+    if let Some(found) = header.version.as_u64().filter(|&found| found != u64::from(version)) {
         let found = u32::try_from(found).unwrap_or(u32::MAX);
         return Err(ArchiveError::Version { path: path.into(), found, supported: version });
     }
-    let envelope: Envelope<Value> = content(path, value)?;
-    let found = Digest::of_json(&envelope.content).to_string();
-    Ok((envelope.content, Digests { expected: envelope.digest, found }))
+    let envelope: Envelope<IgnoredAny> = parsed(path, &bytes)?;
+    let digests = Digests { expected: envelope.digest, found: header.found.unwrap_or_default() };
+    if digests.expected != digests.found {
+        // What was changed is more telling than what it was changed to.
+        let content = parsed::<Envelope<C>>(path, &bytes).map(|envelope| envelope.content);
+        return Ok((content.map_err(|_| digests.clone().damaged(path)), digests));
+    }
+    Ok((parsed::<Envelope<C>>(path, &bytes).map(|envelope| envelope.content), digests))
+}
+
+/// What can be known of a file before its content is understood.
+#[derive(Default)]
+struct Header {
+    format: Value,
+    version: Value,
+    /// The digest that the content has.
+    found: Option<String>,
+}
+
+fn read_header<'de>(reader: impl Deserializer<'de, Error = serde_json::Error>) -> Result<Header, serde_json::Error> {
+    struct Fields;
+    impl<'de> Visitor<'de> for Fields {
+        type Value = Header;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("an object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut fields: A) -> Result<Header, A::Error> {
+            let mut header = Header::default();
+            while let Some(name) = fields.next_key::<String>()? {
+                match name.as_str() {
+                    "format" => header.format = fields.next_value()?,
+                    "version" => header.version = fields.next_value()?,
+                    "content" => header.found = Some(fields.next_value_seed(JsonDigest)?.to_string()),
+                    _ => drop(fields.next_value::<IgnoredAny>()?),
+                }
+            }
+            Ok(header)
+        }
+
+        fn visit_seq<A: SeqAccess<'de>>(self, mut items: A) -> Result<Header, A::Error> {
+            while items.next_element::<IgnoredAny>()?.is_some() {}
+            Ok(Header::default())
+        }
+    }
+    reader.deserialize_any(Fields)
 }
 
 /// Turns the content of the file at `path` into its type.
@@ -194,14 +271,17 @@ pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value
 pub fn content<C: DeserializeOwned>(path: &Path, content: Value) -> Result<C, ArchiveError> {
     // Through text once more: a `Value` holds numbers as f64, and rounding twice, to f64 and then to f32, is not always
     // rounding once (7.038531e-26 is the one f32 whose shortest decimal tells the difference).
-    let text = content.to_string();
-    let mut reader = serde_json::Deserializer::from_str(&text);
+    parsed(path, content.to_string().as_bytes())
+}
+
+fn parsed<T: DeserializeOwned>(path: &Path, text: &[u8]) -> Result<T, ArchiveError> {
+    let mut reader = serde_json::Deserializer::from_slice(text);
     serde_path_to_error::deserialize(&mut reader).map_err(|error| {
         let field = match error.path().to_string() {
             top if top == "." => "content".to_owned(),
-            field => field,
+            field => field.strip_prefix("content.").map_or(field.clone(), str::to_owned),
         };
-        // Line and column are those of our text, not of the file: the field says where.
+        // The field says where, in whatever layout.
         ArchiveError::Content { path: path.into(), message: format!("field {field}: {}", without_place(error.inner())) }
     })
 }
@@ -215,25 +295,4 @@ fn malformed(path: &Path, error: &serde_json::Error) -> ArchiveError {
 fn without_place(error: &serde_json::Error) -> String {
     let full = error.to_string();
     full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned()
-}
-
-/// Writes bytes to a temporary file beside `path`, flushes it to the disk and renames it to `path`.
-///
-/// # Errors
-/// Whatever the operating system says; the file at `path` is then as it was.
-pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(".gambol-").suffix(".tmp");
-    // Temporary files are private by default; a result has the usual permissions (the umask still counts).
-    #[cfg(unix)]
-    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
-    file.write_all(bytes)?;
-    file.as_file().sync_all()?;
-    file.persist(path).map_err(|error| error.error)?;
-    Ok(())
 }

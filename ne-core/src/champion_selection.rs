@@ -41,8 +41,8 @@ pub struct ReEvaluations {
     /// the less changes from one generation to the next; but re-evaluations do not die out, lest an old run keep the champion of
     /// its youth.
     pub every: u64,
-    /// So many of the best of the generation just evaluated, with the best of each generation since the last re-evaluation;
-    /// at least 1.
+    /// So many of the best of the generation just evaluated, with the best of each generation since the last re-evaluation (from
+    /// 16 times `every` on of each two, from 32 times on of each four, so that no more of them wait); at least 1.
     pub candidates: usize,
 }
 
@@ -53,11 +53,28 @@ impl ReEvaluations {
     /// The generations between the last re-evaluation up to this generation, from 1, and the one before; `None` if this
     /// generation has no re-evaluation.
     pub(crate) fn span(&self, generation: u64) -> Option<u64> {
-        let every = self.every.max(1);
-        // The re-evaluation at 8, 16, 32 times `every` is the last of the closer ones.
-        let age = (generation - 1) / every / 8;
-        let span = every << age.checked_ilog2().map_or(0, |doublings| (doublings + 1).min(RAREST));
+        let span = self.every.max(1) << self.doublings(generation);
         generation.is_multiple_of(span).then_some(span)
+    }
+
+    /// How often the distance between re-evaluations has doubled.
+    fn doublings(&self, generation: u64) -> u32 {
+        // The re-evaluation at 8, 16, 32 times `every` is the last of the closer ones.
+        let age = (generation - 1) / self.every.max(1) / 8;
+        age.checked_ilog2().map_or(0, |doublings| (doublings + 1).min(RAREST))
+    }
+
+    /// Keeps the best of a generation without a re-evaluation as a candidate. Where re-evaluations are far apart, only the
+    /// best of two or four generations in a row is kept, so that never more than 2 × [`every`](Self::every) wait.
+    pub(crate) fn keep<G>(&self, waiting: &mut Vec<Candidate<G>>, candidate: Candidate<G>) {
+        let group = 1 << self.doublings(candidate.generation).saturating_sub(1);
+        let group_of = |generation: u64| (generation - 1) / group;
+        match waiting.last_mut().filter(|last| group_of(last.generation) == group_of(candidate.generation)) {
+            None => waiting.push(candidate),
+            // Of equals the first.
+            Some(last) if candidate.fitness > last.fitness => *last = candidate,
+            Some(_) => {}
+        }
     }
 
     /// Checks the ranges.

@@ -1,4 +1,6 @@
-use crate::{Candidate, Champion, Progress, Seed, Strategy, archive, archive::ArchiveError, promotion::Decision};
+use crate::{
+    Candidate, Champion, Progress, Seed, Strategy, archive, archive::ArchiveError, promotion::Decision, shared_fields,
+};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use std::path::Path;
 
@@ -6,7 +8,7 @@ use std::path::Path;
 pub const CHECKPOINT_FORMAT: &str = "gambol checkpoint";
 
 /// The version of the checkpoint file this crate writes, and the only one it reads.
-pub const CHECKPOINT_VERSION: u32 = 1;
+pub const CHECKPOINT_VERSION: u32 = 2;
 
 /// Everything an [`Evolution`](crate::Evolution) needs to go on exactly where it stopped, between two generations.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -22,11 +24,15 @@ pub struct Checkpoint<S: Strategy> {
     /// The best so far.
     pub champion: Option<Champion<S::Genome>>,
     /// The candidates that wait for the next re-evaluation, if a champion selection chooses the champion.
-    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty", with = "shared_fields")]
     pub candidates: Vec<Candidate<S::Genome>>,
     /// What a [`Promotion`](crate::promotion::Promotion) has decided after the last generation.
     #[serde(default, skip_serializing_if = "Decision::is_stay")]
     pub decision: Decision,
+    /// Whether it was [the last](crate::Evolution::write_last_checkpoint) of its process: all that is made at the end of a
+    /// run is there.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub last: bool,
     /// The strategy with all its state.
     pub strategy: S,
 }
@@ -58,10 +64,12 @@ pub(crate) struct CheckpointRef<'a, S: Strategy> {
     pub(crate) seed: Seed,
     pub(crate) progress: Progress,
     pub(crate) champion: Option<&'a Champion<S::Genome>>,
-    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    #[serde(skip_serializing_if = "<[_]>::is_empty", serialize_with = "shared_fields::serialize")]
     pub(crate) candidates: &'a [Candidate<S::Genome>],
     #[serde(skip_serializing_if = "Decision::is_stay")]
     pub(crate) decision: Decision,
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) last: bool,
     pub(crate) strategy: &'a S,
 }
 

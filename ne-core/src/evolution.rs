@@ -78,13 +78,13 @@ impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {
         let (progress, candidates, decision) = (Progress::default(), Vec::new(), Decision::Stay);
-        Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, strategy }, stop)
+        Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, last: false, strategy }, stop)
     }
 
     /// Goes on where a checkpoint was written. A run with a champion selection needs it
     /// [again](Self::with_champion_selection), and so does one with a [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
-        let Checkpoint { seed, progress, champion, candidates, decision, strategy } = checkpoint;
+        let Checkpoint { seed, progress, champion, candidates, decision, strategy, .. } = checkpoint;
         let (signal, selection, promotion) = (StopSignal::default(), None, None);
         Self { strategy, seed, stop, signal, progress, champion, candidates, selection, promotion, decision }
     }
@@ -242,11 +242,11 @@ impl<S: Strategy> Evolution<S> {
         let span = selection.re_evaluations.span(generation);
         let count = if span.is_some() { selection.re_evaluations.candidates.max(1) } else { 1 };
         let best = ranking(evaluations).into_iter().take(count);
-        self.candidates.extend(best.map(|(index, fitness)| Candidate {
-            genome: genomes[index].clone(),
-            fitness,
-            generation,
-        }));
+        let best = best.map(|(index, fitness)| Candidate { genome: genomes[index].clone(), fitness, generation });
+        match span {
+            Some(_) => self.candidates.extend(best),
+            None => best.for_each(|best| selection.re_evaluations.keep(&mut self.candidates, best)),
+        }
         let Some(span) = span else { return Ok((false, None)) };
         let (report, best) = selection.re_evaluate(&self.candidates, self.champion.as_ref().map(Champion::standing))?;
         self.candidates.clear();
@@ -304,9 +304,22 @@ impl<S: Strategy> Evolution<S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
+        self.write(path, false)
+    }
+
+    /// As [`write_checkpoint`](Self::write_checkpoint), and [marks](Checkpoint::last) it as the last. To be written after all
+    /// else that is made at the end of a run: one that is killed before it is seen to lack its end.
+    ///
+    /// # Errors
+    /// If the file cannot be written; an older one is then still there.
+    pub fn write_last_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
+        self.write(path, true)
+    }
+
+    fn write(&self, path: &Path, last: bool) -> Result<(), ArchiveError> {
         let (seed, progress, decision, strategy) = (self.seed, self.progress, self.decision, &self.strategy);
         let (champion, candidates) = (self.champion.as_ref(), self.candidates.as_slice());
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, strategy };
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, last, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }
@@ -318,7 +331,7 @@ impl<S: Strategy> Generation<'_, S> {
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
         let Self { seed, progress, champion, candidates, decision, strategy, .. } = *self;
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, strategy };
+        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, last: false, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }

@@ -118,11 +118,17 @@ mod progress;
 #[cfg(feature = "evolution")]
 pub mod promotion;
 #[cfg(feature = "evolution")]
+mod shared_fields;
+#[cfg(feature = "evolution")]
 mod statistics;
 #[cfg(feature = "evolution")]
 mod stop;
 #[cfg(feature = "evolution")]
 pub mod successive_halving;
+#[cfg(feature = "evolution")]
+mod whole_file;
+#[cfg(feature = "evolution")]
+pub mod write_points;
 
 pub use evaluation::{Evaluation, Failure};
 pub use fitness::{Fitness, NotFinite};

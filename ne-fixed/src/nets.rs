@@ -48,10 +48,14 @@ impl Nets {
         parents.scores.extend(evaluations.iter().map(Evaluation::fitness));
     }
 
-    /// The generation asked and not told yet, for a checkpoint.
+    /// The generation asked and not told yet.
+    pub(crate) fn waiting(&self) -> &[WeightVector] {
+        if self.asked { &self.population } else { &[] }
+    }
+
+    /// The same, for a checkpoint.
     pub(crate) fn saved<'a, T: From<&'a WeightVector>>(&'a self) -> Vec<T> {
-        let asked: &[_] = if self.asked { &self.population } else { &[] };
-        asked.iter().map(T::from).collect()
+        self.waiting().iter().map(T::from).collect()
     }
 
     /// Goes on with a generation of `size` from a checkpoint.

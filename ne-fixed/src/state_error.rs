@@ -40,6 +40,19 @@ pub(crate) struct Genes {
     weights: Vec<f32>,
 }
 
+/// The same, borrowed.
+#[derive(Serialize)]
+pub(crate) struct BorrowedGenes<'a> {
+    mutation_deviation: f32,
+    weights: &'a [f32],
+}
+
+impl<'a> From<&'a WeightVector> for BorrowedGenes<'a> {
+    fn from(genome: &'a WeightVector) -> Self {
+        Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights() }
+    }
+}
+
 impl From<&WeightVector> for Genes {
     fn from(genome: &WeightVector) -> Self {
         Self { mutation_deviation: genome.mutation_deviation(), weights: genome.weights().to_vec() }

@@ -12,7 +12,7 @@ use std::{
 
 const PLAN_FORMAT: &str = "gambol comparison";
 const RESULT_FORMAT: &str = "gambol comparison result";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The folder of a comparison.
 ///
@@ -132,10 +132,10 @@ impl ComparisonFolder {
                 Some(what) => Err(CompareError::Other { path: path.into(), what }),
             };
         }
-        if path.exists() && !path.read_dir().is_ok_and(|mut entries| entries.next().is_none()) {
+        if !is_free(path)? {
             return Err(CompareError::Exists { path: path.into() });
         }
-        std::fs::create_dir_all(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
+        archive::make_folder(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
         archive::write(&folder.plan_file(), PLAN_FORMAT, VERSION, plan, Layout::Pretty)?;
         Ok(folder)
     }
@@ -208,7 +208,7 @@ impl ComparisonFolder {
     pub(super) fn write_result(&self, job: &Job<'_>, result: &RunResult) -> Result<(), CompareError> {
         let path = self.result_file(job);
         if let Some(parent) = path.parent() {
-            std::fs::create_dir_all(parent).map_err(|source| CompareError::Write { path: parent.into(), source })?;
+            archive::make_folder(parent).map_err(|source| CompareError::Write { path: parent.into(), source })?;
         }
         Ok(archive::write(&path, RESULT_FORMAT, VERSION, result, Layout::Compact)?)
     }
@@ -227,6 +227,16 @@ impl ComparisonFolder {
 
     fn plan_file(&self) -> PathBuf {
         self.path.join("comparison.json")
+    }
+}
+
+/// Whether there is nothing at this path but what a killed writer may have left there.
+fn is_free(path: &Path) -> Result<bool, CompareError> {
+    match path.read_dir() {
+        Ok(mut entries) => Ok(entries.all(|entry| entry.is_ok_and(|entry| archive::is_temporary(&entry.file_name())))),
+        Err(_) if !path.exists() => Ok(true),
+        Err(_) if !path.is_dir() => Ok(false),
+        Err(source) => Err(ArchiveError::Read { path: path.into(), source }.into()),
     }
 }
 

@@ -6,9 +6,7 @@ use gambol_runs::{
 };
 use ne_core::{GenerationReport, StopReason, StopSignal};
 use std::{
-    fs,
     num::NonZero,
-    path::Path,
     sync::{
         Mutex,
         atomic::{AtomicUsize, Ordering},
@@ -104,14 +102,13 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
         signal: options.signal.clone(),
         on_generation: &mut unseen,
     };
-    let begun = RunFolder::open(&path).is_ok_and(|run| run.checkpoint().is_file());
-    let reason = if begun {
+    let reason = if RunFolder::at(&path).is_begun() {
         match training::resume(&path, None, how) {
             Err(TrainError::Over { reason, .. }) => Ok(reason),
             ended => ended.map(|outcome| outcome.reason),
         }
     } else {
-        if !clear(&path)? {
+        if !RunFolder::set_aside(&path).map_err(unreadable)? {
             return Ok(None);
         }
         training::train(&job.config(), &path, how).map(|outcome| outcome.reason)
@@ -129,16 +126,4 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
     let result = RunResult::read(job, &run).map_err(unreadable)?;
     folder.write_result(job, &result)?;
     Ok(Some(result))
-}
-
-/// Removes what a run left that was killed before its first checkpoint. `false`: a process is at work there.
-fn clear(path: &Path) -> Result<bool, CompareError> {
-    if !path.exists() {
-        return Ok(true);
-    }
-    let Ok(_lock) = RunFolder::at(path).lock() else { return Ok(false) };
-    match fs::remove_dir_all(path) {
-        Ok(()) => Ok(true),
-        Err(source) => Err(CompareError::Write { path: path.into(), source }),
-    }
 }

@@ -17,7 +17,7 @@ use std::{
 const TERMS_FORMAT: &str = "gambol reproduction";
 const RUN_FORMAT: &str = "gambol reproduction result";
 const CLOCK_FORMAT: &str = "gambol reproduction timed result";
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// The folder of a reproduction.
 ///
@@ -149,7 +149,7 @@ impl ReproductionFolder {
                 return Ok(folder);
             }
             terms.generations = found.generations;
-        } else if path.exists() && !path.read_dir().is_ok_and(|mut entries| entries.next().is_none()) {
+        } else if !is_free(path)? {
             return Err(ReproduceError::Exists { path: path.into() });
         }
         make(path)?;
@@ -290,7 +290,17 @@ fn leaf(job: &Job) -> String {
 }
 
 fn make(path: &Path) -> Result<(), ReproduceError> {
-    fs::create_dir_all(path).map_err(|source| ReproduceError::Write { path: path.into(), source })
+    archive::make_folder(path).map_err(|source| ReproduceError::Write { path: path.into(), source })
+}
+
+/// Whether there is nothing at this path but what a killed writer may have left there.
+fn is_free(path: &Path) -> Result<bool, ReproduceError> {
+    match path.read_dir() {
+        Ok(mut entries) => Ok(entries.all(|entry| entry.is_ok_and(|entry| archive::is_temporary(&entry.file_name())))),
+        Err(_) if !path.exists() => Ok(true),
+        Err(_) if !path.is_dir() => Ok(false),
+        Err(source) => Err(ReproduceError::Read { path: path.into(), source }),
+    }
 }
 
 #[cfg(test)]

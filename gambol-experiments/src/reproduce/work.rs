@@ -10,9 +10,7 @@ use gambol_runs::{
 };
 use ne_core::{GenerationReport, StopConditions, StopReason, StopSignal};
 use std::{
-    fs,
     num::NonZero,
-    path::Path,
     sync::{
         Mutex,
         atomic::{AtomicUsize, Ordering},
@@ -135,7 +133,7 @@ fn run(
     let path = folder.run_folder(job);
     let mut unseen = |_: &GenerationReport| {};
     let how = train_options(options, &mut unseen);
-    let begun = RunFolder::open(&path).ok().filter(|run| run.checkpoint().is_file());
+    let begun = Some(RunFolder::at(&path)).filter(RunFolder::is_begun);
     let reason = if let Some(begun) = begun {
         if begun.read_config()? != config {
             return Err(ReproduceError::Settings { path, preset: cell.preset.name });
@@ -145,7 +143,7 @@ fn run(
             ended => ended.map(|outcome| outcome.reason),
         }
     } else {
-        if !clear(&path)? {
+        if !RunFolder::set_aside(&path)? {
             return Ok(Ended::NotYet);
         }
         train(&config, &path, how).map(|outcome| outcome.reason)
@@ -175,7 +173,7 @@ fn time(
         Some(result) => result,
         None => {
             let path = folder.run_folder(job);
-            if !clear(&path)? {
+            if !RunFolder::set_aside(&path)? {
                 return Ok(Ended::NotYet);
             }
             let Some(result) = clock::time(&cell, &path, minutes, options)? else { return Ok(Ended::NotYet) };
@@ -196,17 +194,5 @@ pub(super) fn train_options<'a>(
         registry: options.registry.clone(),
         signal: options.signal.clone(),
         on_generation: unseen,
-    }
-}
-
-/// Removes what a run left that cannot be gone on with. `false`: a process is at work there.
-fn clear(path: &Path) -> Result<bool, ReproduceError> {
-    if !path.exists() {
-        return Ok(true);
-    }
-    let Ok(_lock) = RunFolder::at(path).lock() else { return Ok(false) };
-    match fs::remove_dir_all(path) {
-        Ok(()) => Ok(true),
-        Err(source) => Err(ReproduceError::Write { path: path.into(), source }),
     }
 }

@@ -28,7 +28,11 @@ use gambol_runs::{
 use ground::GroundData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
-use std::{io, path::Path};
+use std::{
+    fs::File,
+    io::{self, Read},
+    path::Path,
+};
 use tasks::gait::View;
 
 /// Why a report cannot be made.
@@ -74,6 +78,15 @@ pub fn write_report(folder: &RunFolder, registry: &Registry, ended: Option<StopR
         false => stages::compose(folder, &config, registry, ended)?,
     };
     write_page(&folder.report(), &report)
+}
+
+/// Whether the report in a run's folder was made of the run as it ended; a process that was killed may have left none, or one of
+/// an earlier state.
+pub fn is_up_to_date(folder: &RunFolder, generations: u64) -> bool {
+    // The page says so in its first lines.
+    let mut beginning = Vec::new();
+    let read = File::open(folder.report()).and_then(|page| page.take(2048).read_to_end(&mut beginning));
+    read.is_ok() && page::shows(&String::from_utf8_lossy(&beginning), &page::state(generations, true))
 }
 
 /// The report of a run with one task.

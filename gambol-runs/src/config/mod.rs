@@ -23,7 +23,7 @@ use tasks::{MovementSpec, Trials};
 pub const CONFIG_FORMAT: &str = "gambol run";
 
 /// The version of the configuration file this Gambol writes and reads.
-pub const CONFIG_VERSION: u32 = 1;
+pub const CONFIG_VERSION: u32 = 2;
 
 /// Everything that determines a run. Two runs with equal configurations give the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

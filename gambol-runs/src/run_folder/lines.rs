@@ -9,6 +9,7 @@ use ne_core::{
     archive::{self, ArchiveError},
     bounded_read,
     digest::Digest,
+    write_points::{WritePoint, reach},
 };
 use serde::{Serialize, de::DeserializeOwned};
 use std::{
@@ -87,6 +88,7 @@ impl LineFile {
         self.digest.add(fields.as_bytes());
         // In one piece: another process may be reading.
         let line = format!("{fields}{}\n", seal(self.digest));
+        reach(WritePoint::Append { path: &self.path, file: &self.file, line: line.as_bytes() });
         self.file.write_all(line.as_bytes()).map_err(|source| self.failed(source))
     }
 

@@ -1,6 +1,9 @@
 //! The folder of a run: which file is what, and how each is written.
 
 pub(crate) mod lines;
+mod occupation;
+
+pub use occupation::FolderLock;
 
 use crate::{
     config::{CONFIG_FORMAT, CONFIG_VERSION, RunConfig},
@@ -14,7 +17,6 @@ use ne_core::{
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
 use std::{
-    fs::{self, File, TryLockError},
     io,
     path::{Path, PathBuf},
 };
@@ -67,6 +69,19 @@ pub enum FolderError {
         path: PathBuf,
         /// What differs.
         what: &'static str,
+    },
+    /// The champion of its checkpoint is not worth what it says; nothing was touched.
+    #[error(
+        "{}: its champion has fitness {recorded}, and played again it has {found}; the file was changed, or written by another Gambol: \
+         use the one that wrote it", path.display()
+    )]
+    Unrepeatable {
+        /// The checkpoint.
+        path: PathBuf,
+        /// The fitness in the checkpoint.
+        recorded: Fitness,
+        /// What it is worth when it is played again.
+        found: String,
     },
     /// The folder cannot be made.
     #[error("cannot create the folder {}: {source}", path.display())]
@@ -131,7 +146,8 @@ pub struct GalleryEntry {
     pub generation: u64,
     /// Why it is kept.
     pub kind: GalleryKind,
-    /// A champion alone, or a whole population in its order.
+    /// A champion alone, or a population in its order: all of it or, of more than 1000, as many, evenly from the best to the
+    /// worst.
     pub members: Vec<GalleryMember>,
 }
 
@@ -165,55 +181,21 @@ pub struct Timing {
     pub seconds: f64,
 }
 
-/// The file that is locked while a process works in a folder; it stays, empty.
-const LOCK: &str = ".lock";
-
-/// The right to work in a [`RunFolder`], held by one process at a time.
-#[derive(Debug)]
-pub struct FolderLock {
-    /// Locked until it is closed.
-    _file: File,
-}
-
 impl RunFolder {
-    /// Makes a new folder, locks it and writes the configuration into it.
+    /// Makes a new folder and locks it. It is a run once it has a configuration, which is to be written after all that a
+    /// run needs to be resumed. What a killed process left before that is no hindrance.
     ///
     /// # Errors
-    /// If there is a folder that is not empty (nothing is touched then), or it cannot be made or written.
-    pub fn create(path: &Path, config: &RunConfig) -> Result<(Self, FolderLock), FolderError> {
-        let occupied = || match fs::read_dir(path) {
-            Ok(entries) => entries.flatten().any(|entry| entry.file_name() != LOCK),
-            Err(_) => path.exists(),
-        };
-        let exists = || FolderError::Exists { path: path.into() };
-        if occupied() {
-            return Err(exists());
-        }
-        fs::create_dir_all(path).map_err(|source| FolderError::Create { path: path.into(), source })?;
+    /// If there is something else in the folder (nothing is touched then), or it cannot be made or locked.
+    pub fn create(path: &Path) -> Result<(Self, FolderLock), FolderError> {
         let folder = Self { path: path.into() };
+        let free = || if folder.is_free()? { Ok(()) } else { Err(FolderError::Exists { path: path.into() }) };
+        free()?;
+        archive::make_folder(path).map_err(|source| FolderError::Create { path: path.into(), source })?;
         let lock = folder.lock()?;
         // Another process may have been faster.
-        if occupied() {
-            return Err(exists());
-        }
-        folder.write_config(config)?;
+        free()?;
         Ok((folder, lock))
-    }
-
-    /// Keeps other processes from working in the folder until the lock is dropped, or this process ends in whatever
-    /// way.
-    ///
-    /// # Errors
-    /// If another process has it.
-    pub fn lock(&self) -> Result<FolderLock, FolderError> {
-        let path = self.path.join(LOCK);
-        let failed = |source| ArchiveError::Write { path: path.clone(), source };
-        let file = File::options().create(true).append(true).open(&path).map_err(failed)?;
-        match file.try_lock() {
-            Ok(()) => Ok(FolderLock { _file: file }),
-            Err(TryLockError::WouldBlock) => Err(FolderError::Busy { path: self.path.clone() }),
-            Err(TryLockError::Error(source)) => Err(failed(source).into()),
-        }
     }
 
     /// A folder, whatever is in it; nothing is looked at.
@@ -232,6 +214,11 @@ impl RunFolder {
         } else {
             Err(FolderError::NotARun { path: path.into(), missing: "config.json".into() })
         }
+    }
+
+    /// Whether it is a run that can be gone on with: it has a configuration and a checkpoint.
+    pub fn is_begun(&self) -> bool {
+        self.config().is_file() && self.checkpoint().is_file()
     }
 
     /// The folder itself.

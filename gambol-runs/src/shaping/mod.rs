@@ -22,7 +22,8 @@ mod transfer;
 
 pub use curriculum::{Curriculum, PlannedStage};
 pub use stage_progress::{
-    ShapingError, StageProgress, adopt, resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
+    ShapingError, StageProgress, adopt, outcome_of, resume_curriculum, resume_stages, train_curriculum, train_from,
+    train_stages,
 };
 pub use stage_runs::{StageRun, run_of_stage, stage_runs};
 pub use stages::{StageError, StageProblem, Stages};

@@ -3,10 +3,11 @@
 use super::{
     Curriculum, PlannedStage, StageError, StageRun, Stages,
     source::{Source, latest_stage_run},
-    stage_runs::{keep_champion, stage_run, total},
+    stage_runs::{keep_champion, stage_run, stage_runs, total},
     transfer::{PreparedTransfer, TransferError, TransferOptions},
 };
 use crate::{
+    champion::Champion,
     config::{Origin, RunConfig, Transferred},
     episode_parts::SetupError,
     run_folder::{FolderError, FolderLock, RunFolder},
@@ -14,7 +15,7 @@ use crate::{
     training::{self, Outcome, TrainError, TrainOptions},
 };
 use ne_core::{Progress, StopConditions, StopReason, promotion::Decision};
-use std::{fs, path::Path, time::Instant};
+use std::{path::Path, time::Instant};
 
 /// How a run with stages is watched.
 pub struct StageProgress<'a> {
@@ -134,7 +135,8 @@ pub fn train_curriculum(
     stage_progress: StageProgress<'_>,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
-    let (folder, lock) = RunFolder::create(folder, config)?;
+    let (folder, lock) = RunFolder::create(folder)?;
+    folder.write_config(config)?;
     travel(curriculum, config, &folder, lock, stage_progress, options)
 }
 
@@ -156,6 +158,19 @@ pub fn resume_curriculum(
         folder.write_config(&config)?;
     }
     travel(curriculum, &config, folder, lock, stage_progress, options)
+}
+
+/// What came of a run that has ended, from its folder; of one with stages, from all of them.
+///
+/// # Errors
+/// If a file of the run cannot be read.
+pub fn outcome_of(folder: &RunFolder, reason: StopReason) -> Result<Outcome, FolderError> {
+    let progress = match folder.checkpoint().is_file() {
+        true => folder.read_standing()?.progress,
+        false => total(&stage_runs(folder)?),
+    };
+    let champion = folder.champion().is_file().then(|| Champion::read(&folder.champion())).transpose()?;
+    Ok(Outcome { folder: folder.clone(), reason, progress, champion })
 }
 
 fn listed(config: &RunConfig, options: &TrainOptions<'_>) -> Result<Stages, ShapingError> {
@@ -181,7 +196,7 @@ fn travel(
         let number = stage_runs.len() + 1;
         let path = folder.stages().join(format!("{number:02}-{}", planned.name));
         let stage_folder = RunFolder::at(&path);
-        let is_begun = stage_folder.checkpoint().is_file();
+        let is_begun = stage_folder.is_begun();
         if is_begun && stage_folder.read_standing()?.decision != Decision::Stay {
             stage_runs.push(stage_run(&stage_folder, number, planned.stage, &planned.name)?);
             continue;
@@ -245,10 +260,9 @@ fn begin(
     on_stage_run: &mut dyn FnMut(&PlannedStage, Option<&Origin>),
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
-    if path.exists() {
-        // Killed before its first checkpoint: there is nothing in it that would not come again.
-        let failed = |source| FolderError::Create { path: path.into(), source };
-        fs::remove_dir_all(path).map_err(failed)?;
+    // Without a checkpoint nothing in it is of this run; but it may be somebody's.
+    if !RunFolder::set_aside(path)? {
+        return Err(FolderError::Busy { path: path.into() }.into());
     }
     let Some(before) = before else {
         let setup = Setup::new(&config, &options.registry).map_err(TrainError::from)?;
@@ -332,7 +346,7 @@ fn finish(
             .map(|stage_run| RunFolder::at(&stage_run.folder).champion())
             .filter(|path| path.is_file())
         {
-            Some(path) => Some(crate::champion::Champion::read(&path).map_err(FolderError::from)?),
+            Some(path) => Some(Champion::read(&path).map_err(FolderError::from)?),
             None => None,
         },
     };

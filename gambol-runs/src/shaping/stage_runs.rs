@@ -43,7 +43,7 @@ pub fn stage_runs(folder: &RunFolder) -> Result<Vec<StageRun>, FolderError> {
     let mut stage_runs = Vec::new();
     for (number, name, path) in folders {
         let stage_folder = RunFolder::at(&path);
-        if stage_folder.checkpoint().is_file() {
+        if stage_folder.is_begun() {
             let stage = config.stages.iter().position(|stage| stage.name == name).unwrap_or(stage_runs.len());
             stage_runs.push(stage_run(&stage_folder, number, stage, &name)?);
         }

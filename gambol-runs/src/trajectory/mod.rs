@@ -27,15 +27,17 @@ pub struct TrajectoryDigest {
 const MARK: usize = 8;
 
 impl TrajectoryDigest {
-    /// The first step (0: the start) at which `other` is not the same, or `None` if the two are the same.
+    /// The first step (0: the start) at which `other` is not the same, or `None` if the two are the same. Where all marks
+    /// agree, and the digests of the whole do not, it is the last.
     pub fn first_difference(&self, other: &Self) -> Option<u32> {
-        if self.steps == other.steps && self.marks == other.marks {
+        if self == other {
             return None;
         }
         let marks = |digest: &Self| digest.marks.as_bytes().chunks(MARK).map(<[u8]>::to_vec).collect::<Vec<_>>();
         let (mine, others) = (marks(self), marks(other));
         let same = mine.iter().zip(&others).take_while(|(a, b)| a == b).count();
-        u32::try_from(same).ok()
+        let known = mine.len().max(others.len()).saturating_sub(1);
+        u32::try_from(same.min(known)).ok()
     }
 }
 

@@ -1,4 +1,4 @@
-use super::{Outcome, gait::champion_file};
+use super::{Outcome, check_output, gait::champion_file};
 use crate::{
     Registry,
     champion::Champion,
@@ -51,10 +51,8 @@ impl Film {
             if let Some(file) = files.iter().find(|file| out.is_some() && file.canonicalize().ok() == out) {
                 return Err(format!("{} is what is to be filmed", file.display()).into());
             }
-            if !self.force {
-                return Err(format!("{} exists; say --force to overwrite it", self.out.display()).into());
-            }
         }
+        check_output(&self.out, self.force)?;
         let Self { from, seconds, columns, width, height, .. } = self;
         let champions = files.iter().map(|file| Champion::read(file)).collect::<Result<Vec<_>, _>>()?;
         let cut = Cut { from, seconds, columns, width, height };

@@ -1,4 +1,4 @@
-use super::{NOT_USABLE, Outcome, gait_text};
+use super::{NOT_USABLE, Outcome, check_output, gait_text};
 use crate::{
     Registry,
     champion::Champion,
@@ -102,10 +102,8 @@ impl Gait {
 
     /// Nothing may be overwritten unasked, and never what is measured.
     fn check_sheet(&self) -> Result<(), Box<dyn Error>> {
-        let Some(sheet) = self.sheet.as_ref().filter(|sheet| sheet.exists()) else { return Ok(()) };
-        if !self.force {
-            return Err(format!("{} exists; say --force to overwrite it", sheet.display()).into());
-        }
+        let Some(sheet) = &self.sheet else { return Ok(()) };
+        check_output(sheet, self.force)?;
         let measured = champion_file(&self.gait)?;
         if sheet.canonicalize().ok().is_some_and(|sheet| Some(sheet) == measured.canonicalize().ok()) {
             return Err(format!("{} is what is to be measured", sheet.display()).into());

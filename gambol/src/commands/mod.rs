@@ -27,6 +27,7 @@ mod verify;
 
 use crate::{Registry, program_name, set_program_name};
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use ne_core::archive;
 use std::{error::Error, io, path::Path, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
@@ -117,6 +118,17 @@ checkpoint and report takes."
 struct Program {
     #[command(subcommand)]
     command: Command,
+}
+
+/// Checks that a file may be written to a path of the user's: nothing is overwritten unasked, and what is no regular file
+/// (a device, a pipe, a link) never is.
+fn check_output(path: &Path, force: bool) -> Result<(), String> {
+    let shown = path.display();
+    archive::check_replaceable(path).map_err(|error| format!("cannot write {shown}: {error}; name another file"))?;
+    match path.exists() && !force {
+        true => Err(format!("{shown} exists; say --force to overwrite it")),
+        false => Ok(()),
+    }
 }
 
 #[derive(Subcommand)]

@@ -1,4 +1,4 @@
-use super::{Outcome, gait::champion_file};
+use super::{Outcome, check_output, gait::champion_file};
 use crate::{
     Registry, Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::stage_runs,
     stage::Stage, trajectory::Recording,
@@ -105,9 +105,7 @@ impl Replay {
             [("page", &self.html), ("trajectory", &self.trajectory), ("drawing", &self.dot), ("champion", &self.save)];
         let outputs: Vec<_> = outputs.iter().filter_map(|(what, path)| Some((what, path.as_ref()?))).collect();
         for (index, &(what, path)) in outputs.iter().enumerate() {
-            if path.exists() && !self.force {
-                return Err(format!("{} exists; say --force to overwrite it", path.display()));
-            }
+            check_output(path, self.force)?;
             if same_file(path, champion) {
                 return Err(format!("{} is the champion itself", champion.display()));
             }

@@ -5,14 +5,16 @@ use crate::{
     config::{RunConfig, Transferred},
     gait, report,
     request::Request,
-    shaping::{self, StageProgress},
+    shaping::{self, ShapingError, StageProgress},
     suggest,
-    training::{self, TrainOptions},
+    training::{self, TrainError, TrainOptions},
 };
 use clap::{Args, ValueEnum};
+use creatures::Blueprint;
 use ne_core::{StopConditions, StopReason, StopSignal};
 use std::{
     cell::RefCell,
+    fs, io,
     path::{Path, PathBuf},
     process::ExitCode,
     time::Instant,
@@ -228,15 +230,22 @@ impl Train {
         }
         config.stop = self.limits.over(config.stop);
         let transferred = self.transferred()?;
-        let folder = self.out.clone().unwrap_or_else(|| unused_folder(&config));
+        match &self.from {
+            // Its name becomes that of a folder.
+            Some(_) => drop(Blueprint::new(config.creature.clone())?),
+            None => {
+                if let Err(error) = Setup::new(&config, &registry) {
+                    return Err(located(&error.to_string(), request, &registry).into());
+                }
+            }
+        }
+        let made = if self.out.is_none() { Some(NewFolder::make(&config)?) } else { None };
+        let folder = self.out.clone().or_else(|| made.as_ref().map(|made| made.0.clone())).unwrap_or_default();
         if let Some(source) = &self.from {
             config.origin = None;
             return carry_out(&self.flags, &config, registry, |options, _| {
                 Ok(shaping::train_from(&config, source, transferred, self.allow_loss, &folder, options)?)
             });
-        }
-        if let Err(error) = Setup::new(&config, &registry) {
-            return Err(located(&error.to_string(), request, &registry).into());
         }
         carry_out(&self.flags, &config, registry, |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::train(&config, &folder, options)?),
@@ -272,15 +281,34 @@ fn located(error: &str, request: Request, registry: &Registry) -> String {
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }
 
-/// `runs/biped-1-running`, or with a number behind it if that is taken.
-fn unused_folder(config: &RunConfig) -> PathBuf {
-    let name = format!("{}-{}", config.creature.name, config.movement.name);
-    let numbered = (2..).map(|number| format!("{name}-{number}"));
-    std::iter::once(name.clone())
-        .chain(numbered)
-        .map(|name| Path::new("runs").join(name))
-        .find(|path| !path.exists())
-        .unwrap_or_default()
+/// A folder that was made for a run, and goes again if the run does not begin.
+struct NewFolder(PathBuf);
+
+impl NewFolder {
+    /// `runs/biped-1-running`, or with a number behind it if that is taken. To make a folder is to have it: another process
+    /// that starts at the same time takes the next number.
+    fn make(config: &RunConfig) -> Result<Self, String> {
+        let name = format!("{}-{}", config.creature.name, config.movement.name);
+        let runs = Path::new("runs");
+        let failed = |path: &Path, error: io::Error| format!("cannot create the folder {}: {error}", path.display());
+        fs::create_dir_all(runs).map_err(|error| failed(runs, error))?;
+        let numbered = (2..).map(|number| format!("{name}-{number}"));
+        for path in std::iter::once(name.clone()).chain(numbered).map(|name| runs.join(name)) {
+            match fs::create_dir(&path) {
+                Ok(()) => return Ok(Self(path)),
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+                Err(error) => return Err(failed(&path, error)),
+            }
+        }
+        Err("every number is taken".into())
+    }
+}
+
+impl Drop for NewFolder {
+    fn drop(&mut self) {
+        // One with anything in it stays.
+        let _ = fs::remove_dir(&self.0);
+    }
 }
 
 /// Runs what `start` starts, with progress shown, Ctrl-C caught, and a report at the end.
@@ -307,7 +335,11 @@ pub(super) fn carry_out(
     );
     let show = show.into_inner();
     show.end();
-    let outcome = ended?;
+    let outcome = match ended {
+        // Killed after its last save, and before its report.
+        Err(error) if !flags.no_report => lacking_its_report(&*error).ok_or(error)?,
+        ended => ended?,
+    };
     let seconds = began.elapsed().as_secs_f64();
     if !flags.no_report {
         report::write_report(&outcome.folder, &registry, Some(outcome.reason))?;
@@ -323,6 +355,20 @@ pub(super) fn carry_out(
         _ if until_usable && !usable => ExitCode::from(NOT_USABLE),
         _ => ExitCode::SUCCESS,
     })
+}
+
+/// The outcome of a run that has ended and has no report of its end, if that is why it cannot go on.
+fn lacking_its_report(error: &(dyn std::error::Error + 'static)) -> Option<training::Outcome> {
+    let over = error.downcast_ref::<TrainError>().or_else(|| match error.downcast_ref()? {
+        ShapingError::Train(error) => Some(error),
+        _ => None,
+    })?;
+    let TrainError::Over { folder, reason, generations } = over else { return None };
+    if report::is_up_to_date(folder, *generations) {
+        return None;
+    }
+    // What cannot be read leaves it at the error.
+    shaping::outcome_of(folder, *reason).ok()
 }
 
 /// What `gambol gait` says of a champion; `None` if gaits of its movement are not judged.

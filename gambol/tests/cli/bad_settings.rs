@@ -132,7 +132,7 @@ const FILES: &[(&str, &[&str])] = &[
     ("{\"movement\": {\"terms\": [{\"term\": \"enrgy\"}]}}",  &["movement.terms[0].term", "did you mean \"energy\"?"]),
     ("{\"sensors\": [\"torso-rotaton\"]}",          &["sensors[0]: unknown variant", "did you mean `torso-rotation`?"]),
     ("{\"format\": \"gambol champion\", \"version\": 1, \"content\": {}}", &["format", "\"gambol champion\"", "\"gambol run\""]),
-    ("{\"format\": \"gambol run\", \"version\": 2, \"content\": {}}",      &["version: is 2, this Gambol reads version 1"]),
+    ("{\"format\": \"gambol run\", \"version\": 3, \"content\": {}}",      &["version: is 3, this Gambol reads version 2"]),
 ];
 
 /// Configuration files that say creature and movement themselves.

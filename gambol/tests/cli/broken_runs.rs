@@ -1,7 +1,7 @@
 //! A run folder that is damaged: `resume` says which file and where, and leaves everything as it was.
 
 use crate::{
-    damage::{edit, flip, json, places, raise_version, truncate, write},
+    damage::{edit, edit_and_seal, flip, json, places, raise_version, truncate, write},
     folder::{assert_same_run, assert_untouched, contents, read},
     program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run, succeed, text},
 };
@@ -101,7 +101,7 @@ fn a_folder_of_another_version_is_refused() -> Outcome {
         let file = run.join(name);
         let whole = read(&file);
         raise_version(&file);
-        assert_refused(&run, &[text(&file), "has version 2, this Gambol reads version 1; use a newer Gambol"]);
+        assert_refused(&run, &[text(&file), "has version 3, this Gambol reads version 2; use a newer Gambol"]);
         let mut earlier = json(&file);
         earlier["version"] = 0.into();
         write(&file, earlier.to_string().as_bytes());
@@ -203,5 +203,29 @@ fn a_folder_in_which_another_process_works_is_refused() -> Outcome {
     assert_refused(&run, &["another gambol is at work", text(&run)]);
     drop(other_process);
     succeed(&mut resume(&run));
+    Ok(())
+}
+
+/// A checkpoint that was made to fit, as only a program could: what its champion is worth gives it away.
+#[test]
+fn a_checkpoint_whose_champion_does_not_repeat_its_fitness_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for (name, how) in [("selected", &[][..]), ("plain", &WITHOUT_SELECTION)] {
+        let run = folder.path().join(name);
+        succeed(small_run(&run, 4).args(["--set", "record.checkpoint_every=2"]).args(how));
+        let checkpoint = run.join("checkpoint");
+        let whole = read(&checkpoint);
+        edit_and_seal(&checkpoint, |content| {
+            let fitness = &mut content["champion"]["fitness"];
+            *fitness = (fitness.as_f64().expect("a fitness") + 1.0).into();
+        });
+        assert_refused(&run, &[text(&checkpoint), "its champion has fitness ", "played again it has "]);
+        edit_and_seal(&checkpoint, |content| {
+            content["champion"]["genome"]["weights"][0] = 4.5.into();
+        });
+        assert_refused(&run, &[text(&checkpoint), "its champion has fitness "]);
+        write(&checkpoint, &whole);
+        succeed(&mut resume(&run));
+    }
     Ok(())
 }

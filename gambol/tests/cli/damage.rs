@@ -37,7 +37,8 @@ pub(crate) fn edit_and_seal(path: &Path, change: impl FnOnce(&mut Value)) {
     let mut file = json(path);
     change(&mut file["content"]);
     let format = file["format"].as_str().expect("a format");
-    archive::write(path, format, 1, &file["content"], Layout::Pretty).expect("a writable folder");
+    let version = file["version"].as_u64().expect("a version") as u32;
+    archive::write(path, format, version, &file["content"], Layout::Pretty).expect("a writable folder");
 }
 
 /// A few places spread over a file, the first and the last byte before the line break at its end among them.

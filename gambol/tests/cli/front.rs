@@ -221,7 +221,7 @@ fn a_damaged_front_is_an_error_that_names_the_file_and_resuming_writes_it_anew()
     let damages: [(Damage, &str); 5] = [
         (|path| truncate(path, 100), "is damaged or not a file of Gambol"),
         (|path| flip(path, read(path).len() / 2, 0), ""),
-        (raise_version, "has version 2, this Gambol reads version 1"),
+        (raise_version, "has version 3, this Gambol reads version 2"),
         (|path| edit(path, |content| content["generation"] = 9.into()), "was changed after it was written"),
         (
             |path| edit_and_seal(path, |content| content["points"][0]["objectives"] = serde_json::json!([1.0])),

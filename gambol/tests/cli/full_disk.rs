@@ -82,7 +82,8 @@ fn a_folder_without_room_for_the_configuration_names_it() -> Outcome {
     let ended = run_limited(&train(&path, 2), 2);
     assert_eq!(ended.code, Some(1));
     assert_says(&ended.stderr, &["cannot write ", text(&path.join("config.json"))]);
-    assert!(contents(&path).into_keys().eq([path.join(".lock")]), "nothing half-written is left");
+    let left = [".lock", "checkpoint"].map(|name| path.join(name));
+    assert!(contents(&path).into_keys().eq(left), "nothing half-written is left");
     // So that the same command can be given again.
     succeed(&mut train(&path, 2));
     Ok(())

@@ -122,7 +122,7 @@ fn a_killed_run_can_be_reported() {
     assert!(path.join("report.html").is_file());
 }
 
-/// Between making the folder and the first checkpoint there is nothing to resume: the message says so.
+/// Where a checkpoint was and is no more there is nothing to resume: the message says so.
 #[test]
 fn a_folder_without_a_checkpoint_cannot_be_resumed() -> Outcome {
     let runs = Undisturbed::run(1000);

@@ -39,11 +39,37 @@ fn a_run_that_is_over_says_how_to_go_on_and_stays_as_it_is() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = folder.path().join("run");
     succeed(&mut small_run(&path, 4));
-    let before = contents(&path);
-    for more in [&[][..], &["--generations", "3"], &["--target", "-1000"]] {
-        let message = fail(gambol("resume").arg(&path).args(more));
-        assert_says(&message, &[text(&path), "has ended", "--generations 104"]);
-        assert_untouched(&path, &before);
+    for reported in [false, true] {
+        if reported {
+            // As it would be after a run with a report.
+            succeed(gambol("resume").arg(&path));
+        }
+        let before = contents(&path);
+        for more in [&[][..], &["--generations", "3"], &["--target", "-1000"]] {
+            let mut resume = gambol("resume");
+            resume.arg(&path).args(more).args((!reported).then_some("--no-report"));
+            let message = fail(&mut resume);
+            assert_says(&message, &[text(&path), "has ended", "--generations 104"]);
+            assert_untouched(&path, &before);
+        }
     }
+    Ok(())
+}
+
+/// Killed after its last save and before its report, or with the report of an earlier end.
+#[test]
+fn a_run_that_is_over_and_lacks_its_report_gets_one() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(&mut small_run(&path, 4));
+    let before = contents(&path);
+    assert_says(&succeed(gambol("resume").arg(&path)), &["report    ", "best ", "found in generation"]);
+    let of_four = std::fs::read(path.join("report.html"))?;
+    std::fs::remove_file(path.join("report.html"))?;
+    assert_untouched(&path, &before);
+    succeed(gambol("resume").arg(&path).args(["--generations", "6", "--no-report"]));
+    std::fs::write(path.join("report.html"), of_four)?;
+    succeed(gambol("resume").arg(&path).arg("--quiet"));
+    assert_says(&std::fs::read_to_string(path.join("report.html"))?, &["content=\"6 generations, "]);
     Ok(())
 }

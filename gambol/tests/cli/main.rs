@@ -25,6 +25,7 @@ mod help;
 mod hostile;
 mod interrupted;
 mod killed;
+mod large;
 mod longer;
 mod overwriting;
 mod program;

@@ -516,3 +516,35 @@ fn what_cannot_be_transferred_is_said_before_training() -> Outcome {
     assert!(!path("second").exists());
     Ok(())
 }
+
+/// A stage's folder without a checkpoint is not that of this run: it is moved aside, whatever lies in it.
+#[test]
+fn a_stages_folder_without_a_checkpoint_is_moved_aside_and_not_deleted() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (whole, run_folder) = (folder.path().join("whole"), folder.path().join("run"));
+    let mut config = three_stages();
+    config["stages"] = json!([config["stages"][0], { "name": "jump" }]);
+    config["stages"][0]["promotion"] = json!({ "generations": 2 });
+    config["stop"] = json!({ "generations": 5 });
+    let file = write(folder.path(), &config);
+    succeed(train(&file, &whole).arg("--quiet"));
+    succeed(train(&file, &run_folder).arg("--quiet"));
+    let stage = run_folder.join("stages/02-jump");
+    fs::remove_dir_all(&stage)?;
+    fs::create_dir(&stage)?;
+    fs::write(stage.join("thesis.tex"), "three months of work")?;
+    succeed(gambol("resume").arg(&run_folder).args(["--no-report", "--quiet"]));
+    let aside = run_folder.join("stages/old-02-jump/thesis.tex");
+    assert_eq!(fs::read_to_string(&aside)?, "three months of work");
+    fs::remove_dir_all(run_folder.join("stages/old-02-jump"))?;
+    assert!(lasting(&run_folder) == lasting(&whole), "and the run ends as it would have");
+    // What a process left that was killed at the very start is no hindrance.
+    fs::remove_dir_all(&stage)?;
+    fs::create_dir(&stage)?;
+    fs::write(stage.join(".lock"), "")?;
+    fs::write(stage.join(".gambol-half.tmp"), "{")?;
+    succeed(gambol("resume").arg(&run_folder).args(["--no-report", "--quiet"]));
+    assert_eq!(legs(&run_folder), ["01-run", "02-jump"]);
+    assert!(lasting(&run_folder) == lasting(&whole));
+    Ok(())
+}

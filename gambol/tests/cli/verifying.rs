@@ -194,13 +194,13 @@ fn a_file_of_another_version_or_kind_is_told() -> Outcome {
     let champion = trained(&folder);
     let run = champion.parent().expect("a folder");
     raise_version(&champion);
-    assert_says(&verify(&champion, &[]).stderr, &[text(&champion), "has version 2", "use a newer Gambol"]);
+    assert_says(&verify(&champion, &[]).stderr, &[text(&champion), "has version 3", "use a newer Gambol"]);
     for (other, kind) in [("config.json", "\"gambol run\""), ("checkpoint", "\"gambol checkpoint\"")] {
         let path = run.join(other);
         let message = fail(gambol("verify").arg(&path));
         assert_says(&message, &[text(&path), kind, "expected a \"gambol champion\" file"]);
     }
-    assert_says(&fail(gambol("verify").arg(run)), &[text(&champion), "has version 2"]);
+    assert_says(&fail(gambol("verify").arg(run)), &[text(&champion), "has version 3"]);
     let missing = run.join("no-such-file");
     assert_says(&fail(gambol("verify").arg(&missing)), &["cannot read", text(&missing)]);
     Ok(())
@@ -228,5 +228,51 @@ fn a_champion_whose_parts_do_not_fit_is_an_error_that_names_the_field() -> Outco
         assert_says(&ended.stderr, &[text(&champion), field]);
         write(&champion, &whole);
     }
+    Ok(())
+}
+
+/// Marks are half of the digest: one trajectory in four thousand million has those of another. The whole counts as well.
+#[test]
+fn the_digest_of_the_whole_trajectory_is_compared_too() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let champion = trained(&folder);
+    edit_and_seal(&champion, |content| {
+        let digest = content["trajectory"]["digest"].as_str().expect("a text").to_owned();
+        let first = if digest.starts_with('0') { "1" } else { "0" };
+        content["trajectory"]["digest"] = format!("{first}{}", &digest[1..]).into();
+    });
+    let ended = verify(&champion, &[]);
+    assert_eq!(ended.code, DIVERGED, "{}", ended.stdout);
+    let steps = json(&champion)["content"]["trajectory"]["steps"].as_u64().ok_or("a number")?;
+    assert_says(&ended.stdout, &[&format!("differs: the trajectory diverges at step {steps} ")]);
+    Ok(())
+}
+
+/// A game connects inputs and outputs by their names: those in the file are those of the body.
+#[test]
+fn names_of_inputs_and_outputs_are_those_of_the_body() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let champion = trained(&folder);
+    let whole = read(&champion);
+    type Change = fn(&mut Value);
+    let changes: [(Change, &[&str]); 4] = [
+        (|content| content["inputs"][1]["name"] = "wheel".into(), &["inputs[1].name: \"wheel\", where ", " has \""]),
+        (|content| content["outputs"][0]["unit"] = "mph".into(), &["outputs[0].unit: \"mph\", where "]),
+        (
+            |content| content["inputs"][0]["range"] = serde_json::json!([-7, 7]),
+            &["inputs[0].range: [-7.0, 7.0], where "],
+        ),
+        (|content| drop(content["outputs"].as_array_mut().map(Vec::pop)), &["outputs: ", " of them, where "]),
+    ];
+    for (change, says) in changes {
+        edit_and_seal(&champion, change);
+        for command in ["verify", "replay", "check"] {
+            let message = fail(gambol(command).arg(&champion));
+            assert_says(&message, says);
+            assert_says(&message, &[text(&champion)]);
+        }
+        write(&champion, &whole);
+    }
+    assert_eq!(verify(&champion, &[]).code, Some(0));
     Ok(())
 }

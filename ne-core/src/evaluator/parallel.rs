@@ -2,6 +2,10 @@ use super::{Evaluator, evaluate_phenotypes};
 use crate::{Evaluation, Genome, Seed, Task, Threads};
 use rayon::prelude::*;
 
+/// So many phenotypes are in memory at the same time at most: so many that no thread waits for long, and few beside a
+/// population of a million.
+const AT_ONCE: usize = 1 << 14;
+
 /// Evaluates a generation on a pool of threads of its own.
 #[derive(Debug)]
 pub struct Parallel {
@@ -53,7 +57,11 @@ impl Threads for Parallel {
 
 impl Evaluator for Parallel {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
-        let mut phenotypes: Vec<G::Phenotype> = self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
-        evaluate_phenotypes(task, &mut phenotypes, seed, self)
+        let evaluate = |genomes: &[G]| {
+            let mut phenotypes: Vec<G::Phenotype> =
+                self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
+            evaluate_phenotypes(task, &mut phenotypes, seed, self)
+        };
+        genomes.chunks(AT_ONCE).flat_map(evaluate).collect()
     }
 }

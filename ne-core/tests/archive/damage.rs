@@ -125,7 +125,7 @@ fn the_digest_sees_values_and_no_white_space() -> Outcome {
     assert_eq!(digests(&compact)?, digests(&pretty)?);
     assert!(fs::read(&pretty)?.len() > fs::read(&compact)?.len());
     // Another layout by another program, with the keys in another order.
-    let text = fs::read_to_string(&compact)?.replace(r#"{"on":false,"x":-1.0}"#, "{\r\n\t\"x\": -1.0, \"on\":false }");
+    let text = fs::read_to_string(&compact)?.replace(r#"{"x":-1.0,"on":false}"#, "{\r\n\t\"on\": false, \"x\":-1.0 }");
     assert!(text.contains('\t'), "{text}");
     fs::write(&compact, text)?;
     assert_eq!(read(&compact)?, content());

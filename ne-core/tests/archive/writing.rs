@@ -96,3 +96,92 @@ fn a_file_has_the_permissions_of_any_other_file() -> Outcome {
     assert_eq!(fs::metadata(&whole)?.permissions().mode(), fs::metadata(&plain)?.permissions().mode());
     Ok(())
 }
+
+/// A device, a pipe or a link has its own purpose: what it leads to is not ours to replace.
+#[cfg(unix)]
+#[test]
+fn only_a_regular_file_is_replaced() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("file"), "old")?;
+    std::os::unix::fs::symlink(path("file"), path("link"))?;
+    std::os::unix::fs::symlink(path("nowhere"), path("dangling link"))?;
+    fs::create_dir(path("folder"))?;
+    assert!(std::process::Command::new("mkfifo").arg(path("pipe")).status()?.success());
+    for (name, what) in
+        [("link", "a link"), ("dangling link", "a link"), ("folder", "a folder"), ("pipe", "a named pipe")]
+    {
+        let before = fs::symlink_metadata(path(name))?.file_type();
+        let error = write_whole(&path(name), b"new").expect_err("it is no regular file").to_string();
+        assert_eq!(error, format!("it is {what}, and only a regular file is replaced"));
+        assert_eq!(fs::symlink_metadata(path(name))?.file_type(), before);
+    }
+    assert_eq!(fs::read_to_string(path("file"))?, "old");
+    assert!(!path("nowhere").exists());
+    Ok(())
+}
+
+#[test]
+fn what_a_killed_writer_left_is_cleared_away_by_the_next_and_that_of_a_living_one_stays() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    for name in [".gambol-dead.tmp", ".gambol-alive.tmp", "other.tmp", ".gambol-notes"] {
+        fs::write(path(name), "half a file")?;
+    }
+    let alive = fs::File::options().append(true).open(path(".gambol-alive.tmp"))?;
+    alive.lock()?;
+    write_whole(&path("file"), b"whole")?;
+    let mut names: Vec<_> =
+        fs::read_dir(folder.path())?.map(|entry| Ok(entry?.file_name())).collect::<Result<_, std::io::Error>>()?;
+    names.sort();
+    assert_eq!(names, [".gambol-alive.tmp", ".gambol-notes", "file", "other.tmp"]);
+    drop(alive);
+    write_whole(&path("file"), b"whole")?;
+    assert!(!path(".gambol-alive.tmp").exists());
+    Ok(())
+}
+
+/// Two that write at once do not take each other's temporary file for abandoned.
+#[test]
+fn many_writers_in_one_folder_do_not_disturb_each_other() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    std::thread::scope(|scope| {
+        let write = |writer: usize| {
+            let path = folder.path().join(writer.to_string());
+            move || (0..50).try_for_each(|round| write_whole(&path, format!("{writer} {round}").as_bytes()))
+        };
+        let writers: Vec<_> = (0..4).map(|writer| scope.spawn(write(writer))).collect();
+        writers.into_iter().try_for_each(|writer| writer.join().expect("no writer panics"))
+    })?;
+    for writer in 0..4 {
+        assert_eq!(fs::read_to_string(folder.path().join(writer.to_string()))?, format!("{writer} 49"));
+    }
+    assert_eq!(fs::read_dir(folder.path())?.count(), 4, "temporary files are left");
+    Ok(())
+}
+
+/// A rename lasts once the folder is flushed.
+#[test]
+fn a_file_is_renamed_once_it_is_whole_and_its_folder_is_flushed_last() -> Outcome {
+    use ne_core::write_points::{WritePoint, observe};
+    use std::sync::{Arc, Mutex};
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("watched");
+    fs::write(&path, "old")?;
+    let seen = Arc::new(Mutex::new(Vec::new()));
+    let (watched, notes) = (path.clone(), seen.clone());
+    observe(move |point| {
+        let (WritePoint::Begin(path) | WritePoint::Rename(path) | WritePoint::FlushFolder(path)) = point else {
+            return;
+        };
+        if path == watched {
+            let name = format!("{point:?}").split('(').next().unwrap_or_default().to_owned();
+            notes.lock().expect("no test panics here").push((name, fs::read_to_string(path).unwrap_or_default()));
+        }
+    });
+    write_whole(&path, b"new")?;
+    let seen = seen.lock().expect("no test panics here").clone();
+    let expected = [("Begin", "old"), ("Rename", "old"), ("FlushFolder", "new")];
+    assert_eq!(seen, expected.map(|(point, found)| (point.to_owned(), found.to_owned())));
+    Ok(())
+}

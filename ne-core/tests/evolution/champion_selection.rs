@@ -446,3 +446,47 @@ proptest! {
         prop_assert_eq!(seen(evolution.champion_if_re_evaluated().expect("as many evaluations as candidates")), best(lines.len() as u64));
     }
 }
+
+/// However far apart re-evaluations are, no more than twice as many candidates wait as there were generations between the
+/// first ones.
+#[test]
+fn the_number_of_those_that_wait_is_bounded() {
+    let lines: Vec<Vec<f64>> = (0..200).map(|generation| vec![f64::from(generation % 8), -1.0]).collect();
+    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 2, candidates: 1 });
+    let prompter = Prompter::of(&evolution);
+    let mut waiting = Vec::new();
+    for _ in 0..200 {
+        evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        waiting.push(evolution.candidates().len());
+    }
+    assert_eq!((waiting[..32].iter().max(), waiting.iter().max()), (Some(&3), Some(&4)));
+    // From generation 65 on they are 16 generations apart; of each four, the best has waited.
+    let heard = known.heard.lock().expect("no test panics here").clone();
+    let last = heard.last().expect("re-evaluations");
+    let expected = [180, 184, 188].map(|generation| genome(generation, 0));
+    assert_eq!(last[..3], expected, "the fittest of 177 to 180, of 181 to 184, and of 185 to 188");
+}
+
+/// What the genomes of all candidates have in common is in a checkpoint once.
+#[test]
+fn candidates_share_what_is_the_same_in_a_checkpoint() -> Result<(), Box<dyn std::error::Error>> {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("checkpoint");
+    let evolution = Script::evolution(&[&[1.0]], StopConditions::default());
+    evolution.write_checkpoint(&path)?;
+    let candidate = |generation| Candidate { genome: genome(generation, 0), fitness: fitness(7.0), generation };
+    for count in [1, 2, 9] {
+        let candidates: Vec<_> = (1..=count).map(candidate).collect();
+        let checkpoint: Checkpoint<Script> = Checkpoint::read(&path)?;
+        Checkpoint { candidates: candidates.clone(), ..checkpoint }.write(&path)?;
+        assert_eq!(Checkpoint::<Script>::read(&path)?.candidates, candidates);
+        let text: serde_json::Value = serde_json::from_slice(&std::fs::read(&path)?)?;
+        let found = &text["content"]["candidates"];
+        assert_eq!((&found["shared"]["inputs"], &found["shared"]["outputs"]), (&0.into(), &1.into()));
+        if count > 1 {
+            assert_eq!(found["each"][1]["genome"], serde_json::json!({ "character": 200 }));
+        }
+    }
+    Ok(())
+}

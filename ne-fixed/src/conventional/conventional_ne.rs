@@ -7,7 +7,7 @@ use crate::{
 use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 use std::cmp::Reverse;
 
 const FIRST_GENERATION: Purpose = Purpose::new("conventional-ne first generation");
@@ -36,12 +36,8 @@ const REPRODUCTION: Purpose = Purpose::new("conventional-ne reproduction");
 ///
 /// Source: Holland, *Adaptation in Natural and Artificial Systems*, 1975; for nets Montana & Davis, *Training
 /// Feedforward Neural Networks Using Genetic Algorithms*, IJCAI 1989.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(
-    into = "State<S, C, M>",
-    try_from = "State<S, C, M>",
-    bound(serialize = "S: Setting, C: Setting, M: Setting", deserialize = "S: Setting, C: Setting, M: Setting")
-)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(try_from = "State<S, C, M>", bound(deserialize = "S: Setting, C: Setting, M: Setting"))]
 pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     pub(super) settings: ConventionalNeSettings<S, C, M>,
     pub(super) nets: Nets,

@@ -1,20 +1,16 @@
 use super::{ConventionalNe, ConventionalNeSettings};
 use crate::{
-    Setting, StateError,
+    Setting, StateError, WeightVector,
     nets::Parents,
-    state_error::{Genes, generation},
+    state_error::{BorrowedGenes, Genes, generation},
 };
 use ne_core::Fitness;
 use ne_net::Topology;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
 
 /// A [`ConventionalNe`] as a checkpoint has it: the topology once, and no memory that is only kept for reuse.
-#[derive(Serialize, Deserialize)]
-#[serde(
-    deny_unknown_fields,
-    rename = "ConventionalNe",
-    bound(serialize = "S: Setting, C: Setting, M: Setting", deserialize = "S: Setting, C: Setting, M: Setting")
-)]
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename = "ConventionalNe", bound = "S: Setting, C: Setting, M: Setting")]
 pub(super) struct State<S, C, M> {
     settings: ConventionalNeSettings<S, C, M>,
     topology: Topology,
@@ -22,7 +18,7 @@ pub(super) struct State<S, C, M> {
     stagnation: u64,
     distinct_parents: usize,
     /// The first generation, if it is not drawn; empty after it.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     start: Vec<Genes>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
@@ -30,27 +26,59 @@ pub(super) struct State<S, C, M> {
     asked: Vec<Genes>,
 }
 
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Parent {
     fitness: Option<Fitness>,
     genes: Genes,
 }
 
-impl<S, C, M> From<ConventionalNe<S, C, M>> for State<S, C, M> {
-    fn from(strategy: ConventionalNe<S, C, M>) -> Self {
-        let Parents { start, nets, scores } = &strategy.parents;
-        let parents = nets.iter().zip(scores);
-        Self {
-            parents: parents.map(|(parent, &fitness)| Parent { fitness, genes: parent.into() }).collect(),
-            asked: strategy.nets.saved(),
-            start: start.iter().map(Genes::from).collect(),
-            settings: strategy.settings,
-            topology: strategy.nets.topology,
-            best: strategy.best,
-            stagnation: strategy.stagnation,
-            distinct_parents: strategy.distinct_parents,
+/// The same [`State`], borrowed: writing a large population copies none of it.
+#[derive(Serialize)]
+#[serde(rename = "ConventionalNe", bound = "S: Setting, C: Setting, M: Setting")]
+struct BorrowedState<'a, S, C, M> {
+    settings: &'a ConventionalNeSettings<S, C, M>,
+    topology: &'a Topology,
+    best: Option<Fitness>,
+    stagnation: u64,
+    distinct_parents: usize,
+    #[serde(skip_serializing_if = "<[_]>::is_empty", serialize_with = "genes")]
+    start: &'a [WeightVector],
+    #[serde(serialize_with = "scored")]
+    parents: &'a Parents,
+    #[serde(serialize_with = "genes")]
+    asked: &'a [WeightVector],
+}
+
+#[derive(Serialize)]
+struct BorrowedParent<'a> {
+    fitness: Option<Fitness>,
+    genes: BorrowedGenes<'a>,
+}
+
+fn genes<R: Serializer>(nets: &[WeightVector], serializer: R) -> Result<R::Ok, R::Error> {
+    serializer.collect_seq(nets.iter().map(BorrowedGenes::from))
+}
+
+fn scored<R: Serializer>(parents: &Parents, serializer: R) -> Result<R::Ok, R::Error> {
+    let scored = parents.nets.iter().zip(&parents.scores);
+    serializer.collect_seq(scored.map(|(net, &fitness)| BorrowedParent { fitness, genes: net.into() }))
+}
+
+impl<S: Setting, C: Setting, M: Setting> Serialize for ConventionalNe<S, C, M> {
+    fn serialize<R: Serializer>(&self, serializer: R) -> Result<R::Ok, R::Error> {
+        let Self { settings, nets, parents, best, stagnation, distinct_parents, .. } = self;
+        BorrowedState {
+            settings,
+            topology: &nets.topology,
+            best: *best,
+            stagnation: *stagnation,
+            distinct_parents: *distinct_parents,
+            start: &parents.start,
+            parents,
+            asked: nets.waiting(),
         }
+        .serialize(serializer)
     }
 }
 

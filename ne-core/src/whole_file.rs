@@ -1,0 +1,151 @@
+//! A file that is there as a whole: the old one or the new one.
+//!
+//! A writer holds a lock on its temporary file. So the next writer in a folder can tell, and clears away, what a writer that
+//! was killed has left there.
+
+use crate::write_points::{WritePoint, reach};
+use std::{
+    ffi::OsStr,
+    fs::{self, File, FileType, TryLockError},
+    io::{self, Write},
+    path::Path,
+};
+use tempfile::NamedTempFile;
+
+/// Writes bytes to a temporary file beside `path`, flushes it to the disk, renames it to `path` and flushes the folder.
+///
+/// # Errors
+/// Whatever the operating system says, or if there is something at `path` that is no regular file; it is then as it was.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    write_whole_with(path, |file| file.write_all(bytes))
+}
+
+/// As [`write_whole`], with a function that writes the bytes.
+///
+/// # Errors
+/// As [`write_whole`], and those of the function.
+pub fn write_whole_with(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    check_replaceable(path)?;
+    let folder = folder_of(path);
+    remove_abandoned(folder);
+    reach(WritePoint::Begin(path));
+    let mut file = temporary(folder)?;
+    fill(file.as_file_mut())?;
+    file.as_file().sync_all()?;
+    reach(WritePoint::Rename(path));
+    file.persist(path).map_err(|error| error.error)?;
+    reach(WritePoint::FlushFolder(path));
+    flush_folder(folder)
+}
+
+/// Makes a folder and those above it, and brings it to the disk; one that is there is left as it is.
+///
+/// # Errors
+/// Whatever the operating system says.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    reach(WritePoint::Folder(path));
+    fs::create_dir_all(path)?;
+    flush_folder(folder_of(path))
+}
+
+/// Checks that a file may be put at this path: that there is nothing, or a regular file. Devices, pipes and links are never
+/// replaced.
+///
+/// # Errors
+/// Says what is there.
+pub fn check_replaceable(path: &Path) -> io::Result<()> {
+    match fs::symlink_metadata(path) {
+        Ok(there) if !there.is_file() => {
+            let message = format!("it is {}, and only a regular file is replaced", name_of(there.file_type()));
+            Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+        }
+        // Should it be there, and not to be looked at, it cannot be written either.
+        _ => Ok(()),
+    }
+}
+
+/// Whether a file of this name is one that is being written, or that a killed writer has left.
+pub fn is_temporary(name: &OsStr) -> bool {
+    let name = name.as_encoded_bytes();
+    name.starts_with(PREFIX.as_bytes()) && name.ends_with(SUFFIX.as_bytes())
+}
+
+const PREFIX: &str = ".gambol-";
+const SUFFIX: &str = ".tmp";
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+/// A new temporary file, locked as long as it is open.
+fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(PREFIX).suffix(SUFFIX);
+    // Temporary files are private by default; a result has the usual permissions (the umask still counts).
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+    loop {
+        let file = builder.tempfile_in(folder)?;
+        match file.as_file().try_lock() {
+            // Before it was locked, another writer may have taken it for abandoned.
+            Ok(()) if !file.path().exists() => {}
+            Err(TryLockError::WouldBlock) => {}
+            // Where the file system knows no locks, nobody else can lock it to clear it away.
+            Ok(()) | Err(TryLockError::Error(_)) => return Ok(file),
+        }
+    }
+}
+
+/// Removes the temporary files of writers that are no more. What cannot be removed stays: it does no harm.
+fn remove_abandoned(folder: &Path) {
+    let Ok(entries) = fs::read_dir(folder) else { return };
+    for entry in entries.flatten() {
+        if is_temporary(&entry.file_name()) && entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            let path = entry.path();
+            if File::options().append(true).open(&path).is_ok_and(|file| file.try_lock().is_ok() && remove(&path)) {
+                tracing::debug!(path = %path.display(), "the temporary file of a killed writer was removed");
+            }
+        }
+    }
+}
+
+/// While it is locked.
+fn remove(path: &Path) -> bool {
+    fs::remove_file(path).is_ok()
+}
+
+/// A rename lasts only once the folder is on the disk.
+#[cfg(unix)]
+fn flush_folder(folder: &Path) -> io::Result<()> {
+    match File::open(folder)?.sync_all() {
+        // Some file systems cannot.
+        Err(error) if matches!(error.kind(), io::ErrorKind::InvalidInput | io::ErrorKind::Unsupported) => Ok(()),
+        flushed => flushed,
+    }
+}
+
+#[cfg(not(unix))]
+fn flush_folder(_: &Path) -> io::Result<()> {
+    Ok(())
+}
+
+fn name_of(kind: FileType) -> &'static str {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return "a named pipe";
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return "a device";
+        }
+        if kind.is_socket() {
+            return "a socket";
+        }
+    }
+    match () {
+        () if kind.is_dir() => "a folder",
+        () if kind.is_symlink() => "a link",
+        () => "something else",
+    }
+}
