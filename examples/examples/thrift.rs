@@ -13,9 +13,9 @@ use gambol::Registry;
 use gambol::{
     champion::Champion,
     config::RunConfig,
+    judge::Judge,
     request::Request,
     shaping::{StageProgress, train_stages},
-    stage::Stage,
     training::TrainOptions,
 };
 use ne_core::StopConditions;
@@ -113,9 +113,9 @@ fn stage_folder(run: &Path, stage: &str) -> PathBuf {
 /// What the champion of a stage does.
 fn judge(run: &Path, stage: &str, registry: &Registry) -> Result<Gait, Box<dyn Error>> {
     let champion = Champion::read(&stage_folder(run, stage).join("champion.json"))?;
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    let report = stage.judge(&champion.network).ok_or("its body explodes")?;
-    let body = stage.environment().body().ok_or("an unknown body")?;
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let report = judge.judge(&champion.network).ok_or("its body explodes")?;
+    let body = judge.environment().body().ok_or("an unknown body")?;
     let weight = f64::from(body.mass() * body.gravity);
     Ok(Gait {
         speed: report.travel.relative_speed,

@@ -1,7 +1,7 @@
 //! The champion selection of runs whose worlds vary, whose episodes are short or whose bodies are several: the champion
 //! is chosen in one whole episode of the creature, in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, reference::ReferenceEpisode, robustness_check::Trial, stage::USABLE};
+use crate::{config::EngineChoice, judge::USABLE, reference::ReferenceEpisode, robustness_check::Trial};
 use ne_core::{
     Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,
     champion_selection::{ChampionSelection, ReEvaluation},
@@ -96,12 +96,12 @@ impl ReferenceSelection {
             task: Box::new(reference.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(reference.clone())) as Box<dyn Task>),
             proof: reference.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
-            usable: reference.stage.clone().map(|stage| {
+            usable: reference.judge.clone().map(|judge| {
                 let evaluator = evaluator.clone();
                 let first_usable = move |phenotypes: &[&dyn Phenotype]| {
                     // All are nets, or none is.
                     let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network_of(*net)).collect();
-                    evaluator.install(|| stage.first_usable(&networks))
+                    evaluator.install(|| judge.first_usable(&networks))
                 };
                 Box::new(first_usable) as Box<FirstUsable>
             }),

@@ -4,7 +4,7 @@ use crate::{
     Registry,
     champion::Champion,
     episode_parts::SetupError,
-    stage::{Gait, Stage},
+    judge::{Gait, Judge},
 };
 use tasks::gait::GaitReport;
 
@@ -34,6 +34,6 @@ pub fn judge(champion: &Champion, registry: &Registry) -> Result<GaitReport, Gai
 /// # Errors
 /// As [`judge`].
 pub fn measure(champion: &Champion, registry: &Registry) -> Result<Gait, GaitOfChampionError> {
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    stage.measure(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    judge.measure(&champion.network).ok_or(GaitOfChampionError::Unmeasurable)
 }

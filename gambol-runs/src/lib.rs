@@ -12,7 +12,7 @@
 //! | [`strategies`], [`defaults`], [`presets`], [`catalogue`], [`Registry`] | what a configuration can name |
 //! | [`assembly`] | a configuration put together from parts, later ones winning |
 //! | [`episode_parts`], [`training_task`] | what a population is evaluated on |
-//! | [`stage`] | where gaits are judged: the reference world, and worlds near it |
+//! | [`judge`] | where gaits are judged: the reference world, and worlds near it |
 //! | [`setup`] | from a configuration to a task |
 //! | [`champion`], [`front`], [`trajectory`] | what a run has found, saved; verifying and recording it |
 //! | [`gait`], [`robust`] | a champion's gait, judged, also in perturbed worlds |
@@ -52,6 +52,7 @@ pub mod defaults;
 pub mod episode_parts;
 pub mod front;
 pub mod gait;
+pub mod judge;
 pub mod obstacles;
 pub mod perturbation;
 pub mod presets;
@@ -66,7 +67,6 @@ pub mod run_folder;
 pub mod setup;
 pub mod shaping;
 pub mod source;
-pub mod stage;
 pub mod strategies;
 pub mod suggest;
 pub mod texts;

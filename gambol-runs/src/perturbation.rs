@@ -1,6 +1,6 @@
 //! Worlds that are not quite the one a champion learned in.
 
-use crate::stage::Stage;
+use crate::judge::Judge;
 use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
 use ne_core::{Purpose, Seed};
 use rand::RngExt;
@@ -87,19 +87,19 @@ pub(crate) struct World {
 
 impl World {
     /// The world of this index: causes take turns. Bumps reach `reach` m from the start, at most 500.
-    pub(crate) fn draw(seed: Seed, index: u32, stage: &Stage, reach: f32) -> Self {
-        Self::draw_with(seed, index, stage, reach, |variation| variation)
+    pub(crate) fn draw(seed: Seed, index: u32, judge: &Judge, reach: f32) -> Self {
+        Self::draw_with(seed, index, judge, reach, |variation| variation)
     }
 
     /// The same, of a cause whose variation is changed.
     pub(crate) fn draw_with(
         seed: Seed,
         index: u32,
-        stage: &Stage,
+        judge: &Judge,
         reach: f32,
         change: impl Fn(Variation) -> Variation,
     ) -> Self {
-        let environment = stage.environment();
+        let environment = judge.environment();
         let seed = seed.trial(index);
         let cause = Cause::ALL[index as usize % Cause::ALL.len()];
         let conditions = change(cause.variation()).draw(seed, environment.outputs());
@@ -133,7 +133,7 @@ pub(crate) mod tests {
     use envs_rapier::{PhysicsSettings, Variation};
     use tasks::{MovementSpec, Trials};
 
-    pub(crate) fn stage(creature: &str, movement: &str) -> Stage {
+    pub(crate) fn judge(creature: &str, movement: &str) -> Judge {
         let parts = EpisodeParts {
             creature: &creatures::find(creature).expect("shipped"),
             sensors: None,
@@ -145,17 +145,17 @@ pub(crate) mod tests {
             terrain: &Terrain::default(),
             actuation: Actuation::default(),
         };
-        Stage::new(parts, &Registry::default()).expect("builds")
+        Judge::new(parts, &Registry::default()).expect("builds")
     }
 
     #[test]
     fn worlds_are_in_range_and_leave_the_start_pose_clear() {
         for name in ["apod", "biped-1", "decapod-2"] {
-            let stage = stage(name, "running");
-            let [left, _, right, _] = stage.environment().blueprint().bounding_box();
+            let judge = judge(name, "running");
+            let [left, _, right, _] = judge.environment().blueprint().bounding_box();
             for index in 0..200 {
                 let World { cause, conditions, landscape, bumps, time_step } =
-                    World::draw(Seed::of_run(3), index, &stage, 10.0);
+                    World::draw(Seed::of_run(3), index, &judge, 10.0);
                 assert_eq!(cause, Cause::ALL[index as usize % 5]);
                 let ground = landscape.ground;
                 assert_eq!(bumps, ground.shapes.len() - 1);
@@ -183,7 +183,7 @@ pub(crate) mod tests {
     #[test]
     fn bumps_reach_as_far_as_they_are_asked_to() {
         let farthest = |reach: f32| {
-            let world = World::draw(Seed::of_run(1), 0, &stage("biped-1", "running"), reach);
+            let world = World::draw(Seed::of_run(1), 0, &judge("biped-1", "running"), reach);
             let x = |shape: &GroundShape| if let GroundShape::Circle { x, .. } = *shape { x } else { 0.0 };
             world.landscape.ground.shapes.iter().map(x).fold(0.0, f32::max)
         };

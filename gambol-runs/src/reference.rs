@@ -1,8 +1,8 @@
 //! The world of the champion selection.
 
 use crate::{
+    judge::Judge,
     robustness_check::RobustnessCheck,
-    stage::Stage,
     training_task::TrainingTask,
     trajectory::{TrajectoryDigest, replay},
 };
@@ -26,7 +26,7 @@ pub struct ReferenceEpisode {
     /// does not vary the world.
     pub proof: Option<TrainingTask>,
     /// Where gaits are judged, if those of this movement are.
-    pub stage: Option<Stage>,
+    pub judge: Option<Judge>,
     /// Where candidates are tried in perturbed worlds, if training varies the world and gaits are judged.
     pub robustness_check: Option<RobustnessCheck>,
     /// What was replayed last: the champion selection has a champion played in rapier just before its file is written.
@@ -45,13 +45,13 @@ impl ReferenceEpisode {
         task: TrainingTask,
         episode: Episode<RapierEnvironment>,
         proof: Option<TrainingTask>,
-        stage: Stage,
+        judge: Judge,
         seed: Seed,
     ) -> Self {
-        let stage = Some(stage).filter(|stage| stage.rules().is_some());
-        let tried = stage.clone().filter(|_| proof.is_some());
-        let robustness_check = tried.map(|stage| RobustnessCheck::new(stage, seed));
-        Self { task, episode, seed, proof, stage, robustness_check, last: Arc::default() }
+        let judge = Some(judge).filter(|judge| judge.rules().is_some());
+        let tried = judge.clone().filter(|_| proof.is_some());
+        let robustness_check = tried.map(|judge| RobustnessCheck::new(judge, seed));
+        Self { task, episode, seed, proof, judge, robustness_check, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.

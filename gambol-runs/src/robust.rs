@@ -8,11 +8,11 @@ use crate::Registry;
 use crate::{
     champion::Champion,
     episode_parts::SetupError,
-    perturbation::World,
-    stage::{
-        Stage,
+    judge::{
+        Judge,
         worlds::{Worlds, is_usable},
     },
+    perturbation::World,
 };
 use envs_core::Conditions;
 use envs_lanes::LANES;
@@ -151,23 +151,23 @@ pub fn robustness(
     seed: u64,
 ) -> Result<Robustness, RobustnessError> {
     SettingError::check_range("perturbations", perturbations.into(), 1.0, MOST.into())?;
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    let rules = stage.rules().ok_or_else(|| RobustnessError::NotJudged {
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let rules = judge.rules().ok_or_else(|| RobustnessError::NotJudged {
         movement: champion.movement.name.clone(),
         judged: registry.movements.judged().map(str::to_owned).collect(),
     })?;
-    let unperturbed = stage.judge(&champion.network);
+    let unperturbed = judge.judge(&champion.network);
     let progress_unperturbed = unperturbed.as_ref().map_or(0.0, GaitReport::progress);
     let reach = progress_unperturbed.abs() as f32 + BEYOND;
     let indices: Vec<u32> = (0..perturbations).collect();
     let trials: Vec<PerturbedTrial> = indices
         .par_chunks(LANES)
         .flat_map_iter(|indices| {
-            let draw = |&index: &u32| World::draw(Seed::of_run(seed), index, &stage, reach);
+            let draw = |&index: &u32| World::draw(Seed::of_run(seed), index, &judge, reach);
             let worlds: Vec<World> = indices.iter().map(draw).collect();
             let places: Vec<_> =
                 worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
-            let reports = Worlds::new(&stage, &places).judge(&champion.network);
+            let reports = Worlds::new(&judge, &places).judge(&champion.network);
             worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, report))
         })
         .collect();

@@ -1,8 +1,8 @@
 //! Where it is tried whether a candidate's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
+    judge::{Judge, worlds::Worlds},
     perturbation::{Cause, World},
-    stage::{Stage, worlds::Worlds},
 };
 use envs_core::{Conditions, Landscape, Variation};
 use ne_core::{Purpose, Seed};
@@ -65,30 +65,30 @@ impl Trial {
 /// A few worlds, always the same, of the kind that [`robustness`](crate::robust::robustness) is measured in.
 #[derive(Clone)]
 pub struct RobustnessCheck {
-    stage: Stage,
+    judge: Judge,
     seed: Seed,
     /// For each trial, built when they are first needed.
     worlds: [Arc<OnceLock<Worlds>>; Trial::ALL.len()],
 }
 
 impl RobustnessCheck {
-    pub(crate) fn new(stage: Stage, seed: Seed) -> Self {
-        Self { stage, seed, worlds: Default::default() }
+    pub(crate) fn new(judge: Judge, seed: Seed) -> Self {
+        Self { judge, seed, worlds: Default::default() }
     }
 
     /// In how many of the worlds a controller's gait is usable, on the threads of the current pool.
     pub(crate) fn usable(&self, network: &Network, trial: Trial) -> usize {
-        let build = || Worlds::new(&self.stage, &self.draw(trial)).shortened(trial.seconds());
+        let build = || Worlds::new(&self.judge, &self.draw(trial)).shortened(trial.seconds());
         self.worlds[trial as usize].get_or_init(build).usable(network)
     }
 
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
-        let reach = trial.reach() * self.stage.environment().blueprint().body_length();
+        let reach = trial.reach() * self.judge.environment().blueprint().body_length();
         // Other worlds than those robustness is measured in, whatever the run's seed.
         let lot: u64 = self.seed.stream(ROBUSTNESS_CHECK).random();
         let world = |index| {
             let World { conditions, landscape, .. } =
-                World::draw_with(Seed::of_run(lot), trial.world(index), &self.stage, reach, without_short_steps);
+                World::draw_with(Seed::of_run(lot), trial.world(index), &self.judge, reach, without_short_steps);
             (conditions, landscape)
         };
         (0..trial.worlds() as u32).map(world).collect()
@@ -108,9 +108,9 @@ mod tests {
     use crate::Registry;
     use crate::{
         champion::Champion,
-        perturbation::tests::stage,
+        judge::USABLE,
+        perturbation::tests::judge,
         request::Request,
-        stage::USABLE,
         training::{TrainOptions, train},
     };
     use envs_core::Ground;
@@ -140,11 +140,11 @@ mod tests {
             .flat_map(|seed| Trial::ALL.map(|trial| (seed, trial)))
             .map(|(seed, trial)| {
                 let (champion, registry) = (champion(seed), Registry::default());
-                let stage = Stage::new(champion.episode_parts(), &registry).expect("builds");
-                let robustness_check = RobustnessCheck::new(stage.clone(), Seed::of_run(seed));
+                let judge = Judge::new(champion.episode_parts(), &registry).expect("builds");
+                let robustness_check = RobustnessCheck::new(judge.clone(), Seed::of_run(seed));
                 let count = robustness_check.usable(&champion.network, trial);
-                let stage = stage.in_rapier();
-                let one_by_one = robustness_check.draw(trial).into_iter().map(|world| Worlds::new(&stage, &[world]));
+                let judge = judge.in_rapier();
+                let one_by_one = robustness_check.draw(trial).into_iter().map(|world| Worlds::new(&judge, &[world]));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network)).sum::<usize>(), count);
                 count
             })
@@ -154,8 +154,8 @@ mod tests {
 
     #[test]
     fn every_run_has_worlds_of_its_own() {
-        let stage = stage("biped-1", "jumping");
-        let worlds = |seed, trial| RobustnessCheck::new(stage.clone(), Seed::of_run(seed)).draw(trial);
+        let judge = judge("biped-1", "jumping");
+        let worlds = |seed, trial| RobustnessCheck::new(judge.clone(), Seed::of_run(seed)).draw(trial);
         for trial in Trial::ALL {
             assert_eq!(worlds(1, trial).len(), trial.worlds());
             assert_eq!(worlds(1, trial), worlds(1, trial));

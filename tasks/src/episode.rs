@@ -101,24 +101,24 @@ impl<E: Environment> Episode<E> {
     /// Plays one trial under the eyes of a watcher: exactly what an evaluation does. A phenotype of another shape fails
     /// before the first step.
     pub fn play(&self, phenotype: &mut dyn Phenotype, seed: Seed, watcher: &mut impl Watcher) -> Played {
-        let mut stage = Stage::new(self);
+        let mut state = EvaluationState::new(self);
         if let Err(failure) = self.check_shape(phenotype) {
-            return Played { movement: stage.movement, steps: 0, failure: Some(failure) };
+            return Played { movement: state.movement, steps: 0, failure: Some(failure) };
         }
-        let (steps, failure) = stage.play(phenotype, seed, self.steps, watcher);
-        Played { movement: stage.movement, steps, failure }
+        let (steps, failure) = state.play(phenotype, seed, self.steps, watcher);
+        Played { movement: state.movement, steps, failure }
     }
 }
 
 /// What one evaluation needs of its own, allocated once for all its trials and steps.
-struct Stage<E> {
+struct EvaluationState<E> {
     environment: E,
     movement: Box<dyn Movement>,
     inputs: Vec<f32>,
     outputs: Vec<f32>,
 }
 
-impl<E: Environment> Stage<E> {
+impl<E: Environment> EvaluationState<E> {
     fn new(episode: &Episode<E>) -> Self {
         let environment = episode.environment.clone();
         let (inputs, outputs) = (vec![0.0; environment.inputs()], vec![0.0; environment.outputs()]);
@@ -181,15 +181,15 @@ impl<E: Environment> Task for Episode<E> {
         if let Err(failure) = self.check_shape(phenotype) {
             return Evaluation::failed(failure);
         }
-        let mut stage = Stage::new(self);
+        let mut state = EvaluationState::new(self);
         let mut tally = Tally::new(self.trials);
         let mut trial: Option<Trial> = None;
         loop {
-            let (steps, failure) = stage.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
-            let outcome = Outcome { steps, time_step: stage.environment.time_step(), failure };
+            let (steps, failure) = state.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
+            let outcome = Outcome { steps, time_step: state.environment.time_step(), failure };
             match &mut trial {
-                Some(trial) => trial.renew(outcome, &*stage.movement),
-                None => trial = Some(Trial::new(outcome, &*stage.movement)),
+                Some(trial) => trial.renew(outcome, &*state.movement),
+                None => trial = Some(Trial::new(outcome, &*state.movement)),
             }
             if let Some(evaluation) = trial.as_ref().and_then(|trial| tally.add(trial)) {
                 return evaluation;

@@ -10,7 +10,7 @@ use crate::drawing::{
     text::{Anchor, Style},
 };
 use envs_core::Ground;
-use gambol_runs::{Registry, champion::Champion, stage::Stage, trajectory::Recording};
+use gambol_runs::{Registry, champion::Champion, judge::Judge, trajectory::Recording};
 use tasks::Snapshot;
 
 /// Left and right of the creature, px.
@@ -44,13 +44,13 @@ pub(super) struct Panel {
 impl Panel {
     /// Plays a champion and chooses what of it is shown.
     pub(super) fn new(champion: &Champion, cut: &Cut, registry: &Registry) -> Result<Self, DrawingError> {
-        let stage = Stage::new(champion.episode_parts(), registry)?;
+        let judge = Judge::new(champion.episode_parts(), registry)?;
         let end = cut.from + cut.seconds;
         let time_step = f64::from(champion.physics.time_step);
         let steps = (end / time_step).ceil() as u32;
-        let (recording, _) = Recording::play(stage.environment(), &champion.network, steps);
+        let (recording, _) = Recording::play(judge.environment(), &champion.network, steps);
         let snapshots = recording.snapshots;
-        check_poses(stage.environment().blueprint(), &snapshots)?;
+        check_poses(judge.environment().blueprint(), &snapshots)?;
         let pose_at = |time: f64| snapshots.get((time / time_step).round() as usize).cloned();
         let poses = (0..cut.frames()).map(|frame| pose_at(cut.time(frame))).collect::<Option<Vec<_>>>();
         let lasts = (snapshots.len() - 1) as f64 * time_step;
@@ -63,8 +63,8 @@ impl Panel {
         let with_movement = format!("{title}, {}", champion.movement.name);
         let fits = Style::Label.width(&with_movement) <= room(cut.width);
         let title = if fits { with_movement } else { title };
-        let model = Model::new(stage.environment().blueprint());
-        Ok(Self::of_poses(model, title, stage.environment().ground().clone(), poses.ok_or_else(too_late)?, cut))
+        let model = Model::new(judge.environment().blueprint());
+        Ok(Self::of_poses(model, title, judge.environment().ground().clone(), poses.ok_or_else(too_late)?, cut))
     }
 
     /// `poses`: one a frame.

@@ -1,7 +1,7 @@
 //! The champion's gait for the page.
 
 use base64::{Engine, engine::general_purpose::STANDARD};
-use gambol_runs::{obstacles::ObstaclesPassed, stage::Gait};
+use gambol_runs::{judge::Gait, obstacles::ObstaclesPassed};
 use serde::Serialize;
 use tasks::gait::GaitReport;
 

@@ -21,8 +21,8 @@ use gambol_runs::{
     champion::Champion,
     episode_parts::SetupError,
     front::Front,
+    judge::Judge,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
-    stage::Stage,
     trajectory::Recording,
 };
 use ground::GroundData;
@@ -157,10 +157,10 @@ pub fn write_replay(
     steps: Option<u32>,
     path: &Path,
 ) -> Result<(), ReportError> {
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    let steps = steps.unwrap_or(stage.steps());
-    let (recording, _) = Recording::play(stage.environment(), &champion.network, steps);
-    let body_length = stage.environment().blueprint().body_length();
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let steps = steps.unwrap_or(judge.steps());
+    let (recording, _) = Recording::play(judge.environment(), &champion.network, steps);
+    let body_length = judge.environment().blueprint().body_length();
     let unit = registry.movements.find(&champion.movement.name).map_or_else(String::new, |entry| entry.unit.clone());
     let report = Report {
         title: format!("{} · {} · Gambol", champion.creature.name, champion.movement.name),
@@ -172,7 +172,7 @@ pub fn write_replay(
         species: Vec::new(),
         statistics: Vec::new(),
         champion: Some(ChampionData::new(champion, &recording, body_length, covers_distance(champion, registry))),
-        ground: GroundData::new(stage.environment().ground(), DRAWN),
+        ground: GroundData::new(judge.environment().ground(), DRAWN),
         gait: gait_data(champion, registry)?,
         front: None,
         strip: Vec::new(),
@@ -235,8 +235,8 @@ fn champion_film(champion: &Champion, registry: &Registry) -> Result<data::Repla
 }
 
 fn gait_data(champion: &Champion, registry: &Registry) -> Result<Option<GaitData>, ReportError> {
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    let Some(gait) = stage.measure(&champion.network) else { return Ok(None) };
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let Some(gait) = judge.measure(&champion.network) else { return Ok(None) };
     let sheet = sheet::of_champion(champion, &gait.report, registry)?;
     Ok(Some(GaitData::new(gait, &sheet)))
 }

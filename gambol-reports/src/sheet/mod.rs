@@ -21,7 +21,7 @@ use charts::Charts;
 use creatures::Blueprint;
 use envs_core::Ground;
 use frames::Frames;
-use gambol_runs::{Registry, champion::Champion, stage::Stage};
+use gambol_runs::{Registry, champion::Champion, judge::Judge};
 use heading::Heading;
 use moments::Moments;
 use tasks::{Snapshot, gait::GaitReport};
@@ -75,9 +75,9 @@ pub fn draw(subject: &Subject<'_>) -> Result<Vec<u8>, DrawingError> {
 /// # Errors
 /// If the champion's world cannot be built, or its episode breaks off at once.
 pub fn of_champion(champion: &Champion, report: &GaitReport, registry: &Registry) -> Result<Vec<u8>, DrawingError> {
-    let stage = Stage::new(champion.episode_parts(), registry)?;
-    let snapshots = stage.record(&champion.network).snapshots;
-    let environment = stage.environment();
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let snapshots = judge.record(&champion.network).snapshots;
+    let environment = judge.environment();
     draw(&Subject {
         blueprint: environment.blueprint(),
         movement: Some(&champion.movement.name),

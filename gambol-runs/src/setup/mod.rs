@@ -6,8 +6,8 @@ use crate::{
     Registry,
     config::{ControllerSettings, RunConfig, RungSettings, StrategySettings},
     episode_parts::SetupError,
+    judge::Judge,
     reference::ReferenceEpisode,
-    stage::Stage,
     topology::{
         self,
         limbs::{self, Limbs},
@@ -115,15 +115,15 @@ impl Setup {
             false => None,
             true => {
                 let (episode, task) = parts.reference().build_both(config.engine, registry)?;
-                let stage = Stage::new(parts, registry)?;
+                let judge = Judge::new(parts, registry)?;
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),
                 };
-                Some(ReferenceEpisode::new(task, episode, proof, stage, Seed::of_run(config.seed)))
+                Some(ReferenceEpisode::new(task, episode, proof, judge, Seed::of_run(config.seed)))
             }
         };
-        if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.stage.is_none()) {
+        if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
             let judged: Vec<&str> = registry.movements.judged().collect();
             let allowed = format!(
                 "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \

@@ -225,7 +225,7 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     for (field, rule) in [("promotion", &settings.promotion), ("demotion", &settings.demotion)] {
         let Some(rule) = rule else { continue };
         rule.validate().map_err(|error| error.within(field))?;
-        if rule.asks_for_usable() && setup.reference.as_ref().is_none_or(|reference| reference.stage.is_none()) {
+        if rule.asks_for_usable() && setup.reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
             let allowed = "asked for only where gaits are judged during training: of movements that are judged, in runs \
                            with a variation, shortened training episodes or further_bodies";
             return Err(SettingError::new(format!("{field}.usable"), "usable", allowed));

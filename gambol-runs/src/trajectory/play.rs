@@ -49,7 +49,7 @@ impl Recording {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perturbation::tests::stage;
+    use crate::perturbation::tests::judge;
     use ne_net::{DenseNet, DenseShape};
 
     fn network(inputs: usize, outputs: usize) -> Network {
@@ -59,12 +59,12 @@ mod tests {
 
     #[test]
     fn what_is_played_is_what_an_episode_shows() {
-        let stage = stage("tetrapod-1", "jumping");
-        let world = stage.environment();
+        let judge = judge("tetrapod-1", "jumping");
+        let world = judge.environment();
         let network = network(world.inputs(), world.outputs());
-        let (played, failure) = Recording::play(world, &network, stage.steps());
-        let watched = stage.record(&network);
-        assert_eq!((failure, played.snapshots.len()), (None, stage.steps() as usize + 1));
+        let (played, failure) = Recording::play(world, &network, judge.steps());
+        let watched = judge.record(&network);
+        assert_eq!((failure, played.snapshots.len()), (None, judge.steps() as usize + 1));
         assert_eq!(played.snapshots, watched.snapshots);
         assert_eq!(played.activations, watched.activations);
         assert!(watched.torques.is_empty());
@@ -73,8 +73,8 @@ mod tests {
 
     #[test]
     fn a_controller_of_another_shape_does_nothing() {
-        let stage = stage("tetrapod-1", "jumping");
-        let (recording, failure) = Recording::play(stage.environment(), &network(1, 1), 5);
+        let judge = judge("tetrapod-1", "jumping");
+        let (recording, failure) = Recording::play(judge.environment(), &network(1, 1), 5);
         assert!(recording.snapshots.is_empty() && matches!(failure, Some(Failure::ShapeMismatch { .. })));
     }
 }

@@ -7,9 +7,9 @@ use crate::{
     champion::Champion,
     config::RunConfig,
     gait,
+    judge::USABLE,
     request::Request,
     robust::robustness,
-    stage::USABLE,
     training::{TrainOptions, train},
 };
 use clap::Args;

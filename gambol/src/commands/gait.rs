@@ -2,9 +2,9 @@ use super::{NOT_USABLE, Outcome, check_output, gait_text};
 use crate::{
     Registry,
     champion::Champion,
-    gait,
+    gait, judge,
     run_folder::RunFolder,
-    sheet, source, stage, suggest,
+    sheet, source, suggest,
     trajectory::{CsvTrajectory, read_csv},
 };
 use clap::Args;
@@ -63,7 +63,7 @@ pub(crate) struct Gait {
 
 /// A gait that was measured, and whose.
 struct Measured {
-    gait: stage::Gait,
+    gait: judge::Gait,
     name: String,
     /// Its contact sheet, if asked for.
     sheet: Option<Vec<u8>>,
@@ -150,7 +150,7 @@ fn of_trajectory(
     };
     let sheet = with_sheet.then(|| sheet::draw(&subject)).transpose()?;
     let movement = movement.map_or_else(String::new, |movement| format!(" {movement}"));
-    let gait = stage::Gait { report, obstacles: Vec::new() };
+    let gait = judge::Gait { report, obstacles: Vec::new() };
     Ok(Measured { gait, name: format!("{}{movement}", blueprint.name()), sheet })
 }
 

@@ -1,7 +1,7 @@
 use super::{Outcome, check_output, gait::champion_file};
 use crate::{
-    Registry, Setup, champion::Champion, dot::dot, front::Front, report, run_folder::RunFolder, shaping::stage_runs,
-    stage::Stage, trajectory::Recording,
+    Registry, Setup, champion::Champion, dot::dot, front::Front, judge::Judge, report, run_folder::RunFolder,
+    shaping::stage_runs, trajectory::Recording,
 };
 use clap::Args;
 use ne_core::archive;
@@ -74,9 +74,9 @@ impl Replay {
             say!("the replay failed after {} steps: {failure}", played.steps)?;
         }
         if let Some(path) = &self.trajectory {
-            let stage = Stage::new(champion.episode_parts(), &registry).map_err(|error| in_file(&error))?;
-            let world = stage.environment();
-            let (recording, failure) = Recording::play(world, &champion.network, steps.unwrap_or(stage.steps()));
+            let judge = Judge::new(champion.episode_parts(), &registry).map_err(|error| in_file(&error))?;
+            let world = judge.environment();
+            let (recording, failure) = Recording::play(world, &champion.network, steps.unwrap_or(judge.steps()));
             let mut csv = Vec::new();
             recording.write_csv(world.body().unwrap_or(&Body::default()), &mut csv)?;
             archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;

@@ -173,7 +173,7 @@ impl Limits {
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);
-        let tier = self.until.map(|Until::Usable| crate::stage::USABLE);
+        let tier = self.until.map(|Until::Usable| crate::judge::USABLE);
         StopConditions { generations, evaluations, steps, minutes, target, tier, stagnation }
     }
 }

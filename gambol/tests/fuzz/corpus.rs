@@ -4,7 +4,7 @@ use gambol::{
     Registry, Setup,
     champion::Champion,
     config::{EngineChoice, RunConfig},
-    stage::Stage,
+    judge::Judge,
     training::{TrainOptions, train},
     trajectory::Recording,
 };
@@ -68,8 +68,8 @@ pub(crate) fn write() -> Result<(), Box<dyn Error>> {
 
 /// The first steps of a champion.
 fn csv(champion: &Champion) -> Result<Vec<u8>, Box<dyn Error>> {
-    let stage = Stage::new(champion.episode_parts(), &Registry::default())?;
-    let (recording, _) = Recording::play(stage.environment(), &champion.network, 12);
+    let judge = Judge::new(champion.episode_parts(), &Registry::default())?;
+    let (recording, _) = Recording::play(judge.environment(), &champion.network, 12);
     let mut csv = Vec::new();
     recording.write_csv(&body()?, &mut csv)?;
     Ok(csv)

@@ -154,7 +154,7 @@ fn the_champion_is_judged_in_the_creature_alone() {
     (config.variation, config.training_steps) = (Default::default(), None);
     let several = setup(&config);
     let reference = several.reference.as_ref().expect("a champion selection");
-    assert!(reference.stage.is_some() && reference.proof.is_none());
+    assert!(reference.judge.is_some() && reference.proof.is_none());
     let net = network(&several, 3);
     let own = alone(&config)[0].evaluate(&mut net.clone(), reference.seed);
     let judged = reference.task.evaluate(&mut net.clone(), reference.seed);

@@ -1,7 +1,7 @@
 //! Worlds in which gaits are judged, each by itself.
 
+use crate::judge::{Gait, Judge, record, steps_of};
 use crate::obstacles::ObstaclesPassed;
-use crate::stage::{Gait, Stage, record, steps_of};
 use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Landscape};
 use envs_lanes::{LANES, LaneEnvironment, Play};
 use envs_rapier::RapierEnvironment;
@@ -48,9 +48,9 @@ type Pair<'a, W> = (usize, &'a Network, &'a W);
 
 impl Worlds {
     /// Builds worlds under these conditions and in these landscapes, on the threads of the current pool.
-    pub fn new(stage: &Stage, worlds: &[(Conditions, Landscape)]) -> Self {
-        let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(stage, conditions, landscape);
-        Self { rules: stage.rules().cloned(), seconds: stage.seconds(), worlds: worlds.par_iter().map(build).collect() }
+    pub fn new(judge: &Judge, worlds: &[(Conditions, Landscape)]) -> Self {
+        let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(judge, conditions, landscape);
+        Self { rules: judge.rules().cloned(), seconds: judge.seconds(), worlds: worlds.par_iter().map(build).collect() }
     }
 
     /// The same worlds, in which gaits are played for at most so many seconds: enough to choose between candidates, and too
@@ -60,10 +60,10 @@ impl Worlds {
         Self { seconds: self.seconds.min(seconds), ..self }
     }
 
-    /// The stage's own world alone, in lanes; `None` if they cannot simulate it.
-    pub(crate) fn reference(stage: &Stage) -> Option<Self> {
-        let world = World::InLanes(Box::new(stage.lanes()?.clone()));
-        Some(Self { rules: stage.rules().cloned(), seconds: stage.seconds(), worlds: vec![Some(world)] })
+    /// The judge's own world alone, in lanes; `None` if they cannot simulate it.
+    pub(crate) fn reference(judge: &Judge) -> Option<Self> {
+        let world = World::InLanes(Box::new(judge.lanes()?.clone()));
+        Some(Self { rules: judge.rules().cloned(), seconds: judge.seconds(), worlds: vec![Some(world)] })
     }
 
     /// How many worlds there are.
@@ -158,14 +158,14 @@ impl Worlds {
 
 impl World {
     /// `None` if the world makes no sense, or the creature does not come to rest there.
-    fn new(stage: &Stage, conditions: &Conditions, landscape: &Landscape) -> Option<Self> {
-        match stage.lanes().map(|lanes| lanes.under(conditions, landscape.clone())) {
+    fn new(judge: &Judge, conditions: &Conditions, landscape: &Landscape) -> Option<Self> {
+        match judge.lanes().map(|lanes| lanes.under(conditions, landscape.clone())) {
             Some(Ok(environment)) => Some(Self::InLanes(Box::new(environment))),
             // What lanes refuse rapier may simulate.
             None | Some(Err(EnvironmentError::Unsupported { .. })) => {
-                let environment = stage.environment().under(conditions, landscape.clone()).ok()?;
-                let steps = steps_of(stage.seconds(), environment.settings().time_step);
-                let episode = Episode::new(environment, stage.movement(), steps, Trials::default()).ok()?;
+                let environment = judge.environment().under(conditions, landscape.clone()).ok()?;
+                let steps = steps_of(judge.seconds(), environment.settings().time_step);
+                let episode = Episode::new(environment, judge.movement(), steps, Trials::default()).ok()?;
                 Some(Self::InRapier(Box::new(episode)))
             }
             Some(Err(_)) => None,
@@ -201,19 +201,19 @@ pub(crate) fn is_usable(report: &GaitReport) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perturbation::{self, tests::stage};
+    use crate::perturbation::{self, tests::judge};
     use envs_core::Ground;
     use ne_net::{DenseNet, DenseShape};
 
-    fn network(stage: &Stage, seed: usize) -> Network {
-        let shape = DenseShape::new(stage.environment().inputs(), vec![], stage.environment().outputs());
+    fn network(judge: &Judge, seed: usize) -> Network {
+        let shape = DenseShape::new(judge.environment().inputs(), vec![], judge.environment().outputs());
         let weights: Vec<f32> = (0..shape.weight_count()).map(|index| (index * seed % 7) as f32 * 0.3 - 0.8).collect();
         DenseNet::new(shape, &weights).expect("a net").into()
     }
 
-    fn perturbed(stage: &Stage) -> Vec<(Conditions, Landscape)> {
+    fn perturbed(judge: &Judge) -> Vec<(Conditions, Landscape)> {
         let draw = |index| {
-            let world = perturbation::World::draw(Seed::of_run(4), index, stage, 5.0);
+            let world = perturbation::World::draw(Seed::of_run(4), index, judge, 5.0);
             (world.conditions, world.landscape)
         };
         (0..5).map(draw).collect()
@@ -222,16 +222,16 @@ mod tests {
     #[test]
     fn lanes_measure_what_rapier_measures() {
         for (creature, movement) in [("tetrapod-1", "jumping"), ("biped-1", "running")] {
-            let stage = stage(creature, movement);
-            let reference = (Conditions::reference(stage.environment().outputs()), Ground::flat().into());
-            let conditions: Vec<_> = perturbed(&stage).into_iter().chain([reference]).collect();
-            let networks = [network(&stage, 3), network(&stage, 5)];
-            let reports = Worlds::new(&stage, &conditions).judge_all(&networks);
-            assert_eq!(reports, Worlds::new(&stage.clone().in_rapier(), &conditions).judge_all(&networks));
+            let judge = judge(creature, movement);
+            let reference = (Conditions::reference(judge.environment().outputs()), Ground::flat().into());
+            let conditions: Vec<_> = perturbed(&judge).into_iter().chain([reference]).collect();
+            let networks = [network(&judge, 3), network(&judge, 5)];
+            let reports = Worlds::new(&judge, &conditions).judge_all(&networks);
+            assert_eq!(reports, Worlds::new(&judge.clone().in_rapier(), &conditions).judge_all(&networks));
             for (network, reports) in networks.iter().zip(&reports) {
                 assert_eq!(reports.len(), 6);
                 assert!(reports.iter().all(Option::is_some));
-                assert_eq!(reports[5], stage.measure_alone(network).map(|gait| gait.report));
+                assert_eq!(reports[5], judge.measure_alone(network).map(|gait| gait.report));
                 assert_ne!(reports[0], reports[5], "another world, another gait");
             }
         }
@@ -240,9 +240,9 @@ mod tests {
     /// What is lost and not played to its end has no verdict; all others have theirs.
     #[test]
     fn whether_a_gait_is_usable_does_not_depend_on_how_long_it_is_played() {
-        let stage = stage("biped-1", "running");
-        let networks: Vec<Network> = (2..8).map(|seed| network(&stage, seed)).collect();
-        let worlds = Worlds::new(&stage, &perturbed(&stage));
+        let judge = judge("biped-1", "running");
+        let networks: Vec<Network> = (2..8).map(|seed| network(&judge, seed)).collect();
+        let worlds = Worlds::new(&judge, &perturbed(&judge));
         let whole = worlds.judge_all(&networks).into_iter().flatten().map(|report| report?.verdict);
         let mut lost = 0;
         for (whole, verdict) in whole.zip(worlds.verdicts(&networks).into_iter().flatten()) {
@@ -260,12 +260,12 @@ mod tests {
 
     #[test]
     fn a_world_that_makes_no_sense_has_nothing_to_measure() {
-        let stage = stage("biped-1", "jumping");
-        let reference = Conditions::reference(stage.environment().outputs());
+        let judge = judge("biped-1", "jumping");
+        let reference = Conditions::reference(judge.environment().outputs());
         let heavy = Conditions { mass: f32::NAN, ..reference.clone() };
         let worlds = [reference, heavy].map(|conditions| (conditions, Ground::flat().into()));
-        let reports = Worlds::new(&stage, &worlds).judge(&network(&stage, 3));
+        let reports = Worlds::new(&judge, &worlds).judge(&network(&judge, 3));
         assert_eq!(reports.iter().map(Option::is_some).collect::<Vec<_>>(), [true, false]);
-        assert!(Worlds::new(&stage, &[]).judge(&network(&stage, 3)).is_empty());
+        assert!(Worlds::new(&judge, &[]).judge(&network(&judge, 3)).is_empty());
     }
 }

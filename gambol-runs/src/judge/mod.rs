@@ -24,10 +24,10 @@ use tasks::{
 use near::near_worlds;
 use worlds::{Worlds, is_usable};
 
-/// The world in which gaits are judged: rapier, the settled start pose, no variation, and as many seconds as the judgement
-/// asks for. Nothing ends the episode early. A gait that is usable there is tried in [near worlds](NearWorlds) too.
+/// Judges the gaits of a creature in one world: rapier, the settled start pose, no variation, and as many seconds as the
+/// judgement asks for. Nothing ends the episode early. A gait that is usable there is tried in [near worlds](NearWorlds) too.
 #[derive(Clone)]
-pub struct Stage {
+pub struct Judge {
     episode: Episode<RapierEnvironment>,
     movement: Box<dyn Movement>,
     rules: Option<Arc<dyn Rules>>,
@@ -44,8 +44,8 @@ pub const USABLE: u8 = 1;
 /// A movement that is not judged is watched for so long, s.
 const UNJUDGED_SECONDS: f64 = 20.0;
 
-impl Stage {
-    /// The stage for a creature with its sensors, motors and physics.
+impl Judge {
+    /// A judge for a creature with its sensors, motors and physics.
     ///
     /// # Errors
     /// If a field is out of range or the movement is unknown.
@@ -146,7 +146,7 @@ impl Stage {
         })
     }
 
-    /// The same stage, where nothing is played in lanes.
+    /// The same judge, where nothing is played in lanes.
     #[cfg(test)]
     pub(crate) fn in_rapier(self) -> Self {
         Self { lanes: None, near: Arc::default(), ..self }
