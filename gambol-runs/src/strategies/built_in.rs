@@ -3,8 +3,9 @@
 use super::{NetStrategy, StrategyCatalogue, Transfer, expressed_net};
 use ne_core::SettingError;
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Mutation, Nsga2,
-    Nsga2Settings, OpenEs, OpenEsSettings, WeightVector,
+    Ars, ArsSettings, CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings,
+    HillClimbing, HillClimbingSettings, Mutation, Nsga2, Nsga2Settings, OpenEs, OpenEsSettings, RandomSearch,
+    RandomSearchSettings, WeightVector,
 };
 use ne_neat::{Neat, NeatSettings};
 use ne_net::Topology;
@@ -21,7 +22,10 @@ impl Default for StrategyCatalogue {
             .add::<CmaEs>("covariance matrix adaptation: a normal distribution of weights that learns which way is up")
             .add::<OpenEs>("OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations")
             .add::<Cosyne>("cooperative synapse neuroevolution: the weights of each place in the net coevolve")
-            .add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)");
+            .add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)")
+            .add::<Ars>("augmented random search, V1-t: steps along the best of random directions; a baseline")
+            .add::<HillClimbing>("hill climbing: one parent and its noisy copies, the best goes on; a baseline")
+            .add::<RandomSearch>("random search: every net is drawn anew, nothing is learnt; a baseline");
         catalogue
     }
 }
@@ -194,6 +198,77 @@ impl NetStrategy for Nsga2 {
     fn begin_at(settings: &Nsga2Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
         let champion = WeightVector::new(topology.clone(), weights.to_vec(), settings.mutation.initial_deviation());
         Self::build(settings, topology)?.with_start(vec![champion.map_err(weights_error)?])
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
+}
+
+impl NetStrategy for Ars {
+    const NAME: &'static str = "ars";
+
+    type Settings = ArsSettings;
+
+    fn build(settings: &ArsSettings, topology: &Topology) -> Result<Self, SettingError> {
+        Self::new(settings.clone(), topology.clone())
+    }
+
+    fn settings(&self) -> &ArsSettings {
+        self.settings()
+    }
+
+    fn transfer(self, settings: &ArsSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
+    }
+
+    fn begin_at(settings: &ArsSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_centre(weights).map_err(weights_error)
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
+}
+
+impl NetStrategy for HillClimbing {
+    const NAME: &'static str = "hill-climbing";
+
+    type Settings = HillClimbingSettings;
+
+    fn build(settings: &HillClimbingSettings, topology: &Topology) -> Result<Self, SettingError> {
+        Self::new(settings.clone(), topology.clone())
+    }
+
+    fn settings(&self) -> &HillClimbingSettings {
+        self.settings()
+    }
+
+    fn transfer(self, settings: &HillClimbingSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
+        Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
+    }
+
+    fn begin_at(settings: &HillClimbingSettings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_parent(weights)
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
+    }
+}
+
+/// It learns nothing, so that it can neither begin at a net nor go on with what it knows.
+impl NetStrategy for RandomSearch {
+    const NAME: &'static str = "random-search";
+
+    type Settings = RandomSearchSettings;
+
+    fn build(settings: &RandomSearchSettings, topology: &Topology) -> Result<Self, SettingError> {
+        Self::new(settings.clone(), topology.clone())
+    }
+
+    fn settings(&self) -> &RandomSearchSettings {
+        self.settings()
     }
 
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
