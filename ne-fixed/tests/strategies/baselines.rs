@@ -229,14 +229,14 @@ proptest! {
         let mean = used.iter().sum::<f64>() / used.len() as f64;
         let sigma = (used.iter().map(|r| (r - mean).powi(2)).sum::<f64>() / used.len() as f64).sqrt();
         let moved = strategy.ask(seed.generation(2))[0].weights().to_vec();
-        for gene in 0..26 {
+        for (gene, &moved) in moved.iter().enumerate() {
             let weight = |place: usize| f64::from(nets[place].weights()[gene]);
             let sum: f64 = order[..top]
                 .iter()
                 .map(|&k| (rewards[1 + 2 * k] - rewards[2 + 2 * k]) * (weight(1 + 2 * k) - weight(0)) / noise)
                 .sum();
             let expected = weight(0) + step_size / (top as f64 * sigma) * sum;
-            prop_assert!((f64::from(moved[gene]) - expected).abs() < 1e-3 * (1.0 + expected.abs()), "{} {expected}", moved[gene]);
+            prop_assert!((f64::from(moved) - expected).abs() < 1e-3 * (1.0 + expected.abs()), "{moved} {expected}");
         }
     }
 }
