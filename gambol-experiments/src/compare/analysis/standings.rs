@@ -48,7 +48,7 @@ pub struct MethodScores {
     pub unscored: Vec<usize>,
     /// The scores in short.
     pub summary: Option<Summary>,
-    /// The median of the best fitnesses, terms included; `None` if the fitness has no terms.
+    /// The median of the fitnesses of the champions whose scores these are, terms included; `None` if the fitness has none.
     pub with_terms: Option<f64>,
 }
 
@@ -150,7 +150,7 @@ impl ScenarioStandings {
         let score = |run: &Trace| run.score(axis, limit?);
         let found: Vec<f64> = methods.iter().flatten().filter_map(score).collect();
         let (worst, best) = (found.iter().copied().reduce(f64::min), found.iter().copied().reduce(f64::max));
-        let fitness = |run: &Trace| run.fitness(axis, limit?).filter(|_| run.is_shaped());
+        let fitness = |run: &Trace| run.last()?.best.filter(|_| run.is_shaped());
         let scores = |runs: &Vec<Trace>| {
             let fitnesses: Vec<f64> = runs.iter().filter_map(fitness).collect();
             MethodScores { with_terms: quantile(&fitnesses, 0.5), ..method_scores(runs, score, worst) }

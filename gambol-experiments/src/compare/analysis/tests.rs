@@ -276,6 +276,8 @@ fn scores_of_a_shaped_fitness_are_those_of_the_movement_alone() {
         result.bare = Some(if result.method == "a" { 20.0 } else { 3.0 } + result.seed as f64);
     }
     results[0].bare = None;
+    // Its champion was first known after the budget.
+    results[2].points = run("a", "s", 2, &[(900, None), (1020, Some(1.0))]).points;
     let analysis = analyse(&plan, &results);
     let (facts, scenario) = (&analysis.scenarios[0], &analysis.at_equal_evaluations.scenarios[0]);
     assert!(facts.shaped && facts.thresholds.is_empty());
@@ -283,7 +285,7 @@ fn scores_of_a_shaped_fitness_are_those_of_the_movement_alone() {
     assert_eq!(scenario.methods[0].unscored, [0], "its champion fails without terms");
     assert_eq!([scenario.methods[0].with_terms, scenario.methods[1].with_terms], [Some(4.5), Some(14.5)]);
     assert_eq!(scenario.pairs[0].better, Some(0));
-    assert_eq!(analysis.runs[1].fitness, Some(2.0));
+    assert_eq!(analysis.runs[1].fitness, Some(1.0));
     assert_eq!(analysis.runs[1].score_at_equal_evaluations, Some(22.0));
     let says = |caveat: &String| caveat.starts_with("On s the fitness has terms. Scores are what the champion");
     assert!(analysis.caveats.iter().any(says), "{:?}", analysis.caveats);

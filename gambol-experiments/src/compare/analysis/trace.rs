@@ -69,13 +69,7 @@ impl Trace {
     /// The score when `limit` was spent: the best fitness at the end of the last generation that was over by then. If the
     /// fitness has terms, in its place what the champion at the end of the run comes to without them.
     pub(super) fn score(&self, axis: Axis, limit: f64) -> Option<f64> {
-        let fitness = self.fitness(axis, limit)?;
-        self.bare.unwrap_or(Some(fitness))
-    }
-
-    /// The best fitness when `limit` was spent, terms included.
-    pub(super) fn fitness(&self, axis: Axis, limit: f64) -> Option<f64> {
-        self.curve(axis)?.value_at(limit)
+        self.bare.unwrap_or_else(|| self.curve(axis)?.value_at(limit))
     }
 
     /// Whether its fitness has terms.
