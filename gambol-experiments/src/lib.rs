@@ -2,10 +2,12 @@
 //!
 //! | module | what it does |
 //! |---|---|
-//! | [`compare`] | strategies against each other, with paired seeds and statistics |
+//! | [`compare`] | strategies against each other, with the same seeds and statistics |
+//! | [`tune`] | the settings of a strategy, by random search on seeds of its own |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
 //! | [`benchmarks`] | the strategies on classic tasks, beside published numbers |
 
 pub mod benchmarks;
 pub mod compare;
 pub mod reproduce;
+pub mod tune;

@@ -62,9 +62,29 @@ const STANLEY_2002: Preset = Preset {
     },
 };
 
+const PLAIN: Preset = Preset {
+    name: "plain",
+    description: "for fair comparisons: a dense net of ten hidden neurons, the movement alone as fitness, nothing varies",
+    change: |_, _| {},
+};
+
+/// What cannot be given to every strategy is given to none: NEAT has no nets that limbs share.
+const SHAPED: Preset = Preset {
+    name: "shaped",
+    description: "for fair comparisons: terms, senses, target angles and variation of the default, one net for all limbs",
+    change: |config, known| {
+        config.variation = Variation::light();
+        defaults::apply(config, known);
+        config.controller.modular = None;
+        config.controller.hidden = vec![10];
+        // Every strategy has its own defaults, the first mutation strength too.
+        config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::default());
+    },
+};
+
 impl Default for PresetCatalogue {
     fn default() -> Self {
-        Self { first: DEFAULT, others: vec![THESIS, STANLEY_2002] }
+        Self { first: DEFAULT, others: vec![THESIS, STANLEY_2002, PLAIN, SHAPED] }
     }
 }
 

@@ -9,6 +9,7 @@
 //! | [`OpenEs`] | a centre that climbs an estimated gradient | thousands of weights, noisy fitness, many processors |
 //! | [`Cosyne`] | a subpopulation for each weight, whose members meet in ever new nets | small nets, few evaluations |
 //! | [`Nsga2`] | a genetic algorithm that keeps a front of compromises between objectives | where several things are wanted that cannot all be had |
+//! | [`RandomSearch`], [`HillClimbing`], [`Ars`] | baselines: weights drawn anew; one parent and its noisy copies; steps along the best of random directions | to see what the others are worth |
 //!
 //! They take any [`Topology`](ne_net::Topology), a dense shape or a frozen graph, recurrent ones included.
 //!
@@ -53,6 +54,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod ars;
 mod chance;
 mod cma_es;
 mod conventional;
@@ -61,27 +63,32 @@ mod crossover;
 mod distribution;
 mod diversity;
 mod genome;
+mod hill_climbing;
 mod initialization;
 mod mutation;
 mod nets;
 mod normal;
 mod nsga2;
 mod open_es;
+mod random_search;
 mod ranking;
 mod setting;
 mod state_error;
 
+pub use ars::{Ars, ArsSettings};
 pub use cma_es::{CmaEs, CmaEsSettings, CovarianceModel, Restart};
 pub use conventional::{ConventionalNe, ConventionalNeSettings, StagnationBoost};
 pub use cosyne::{Cosyne, CosyneSettings, Permutation};
 pub use crossover::{Arithmetic, Crossover, CrossoverChoice, OnePoint, TwoPoint, UniformCrossover};
 pub use distribution::Distribution;
 pub use genome::{WeightVector, WeightVectorError};
+pub use hill_climbing::{HillClimbing, HillClimbingSettings};
 pub use initialization::Initialization;
 pub use mutation::{
     DistributedMutation, GaussianMutation, Mutation, MutationChoice, SelfAdaptiveMutation, UniformMutation,
 };
 pub use nsga2::{Nsga2, Nsga2Settings};
 pub use open_es::{Adam, OpenEs, OpenEsSettings};
+pub use random_search::{RandomSearch, RandomSearchSettings};
 pub use setting::Setting;
 pub use state_error::StateError;

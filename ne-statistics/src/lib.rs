@@ -10,9 +10,9 @@
 //! | how good is a method over all tasks? | [`interquartile_mean`], [`median_of_task_means`], [`mean`], [`optimality_gap`], [`quantile`] |
 //! | how sure is that? | [`Bootstrap::interval`] of any of them |
 //! | which share of runs is good enough? | [`performance_profile`], [`performance_profile_band`] |
-//! | by how much is x better than y? | [`Bootstrap::comparison`] of a difference; [`hodges_lehmann`] for pairs |
+//! | by how much is x better than y? | [`Bootstrap::comparison`] of a difference; [`hodges_lehmann`] for pairs, [`shift_between`] otherwise |
 //! | how often is x better than y? | [`probability_of_improvement`]; on one task [`vargha_delaney`] |
-//! | could it be chance? | [`wilcoxon_signed_rank`] for pairs; for several tests [`holm`] |
+//! | could it be chance? | [`wilcoxon_signed_rank`] for pairs, [`rank_sum`] otherwise; for several tests [`holm`] |
 //! | how long does it take? | [`Curve::first_reaching`], [`median_to_threshold`] |
 //! | what does progress look like? | [`pointwise_quartiles`] |
 //! | how to average metres and seconds? | [`normalize`] |
@@ -66,6 +66,7 @@ mod normalization;
 mod pointwise;
 mod profile;
 mod quantile;
+mod rank_sum;
 mod sample;
 mod scores;
 mod time_to_threshold;
@@ -83,6 +84,7 @@ pub use normalization::{NormalizationError, Reference, normalize};
 pub use pointwise::{Quartiles, pointwise_quartiles};
 pub use profile::{performance_profile, performance_profile_band};
 pub use quantile::quantile;
+pub use rank_sum::{RankSumTest, rank_sum, shift_between};
 pub use sample::{LARGEST, SampleError};
 pub use scores::{Scores, ScoresError};
 pub use time_to_threshold::median_to_threshold;

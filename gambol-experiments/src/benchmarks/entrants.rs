@@ -1,7 +1,8 @@
 use super::BenchmarkTask;
 use gambol_runs::config::StrategySettings;
 use ne_fixed::{
-    CmaEsSettings, ConventionalNeSettings, CosyneSettings, GaussianMutation, MutationChoice, OpenEsSettings,
+    ArsSettings, CmaEsSettings, ConventionalNeSettings, CosyneSettings, GaussianMutation, HillClimbingSettings,
+    Initialization, MutationChoice, OpenEsSettings, RandomSearchSettings,
 };
 use ne_neat::NeatSettings;
 use ne_net::{Activation, DenseShape, GraphNeuron, GraphShape, Topology};
@@ -26,7 +27,10 @@ pub struct Entrant {
 
 /// Each strategy with each task, some with more than one setting.
 pub fn entrants() -> Vec<Entrant> {
-    let others = |task| [cma_es(task), cosyne(task), open_es(task), conventional(task)];
+    let others = |task| {
+        let searches = [cma_es(task), cosyne(task), open_es(task), conventional(task)];
+        searches.into_iter().chain([ars(task), hill_climbing(task), random_search(task)])
+    };
     let all = |task| neat(task).into_iter().chain(others(task));
     BenchmarkTask::ALL.into_iter().flat_map(all).collect()
 }
@@ -75,6 +79,23 @@ fn conventional(task: BenchmarkTask) -> Entrant {
     let mutation = MutationChoice::Gaussian(GaussianMutation { rate: 0.4, deviation: 1.0 });
     let settings = ConventionalNeSettings { mutation, ..ConventionalNeSettings::default() };
     on_its_net(task, StrategySettings::new("conventional", &settings))
+}
+
+fn ars(task: BenchmarkTask) -> Entrant {
+    on_its_net(task, StrategySettings::new("ars", &ArsSettings::default()))
+}
+
+/// With the mutation of conventional neuroevolution, but on every weight.
+fn hill_climbing(task: BenchmarkTask) -> Entrant {
+    let settings = HillClimbingSettings { mutation_deviation: 1.0, ..HillClimbingSettings::default() };
+    on_its_net(task, StrategySettings::new("hill-climbing", &settings))
+}
+
+/// From the distribution with which CoSyNE begins.
+fn random_search(task: BenchmarkTask) -> Entrant {
+    let initialization = Initialization::Uniform { limit: 10.0 };
+    let settings = RandomSearchSettings { initialization, ..RandomSearchSettings::default() };
+    on_its_net(task, StrategySettings::new("random-search", &settings))
 }
 
 /// A search for the weights of the net the task is given.

@@ -10,7 +10,7 @@ mod table;
 
 pub use entrants::{Entrant, entrants};
 pub use published::{PUBLISHED, Published};
-pub use solve::{Attempt, Measured, measure};
+pub use solve::{Attempt, Counting, Measured, measure};
 pub use table::render;
 
 use ne_core::SettingError;
@@ -29,8 +29,7 @@ pub enum BenchmarkTask {
     TwoPoles,
     /// The same without velocities among the inputs, with the damping fitness.
     TwoPolesWithoutVelocities,
-    /// The same, and a solution has to hold the poles from 200 of 625 other starts too; only the best of each generation
-    /// is tried. So Stanley & Miikkulainen, 2002, had it, but from 1° in place of 4°.
+    /// The same, and a solution has to hold the poles from 200 of 625 other starts too. So Stanley & Miikkulainen, 2002, had it, but from 1° in place of 4°.
     GeneralTwoPoles,
 }
 
@@ -58,6 +57,12 @@ impl BenchmarkTask {
             Self::TwoPoles => 6,
             Self::TwoPolesWithoutVelocities | Self::GeneralTwoPoles => 3,
         }
+    }
+
+    /// Whether a candidate has to pass a test that is not an evaluation and is not counted as one: 100,000 decisions, other
+    /// starts.
+    pub fn has_uncounted_test(self) -> bool {
+        matches!(self, Self::TwoPolesWithoutVelocities | Self::GeneralTwoPoles)
     }
 
     /// Evaluations after which an attempt is given up.

@@ -24,7 +24,7 @@ const GOMEZ: &str = "Gomez, Schmidhuber & Miikkulainen 2008";
 pub const PUBLISHED: &[Published] = &[
     published("NEAT", Some("neat"), BenchmarkTask::Xor, 4_755, STANLEY),
     published("CoSyNE", Some("cosyne"), BenchmarkTask::OnePole, 98, GOMEZ),
-    published("random weight guessing", None, BenchmarkTask::OnePole, 199, GOMEZ),
+    published("random weight guessing", Some("random-search"), BenchmarkTask::OnePole, 199, GOMEZ),
     published("CMA-ES", Some("cma-es"), BenchmarkTask::OnePole, 283, GOMEZ),
     published("ESP", None, BenchmarkTask::OnePole, 289, GOMEZ),
     published("SANE", None, BenchmarkTask::OnePole, 302, GOMEZ),
@@ -37,7 +37,7 @@ pub const PUBLISHED: &[Published] = &[
     published("SANE", None, BenchmarkTask::TwoPoles, 12_600, GOMEZ),
     published("conventional NE", Some("conventional"), BenchmarkTask::TwoPoles, 22_100, GOMEZ),
     published("evolutionary programming", None, BenchmarkTask::TwoPoles, 307_200, GOMEZ),
-    published("random weight guessing", None, BenchmarkTask::TwoPoles, 474_329, GOMEZ),
+    published("random weight guessing", Some("random-search"), BenchmarkTask::TwoPoles, 474_329, GOMEZ),
     published("CoSyNE", Some("cosyne"), BenchmarkTask::TwoPolesWithoutVelocities, 3_416, GOMEZ),
     published("CMA-ES", Some("cma-es"), BenchmarkTask::TwoPolesWithoutVelocities, 6_061, GOMEZ),
     published("NEAT (population 16)", Some("neat"), BenchmarkTask::TwoPolesWithoutVelocities, 6_929, GOMEZ),
@@ -46,7 +46,13 @@ pub const PUBLISHED: &[Published] = &[
     published("conventional NE", Some("conventional"), BenchmarkTask::TwoPolesWithoutVelocities, 87_623, GOMEZ),
     published("SANE", None, BenchmarkTask::TwoPolesWithoutVelocities, 451_612, GOMEZ),
     published("cellular encoding", None, BenchmarkTask::TwoPolesWithoutVelocities, 840_000, GOMEZ),
-    published("random weight guessing", None, BenchmarkTask::TwoPolesWithoutVelocities, 1_232_296, GOMEZ),
+    published(
+        "random weight guessing",
+        Some("random-search"),
+        BenchmarkTask::TwoPolesWithoutVelocities,
+        1_232_296,
+        GOMEZ,
+    ),
     published("NEAT (population 1000, 286 of 625)", Some("neat"), BenchmarkTask::GeneralTwoPoles, 33_184, STANLEY),
 ];
 

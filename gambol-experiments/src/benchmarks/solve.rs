@@ -1,19 +1,31 @@
 use super::{BenchmarkTask, Entrant};
+use gambol_runs::config::StrategySettings;
 use gambol_runs::strategies::{AnyStrategy, StrategyCatalogue, StrategyError};
-use ne_core::{Evaluation, Genome, Seed, Strategy, Task};
+use ne_core::{Evaluation, Genome, Seed, Strategy};
 use ne_net::Network;
 use rayon::prelude::*;
 use serde::Serialize;
-use std::time::Instant;
-use tasks::{Benchmark, DoublePole};
+use serde_json::{Map, Value};
+use std::{ops::Range, time::Instant};
+use tasks::Benchmark;
+
+/// Who is put to the test that is not counted, where a task [has one](BenchmarkTask::has_uncounted_test).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Counting {
+    /// Every candidate, as soon as it was evaluated; evaluations count up to and including its own. Millions of decisions
+    /// that are not counted.
+    EveryCandidate,
+    /// The best of each generation alone, as papers have it; evaluations count up to the end of its generation.
+    BestOfGeneration,
+}
 
 /// What one run came to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Attempt {
     /// The run's seed.
     pub seed: u64,
-    /// Evaluations up to and including that of the first solution, in the order the strategy asked; those of the whole
-    /// attempt if there was none.
+    /// Evaluations up to the first solution, as the [`Counting`] has it; those of the whole attempt if there was none.
     pub evaluations: u64,
     /// Whether there was a solution.
     pub solved: bool,
@@ -34,23 +46,35 @@ pub struct Measured {
     pub strategy: String,
     /// The task.
     pub task: BenchmarkTask,
+    /// Who is tested.
+    pub counting: Counting,
     /// Settings and net, in words.
     pub description: String,
+    /// The settings that are not the strategy's defaults.
+    pub settings: Map<String, Value>,
     /// One for each seed.
     pub attempts: Vec<Attempt>,
 }
 
-/// Lets a entrant try a task with the seeds from 1 to `seeds`, spread over all cores. The result is the same on any
-/// number of cores.
+/// Lets a entrant try a task with these seeds, spread over all cores. The result is the same on any number of cores.
 ///
 /// # Errors
 /// If a setting of the entrant is out of range.
-pub fn measure(entrant: &Entrant, seeds: u64) -> Result<Measured, StrategyError> {
+pub fn measure(entrant: &Entrant, counting: Counting, seeds: Range<u64>) -> Result<Measured, StrategyError> {
     let strategies = StrategyCatalogue::default();
-    let attempts = (1..=seeds).into_par_iter().map(|seed| attempt(entrant, &strategies, seed));
+    let attempts = seeds.into_par_iter().map(|seed| attempt(entrant, counting, &strategies, seed));
     let attempts = attempts.collect::<Result<_, _>>()?;
     let (strategy, description) = (entrant.settings.name().to_owned(), entrant.description.to_owned());
-    Ok(Measured { strategy, task: entrant.task, description, attempts })
+    let settings = changed(&entrant.settings, &strategies);
+    Ok(Measured { strategy, task: entrant.task, counting, description, settings, attempts })
+}
+
+/// The settings that are not the defaults.
+fn changed(settings: &StrategySettings, strategies: &StrategyCatalogue) -> Map<String, Value> {
+    let defaults = strategies.find(settings.name()).map(|entry| entry.settings());
+    let is_default = |key: &str, value: &Value| defaults.as_ref().and_then(|it| it.settings().get(key)) == Some(value);
+    let settings = settings.settings().iter();
+    settings.filter(|(key, value)| !is_default(key, value)).map(|(key, value)| (key.clone(), value.clone())).collect()
 }
 
 impl Measured {
@@ -68,33 +92,48 @@ impl Measured {
 }
 
 /// Tries a task with one seed.
-fn attempt(entrant: &Entrant, strategies: &StrategyCatalogue, seed: u64) -> Result<Attempt, StrategyError> {
+fn attempt(
+    entrant: &Entrant,
+    counting: Counting,
+    strategies: &StrategyCatalogue,
+    seed: u64,
+) -> Result<Attempt, StrategyError> {
     let &Entrant { task, ref settings, ref topology, output_range, bias_input, .. } = entrant;
     let benchmark = task.task(output_range, bias_input)?;
     let poles = task.poles(output_range, bias_input)?;
     let strategy = strategies.build(settings, topology)?;
     let began = Instant::now();
+    let solve = match counting {
+        Counting::EveryCandidate => solve,
+        Counting::BestOfGeneration => solve_by_generations,
+    };
+    let is_general = |net: &mut Network| poles.generalization(net).is_ok_and(|starts| starts.is_general());
     let (evaluations, solution) = match task {
-        BenchmarkTask::GeneralTwoPoles => solve_generally(strategy, &poles, Seed::of_run(seed), task.limit()),
-        _ => solve(strategy, benchmark.as_ref(), Seed::of_run(seed), task.limit()),
+        BenchmarkTask::GeneralTwoPoles => solve(strategy, benchmark.as_ref(), &is_general, seed, task.limit()),
+        _ => solve(strategy, benchmark.as_ref(), &|_| true, seed, task.limit()),
     };
     let seconds = began.elapsed().as_secs_f64();
     let (hidden, connections) = solution.as_ref().map(size).unzip();
     let solved = solution.is_some();
-    let has_starts = matches!(task, BenchmarkTask::TwoPolesWithoutVelocities | BenchmarkTask::GeneralTwoPoles);
     let generalization = solution
-        .filter(|_| has_starts)
+        .filter(|_| task.has_uncounted_test())
         .and_then(|mut solution| poles.generalization(&mut solution).ok())
         .map(|starts| starts.held);
     Ok(Attempt { seed, evaluations, solved, hidden, connections, seconds, generalization })
 }
 
 /// Searches until an individual solves the task or so many evaluations are used up. Individuals are evaluated one after
-/// the other; as soon as one solves the task, no other is evaluated.
-fn solve(mut strategy: AnyStrategy, task: &dyn Benchmark, seed: Seed, limit: u64) -> (u64, Option<Network>) {
+/// the other; as soon as one solves the task, and `is_enough` of a solution, no other is evaluated.
+fn solve(
+    mut strategy: AnyStrategy,
+    task: &dyn Benchmark,
+    is_enough: &dyn Fn(&mut Network) -> bool,
+    seed: u64,
+    limit: u64,
+) -> (u64, Option<Network>) {
     let mut used = 0;
     for generation in 1.. {
-        let seed = seed.generation(generation);
+        let seed = Seed::of_run(seed).generation(generation);
         let mut evaluations = Vec::new();
         for genome in strategy.ask(seed) {
             if used >= limit {
@@ -103,7 +142,10 @@ fn solve(mut strategy: AnyStrategy, task: &dyn Benchmark, seed: Seed, limit: u64
             let mut phenotype = genome.express();
             let evaluation = task.evaluate(&mut phenotype, seed);
             used += 1;
-            if task.is_candidate(&evaluation) && task.is_solved(&mut phenotype, &evaluation) {
+            if task.is_candidate(&evaluation)
+                && task.is_solved(&mut phenotype, &evaluation)
+                && is_enough(&mut phenotype)
+            {
                 return (used, Some(phenotype));
             }
             evaluations.push(evaluation);
@@ -113,11 +155,17 @@ fn solve(mut strategy: AnyStrategy, task: &dyn Benchmark, seed: Seed, limit: u64
     (used, None)
 }
 
-/// As [`solve`], but generation by generation: only the best of each is tried, and it has to hold from other starts too.
-fn solve_generally(mut strategy: AnyStrategy, task: &DoublePole, seed: Seed, limit: u64) -> (u64, Option<Network>) {
+/// As [`solve`], but generation by generation: only the best of each is tried.
+fn solve_by_generations(
+    mut strategy: AnyStrategy,
+    task: &dyn Benchmark,
+    is_enough: &dyn Fn(&mut Network) -> bool,
+    seed: u64,
+    limit: u64,
+) -> (u64, Option<Network>) {
     let mut used = 0;
     for generation in 1.. {
-        let seed = seed.generation(generation);
+        let seed = Seed::of_run(seed).generation(generation);
         let genomes = strategy.ask(seed);
         let evaluations: Vec<Evaluation> =
             genomes.iter().map(|genome| task.evaluate(&mut genome.express(), seed)).collect();
@@ -126,9 +174,7 @@ fn solve_generally(mut strategy: AnyStrategy, task: &DoublePole, seed: Seed, lim
         // Reversed, since of equals `max_by_key` takes the last.
         if let Some((genome, evaluation)) = ranked.max_by_key(|(_, evaluation)| evaluation.fitness()) {
             let mut phenotype = genome.express();
-            if task.is_candidate(evaluation)
-                && task.is_solved(&mut phenotype, evaluation)
-                && task.generalization(&mut phenotype).is_ok_and(|starts| starts.is_general())
+            if task.is_candidate(evaluation) && task.is_solved(&mut phenotype, evaluation) && is_enough(&mut phenotype)
             {
                 return (used, Some(phenotype));
             }
@@ -162,16 +208,16 @@ mod tests {
     fn an_attempt_without_a_solution_ends_at_its_limit() {
         let (strategy, Entrant { task, output_range, bias_input, .. }) = genetic_algorithm(BenchmarkTask::TwoPoles);
         let task = task.task(output_range, bias_input).expect("valid settings");
-        let (used, solution) = solve(strategy, task.as_ref(), Seed::of_run(1), 120);
+        let (used, solution) = solve(strategy, task.as_ref(), &|_| true, 1, 120);
         assert_eq!((used, solution), (120, None), "in the middle of the third generation");
     }
 
     #[test]
-    fn general_solutions_are_looked_for_generation_by_generation() {
+    fn the_best_are_looked_for_generation_by_generation() {
         let (strategy, Entrant { task, output_range, bias_input, .. }) =
             genetic_algorithm(BenchmarkTask::GeneralTwoPoles);
-        let poles = task.poles(output_range, bias_input).expect("valid settings");
-        let (used, solution) = solve_generally(strategy, &poles, Seed::of_run(1), 120);
+        let task = task.task(output_range, bias_input).expect("valid settings");
+        let (used, solution) = solve_by_generations(strategy, task.as_ref(), &|_| true, 1, 120);
         assert_eq!((used, solution), (150, None), "the third generation is finished");
     }
 
@@ -179,8 +225,21 @@ mod tests {
     fn evaluations_are_counted_up_to_the_first_solver() {
         let is_it = |one: &&Entrant| one.task == BenchmarkTask::OnePole && one.settings.name() == "conventional";
         let entrants = entrants();
-        let measured = measure(entrants.iter().find(is_it).expect("it takes part"), 4).expect("valid settings");
+        let measured = measure(entrants.iter().find(is_it).expect("it takes part"), Counting::EveryCandidate, 1..5)
+            .expect("valid settings");
         assert_eq!(measured.solved(), 4);
         assert!(measured.evaluations().iter().any(|evaluations| evaluations % 50 > 0), "{:?}", measured.evaluations());
+        assert_eq!(measured.settings.keys().collect::<Vec<_>>(), ["mutation"], "what is not its default");
+    }
+
+    #[test]
+    fn with_the_best_alone_tested_whole_generations_are_counted() {
+        let is_it = |one: &&Entrant| one.task == BenchmarkTask::OnePole && one.settings.name() == "conventional";
+        let entrants = entrants();
+        let entrant = entrants.iter().find(is_it).expect("it takes part");
+        let measured = |counting| measure(entrant, counting, 1001..1005).expect("valid settings").evaluations();
+        let (every, best) = (measured(Counting::EveryCandidate), measured(Counting::BestOfGeneration));
+        assert!(best.iter().all(|evaluations| evaluations % 50 == 0), "{best:?}");
+        assert!(every.iter().zip(&best).all(|(every, best)| every <= best), "{every:?} {best:?}");
     }
 }

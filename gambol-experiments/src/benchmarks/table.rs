@@ -1,4 +1,4 @@
-use super::{Attempt, BenchmarkTask, Measured, PUBLISHED, Published};
+use super::{Attempt, BenchmarkTask, Counting, Measured, PUBLISHED, Published};
 use std::fmt::Write;
 
 /// What was measured, task by task, beside what is published, as text.
@@ -15,13 +15,23 @@ pub fn render(measured: &[Measured]) -> String {
 }
 
 fn render_task(text: &mut String, task: BenchmarkTask, measured: &[&Measured]) -> std::fmt::Result {
-    writeln!(text, "{}: evaluations to a solution", task.name())?;
+    let tested = if task.has_uncounted_test() {
+        "; tested, not counted: all candidates, or the best of a generation"
+    } else {
+        ""
+    };
+    writeln!(text, "{}: evaluations to a solution{tested}", task.name())?;
     writeln!(
         text,
-        "  {:<14}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8}  published mean",
-        "strategy", "mean", "sd", "median", "worst", "solved", "ms", "hidden", "weights", "of 625"
+        "  {:<20}{:<7}{:>9}{:>9}{:>9}{:>9}{:>9}{:>8}{:>8}{:>8}{:>8}  published mean",
+        "strategy", "tested", "mean", "sd", "median", "worst", "solved", "ms", "hidden", "weights", "of 625"
     )?;
-    for measured in measured {
+    for (place, measured) in measured.iter().enumerate() {
+        let tested = match measured.counting {
+            _ if !task.has_uncounted_test() => "–",
+            Counting::EveryCandidate => "all",
+            Counting::BestOfGeneration => "best",
+        };
         let sorted = |mut values: Vec<f64>| {
             values.sort_by(f64::total_cmp);
             values
@@ -31,8 +41,8 @@ fn render_task(text: &mut String, task: BenchmarkTask, measured: &[&Measured]) -
         let (mean, deviation) = mean_and_deviation(&evaluations);
         writeln!(
             text,
-            "  {:<14}{mean:>9.0}{deviation:>9.0}{:>9.0}{:>9.0}{:>9}{:>8.1}{:>8}{:>8}{:>8}  {}",
-            measured.strategy,
+            "  {:<20}{tested:<7}{mean:>9.0}{deviation:>9.0}{:>9.0}{:>9.0}{:>9}{:>8.1}{:>8}{:>8}{:>8}  {}",
+            format!("{} [{}]", measured.strategy, place + 1),
             median(&evaluations),
             evaluations.last().copied().unwrap_or_default(),
             format!("{}/{}", measured.solved(), measured.attempts.len()),
@@ -42,12 +52,20 @@ fn render_task(text: &mut String, task: BenchmarkTask, measured: &[&Measured]) -
             mean_of(measured, |attempt| attempt.generalization.map(f64::from)),
             published(task, |published| published.strategy == Some(measured.strategy.as_str())),
         )?;
-        writeln!(text, "    {}", measured.description)?;
     }
     let others = published(task, |published| {
         measured.iter().all(|measured| published.strategy != Some(measured.strategy.as_str()))
     });
-    writeln!(text, "  published, others: {others}\n")
+    writeln!(text, "  published, others: {others}")?;
+    for (place, measured) in measured.iter().enumerate() {
+        let settings: Vec<String> = measured.settings.iter().map(|(key, value)| format!("{key} {value}")).collect();
+        let settings = match settings.is_empty() {
+            true => "its defaults".into(),
+            false => settings.join(", "),
+        };
+        writeln!(text, "  [{}] {}: {settings}", place + 1, measured.description)?;
+    }
+    writeln!(text)
 }
 
 /// What papers report on a task, the best first.

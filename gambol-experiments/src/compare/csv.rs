@@ -1,22 +1,38 @@
 //! The raw data as CSV.
 
-use super::{Analysis, RunResult};
+use super::{Analysis, Plan, Provenance, RunResult};
 use gambol_runs::texts::csv_cell;
 use std::fmt::Write;
 
 /// A row for each run:
-/// `method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds`.
+/// `method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,fitness,evaluations,steps,seconds`, where `fitness`
+/// has the terms in it.
 ///
 /// A score is empty if the run had none by then; nothing is put in its place here.
 pub(super) fn scores(analysis: &Analysis) -> String {
-    let header = "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds\n";
-    let mut text = String::from(header);
+    let mut text = String::from(
+        "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,fitness,evaluations,steps,seconds\n",
+    );
     for run in &analysis.runs {
         let name = [&run.method, &run.scenario].map(|name| csv_cell(name)).join(",");
         let scores = [run.score_at_equal_evaluations, run.score_at_equal_steps].map(field).join(",");
         let (evaluations, steps, seconds) = (field(run.evaluations), field(run.steps), field(run.seconds));
         // Writing to a string cannot fail.
-        let _ = writeln!(text, "{name},{},{scores},{evaluations},{steps},{seconds}", run.seed);
+        let fitness = field(run.fitness);
+        let _ = writeln!(text, "{name},{},{scores},{fitness},{evaluations},{steps},{seconds}", run.seed);
+    }
+    text
+}
+
+/// A row for each field of each method on each scenario: `method,scenario,field,value,from`.
+pub(super) fn settings(plan: &Plan) -> String {
+    let mut text = String::from("method,scenario,field,value,from\n");
+    for cell in &plan.cells {
+        for Provenance { field, value, from } in &cell.provenance {
+            let row = [&cell.method, &cell.scenario, field, &value.to_string(), from].map(|name| csv_cell(name));
+            text += &row.join(",");
+            text.push('\n');
+        }
     }
     text
 }
@@ -59,9 +75,9 @@ mod tests {
         ];
         assert_eq!(
             scores(&analyse(&plan, &results)),
-            "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,evaluations,steps,seconds\n\
-             \"a, \"\"b\"\"\",s,1,1.5,1.5,1200,12000,12\n\
-             \"a, \"\"b\"\"\",s,2,,,1100,11000,11\n"
+            "method,scenario,seed,score_at_equal_evaluations,score_at_equal_steps,fitness,evaluations,steps,seconds\n\
+             \"a, \"\"b\"\"\",s,1,1.5,1.5,2,1200,12000,12\n\
+             \"a, \"\"b\"\"\",s,2,,,,1100,11000,11\n"
         );
         assert_eq!(
             curves(&results),
@@ -76,6 +92,6 @@ mod tests {
     #[test]
     fn a_run_that_is_missing_has_empty_fields() {
         let text = scores(&analyse(&plan(&["a"], &["s"], 1), &[]));
-        assert_eq!(text.lines().nth(1), Some("a,s,1,,,,,"));
+        assert_eq!(text.lines().nth(1), Some("a,s,1,,,,,,"));
     }
 }

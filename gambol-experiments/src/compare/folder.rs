@@ -23,6 +23,7 @@ const VERSION: u32 = 2;
 /// | `results/METHOD/SCENARIO/seed-N.json` | what is kept of a run that has ended |
 /// | `comparison.html` | to look at |
 /// | `scores.csv`, `curves.csv` | the raw data |
+/// | `settings.csv` | what each method had, and from where |
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ComparisonFolder {
     path: PathBuf,

@@ -18,10 +18,11 @@ mod merge;
 mod outcome;
 mod page;
 mod plan;
+mod provenance;
 mod result;
 pub mod table;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod work;
 
 pub use analysis::{Analysis, analyse};
@@ -29,5 +30,6 @@ pub use folder::{CompareError, ComparisonFolder};
 pub use merge::merge;
 pub use outcome::write_outcome;
 pub use plan::{Cell, Job, Method, Part, Plan, PlanError, PlanRequest};
+pub use provenance::Provenance;
 pub use result::{Point, RunResult};
 pub use work::{Progress, WorkOptions, work};

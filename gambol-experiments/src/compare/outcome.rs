@@ -1,8 +1,8 @@
 use super::{Analysis, CompareError, ComparisonFolder, analyse, csv, page};
 use ne_core::archive;
 
-/// Analyses a comparison whose runs have all ended, and writes `comparison.html`, `scores.csv` and `curves.csv` into its
-/// folder.
+/// Analyses a comparison whose runs have all ended, and writes `comparison.html`, `scores.csv`, `curves.csv` and
+/// `settings.csv` into its folder.
 ///
 /// # Errors
 /// If a run is missing, or a file cannot be read or written.
@@ -14,6 +14,7 @@ pub fn write_outcome(folder: &ComparisonFolder) -> Result<Analysis, CompareError
         (folder.page(), page::render(&analysis)),
         (folder.path().join("scores.csv"), csv::scores(&analysis)),
         (folder.path().join("curves.csv"), csv::curves(&results)),
+        (folder.path().join("settings.csv"), csv::settings(&plan)),
     ];
     for (path, text) in files {
         archive::write_whole(&path, text.as_bytes()).map_err(|source| CompareError::Write { path, source })?;

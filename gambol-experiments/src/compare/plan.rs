@@ -1,3 +1,4 @@
+use super::provenance::{Provenance, first_unlike, provenance};
 use gambol_runs::Registry;
 use gambol_runs::suggest;
 use gambol_runs::{
@@ -36,6 +37,8 @@ pub struct Cell {
     pub unit: String,
     /// The configuration of its runs, but for the seed.
     pub config: RunConfig,
+    /// What the method has there, and from where.
+    pub provenance: Vec<Provenance>,
 }
 
 /// One run of a plan.
@@ -73,6 +76,9 @@ pub struct PlanRequest {
     pub seeds: Vec<u64>,
     /// The budget of each run: evaluations, steps, or both.
     pub budget: StopConditions,
+    /// The preset of all methods, by name: they may then differ in nothing but their strategy and its settings. Its
+    /// variation is kept. None: each method has its own preset, or the default, and nothing varies.
+    pub preset: Option<String>,
     /// Single settings for all runs, `key=value`.
     pub set: Vec<String>,
     /// The engine of all runs, by name; otherwise what each method says.
@@ -99,6 +105,21 @@ pub enum PlanError {
     /// A method is not one.
     #[error("{0}")]
     Method(String),
+    /// With a preset of all, a method has something that the others do not have.
+    #[error(
+        "{method} and {other} do not have the same {field} on {scenario}: with --preset strategies may differ in their own \
+         settings alone; leave it out of the file, or give it to all with --set"
+    )]
+    Unlike {
+        /// The method.
+        method: String,
+        /// The first of the methods.
+        other: String,
+        /// The scenario.
+        scenario: String,
+        /// The field of their configurations.
+        field: String,
+    },
     /// A method has no configuration for a scenario.
     #[error("{method} on {scenario}: {source}")]
     Request {
@@ -140,6 +161,12 @@ impl PlanRequest {
         if let Some((_, what)) = missing.into_iter().find(|(missing, _)| *missing) {
             return Err(PlanError::Missing(what));
         }
+        if let (Some(preset), Some(own)) = (&self.preset, self.methods.iter().find(|method| method.preset.is_some())) {
+            return Err(PlanError::Method(format!(
+                "\"{}\" is a preset, and --preset {preset} gives all the same: name strategies, or leave out --preset",
+                own.name
+            )));
+        }
         unique("the strategy", self.methods.iter().map(|method| method.name.clone()))?;
         unique("the movement", self.movements.iter().cloned())?;
         unique("the seed", self.seeds.iter().map(u64::to_string))?;
@@ -154,6 +181,9 @@ impl PlanRequest {
             for movement in &self.movements {
                 let cell = |method| self.cell(method, creature, movement, registry);
                 let cells = self.methods.iter().map(cell).collect::<Result<Vec<_>, _>>()?;
+                if self.preset.is_some() {
+                    check_alike(&cells)?;
+                }
                 plan.scenarios.extend(cells.first().map(|cell| cell.scenario.clone()));
                 plan.cells.extend(cells);
             }
@@ -169,14 +199,15 @@ impl PlanRequest {
         let request = Request {
             creature: Some(creature.into()),
             movement: Some(movement.into()),
-            preset: method.preset.clone(),
+            preset: method.preset.clone().or_else(|| self.preset.clone()),
             strategy: method.strategy.clone(),
             config: method.config.clone(),
             set: self.set.clone(),
             engine: self.engine.clone(),
             variation: self.variation.clone(),
             // A score at a budget must be that of the moment; a champion selection sits only now and then.
-            unvaried: true,
+            // The variation of a common preset is the same for all.
+            unvaried: self.preset.is_none(),
             ..Request::default()
         };
         let (method, scenario) = (method.name.clone(), format!("{creature} {movement}"));
@@ -187,14 +218,40 @@ impl PlanRequest {
             source: Box::new(source),
         })?;
         config.stop = self.budget;
-        // Seeds are paired by the plan; whole populations are not looked at in a comparison.
+        // Seeds are the plan's; whole populations are not looked at in a comparison.
         config.seed = 0;
         config.record.populations_at.clear();
         let scenario = format!("{} {movement}", config.creature.name);
+        let provenance = provenance(&request, &config, registry);
         match gambol_runs::Setup::new(&config, registry) {
-            Ok(setup) => Ok(Cell { method, scenario, unit: setup.unit, config }),
+            Ok(setup) => Ok(Cell { method, scenario, unit: setup.unit, config, provenance }),
             Err(error) => Err(PlanError::Setup { method, scenario, message: error.to_string() }),
         }
+    }
+}
+
+/// Checks that methods on a scenario differ in their strategy alone.
+fn check_alike(cells: &[Cell]) -> Result<(), PlanError> {
+    let Some((first, others)) = cells.split_first() else { return Ok(()) };
+    for cell in others {
+        if let Some(field) = first_unlike(&first.config, &cell.config) {
+            let (method, other, scenario) = (cell.method.clone(), first.method.clone(), cell.scenario.clone());
+            return Err(PlanError::Unlike { method, other, scenario, field });
+        }
+    }
+    Ok(())
+}
+
+impl Cell {
+    /// Whether terms are added to its movement's score, so that its fitness is not that score.
+    pub fn is_shaped(&self) -> bool {
+        !self.config.movement.terms.is_empty()
+    }
+
+    /// Whether the worlds of its runs vary, drawn from the seed of the run and the number of the generation, whatever the
+    /// strategy.
+    pub fn shares_worlds(&self) -> bool {
+        !self.config.variation.is_none()
     }
 }
 

@@ -1,5 +1,6 @@
 use super::plan::Job;
 use gambol_runs::{
+    Registry,
     champion::Champion,
     run_folder::{FolderError, RunFolder},
 };
@@ -17,6 +18,9 @@ pub struct RunResult {
     pub seed: u64,
     /// How the best fitness rose: a point for each generation that had a better champion, and one for the last.
     pub points: Vec<Point>,
+    /// What the champion at the end of the run comes to in the movement without terms, in one whole episode; `None` if the
+    /// fitness has no terms, or the champion fails.
+    pub bare: Option<f64>,
 }
 
 /// How far a run was after a generation.
@@ -36,7 +40,7 @@ pub struct Point {
 impl RunResult {
     /// What the log and the timing of an ended run say. What it comes to in the end is what its champion is worth: between
     /// two re-evaluations of a champion selection the log does not know yet.
-    pub(super) fn read(job: &Job<'_>, folder: &RunFolder) -> Result<Self, FolderError> {
+    pub(super) fn read(job: &Job<'_>, folder: &RunFolder, registry: &Registry) -> Result<Self, FolderError> {
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let mut seconds = 0.0;
         let mut points: Vec<Point> = Vec::new();
@@ -47,11 +51,14 @@ impl RunResult {
                 points.push(Point { evaluations: report.evaluations, steps: report.steps, seconds, best });
             }
         }
+        let mut bare = None;
         if let Some(last) = points.last_mut().filter(|_| folder.champion().is_file()) {
-            last.best = Some(Champion::read(&folder.champion())?.fitness.get());
+            let champion = Champion::read(&folder.champion())?;
+            last.best = Some(champion.fitness.get());
+            bare = if job.cell.is_shaped() { without_terms(champion, registry) } else { None };
         }
         let Job { cell, seed } = *job;
-        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points })
+        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points, bare })
     }
 
     /// Whether two results are of the same run: all but the seconds.
@@ -62,4 +69,11 @@ impl RunResult {
         };
         timeless(self) == timeless(other)
     }
+}
+
+/// What a champion comes to in its movement alone.
+fn without_terms(mut champion: Champion, registry: &Registry) -> Option<f64> {
+    champion.movement.terms.clear();
+    champion.movement.objectives.clear();
+    Some(champion.verify(registry).ok()?.evaluation.fitness()?.get())
 }

@@ -2,7 +2,7 @@
 
 use super::{
     Analysis,
-    analysis::{Axis, Estimate, ScenarioFacts, ScenarioStandings, Threshold},
+    analysis::{Axis, Estimate, Overall, ScenarioFacts, ScenarioStandings, Threshold},
     figures::{count, counted, decimals, listed, number, p_value},
 };
 use std::fmt::Write;
@@ -28,6 +28,11 @@ pub fn render(analysis: &Analysis) -> String {
     text
 }
 
+/// The interquartile mean of each method over all scenarios; empty if scores differ on none.
+pub fn overall(analysis: &Analysis) -> String {
+    analysis.primary_standings().overall.as_ref().map_or_else(String::new, |overall| means(analysis, overall))
+}
+
 fn heading(analysis: &Analysis) -> String {
     let counts = [
         counted(analysis.methods.len(), "method", "methods"),
@@ -49,6 +54,9 @@ fn scenario_tables(analysis: &Analysis, facts: &ScenarioFacts, scenario: &Scenar
     let places = decimals(scenario.worst.into_iter().chain(scenario.best));
     let show = |value: f64| number(value, places);
     let mut header = ["method", "median", "quartiles", "mean", "best", "worst"].map(String::from).to_vec();
+    if facts.shaped {
+        header.push("median with terms".into());
+    }
     header.extend(facts.thresholds.iter().map(|threshold| format!("reaches {}", show(threshold.score))));
     let mut rows = vec![header];
     for (place, (method, scores)) in analysis.methods.iter().zip(&scenario.methods).enumerate() {
@@ -63,10 +71,17 @@ fn scenario_tables(analysis: &Analysis, facts: &ScenarioFacts, scenario: &Scenar
                 show(of.worst),
             ]),
         }
+        if facts.shaped {
+            row.push(scores.with_terms.map_or_else(|| "–".into(), show));
+        }
         row.extend(facts.thresholds.iter().map(|threshold| time(threshold, place, axis, analysis.seeds.len())));
         rows.push(row);
     }
     text += &aligned(&rows);
+    if scenario.pairs.is_empty() {
+        return text;
+    }
+    text += &format!("  {}\n", facts.test);
     let name = |place: usize| &analysis.methods[place].name;
     let mut rows = vec![["pair", "shift", "p", "p (Holm)", "A12", "effect", ""].map(String::from).to_vec()];
     for pair in &scenario.pairs {
@@ -81,9 +96,7 @@ fn scenario_tables(analysis: &Analysis, facts: &ScenarioFacts, scenario: &Scenar
                 .map_or_else(|| "no difference claimed".into(), |better| format!("{} scores more", name(better))),
         ]);
     }
-    if rows.len() > 1 {
-        text += &aligned(&rows);
-    }
+    text += &aligned(&rows);
     text
 }
 
@@ -97,15 +110,7 @@ fn time(threshold: &Threshold, method: usize, axis: Axis, seeds: usize) -> Strin
 
 fn overall_tables(analysis: &Analysis) -> String {
     let Some(overall) = &analysis.primary_standings().overall else { return String::new() };
-    let interval = |estimate: &Estimate| {
-        estimate.interval.map_or_else(|| "–".into(), |ends| ends.map(|end| number(end, 2)).join(" to "))
-    };
-    let row = |name: String, estimate: &Estimate| vec![name, number(estimate.value, 2), interval(estimate)];
-    let scenarios = counted(overall.scenarios.len(), "scenario", "scenarios");
-    let mut text = format!("\nOver {scenarios}, scores from 0 (worst run) to 1 (best run)\n");
-    let mut rows = vec![["method", "interquartile mean", "95 %"].map(String::from).to_vec()];
-    rows.extend(analysis.methods.iter().zip(&overall.methods).map(|(method, mean)| row(method.name.clone(), mean)));
-    text += &aligned(&rows);
+    let mut text = means(analysis, overall);
     let mut rows = vec![["pair", "first better, probability", "95 %"].map(String::from).to_vec()];
     let name = |place: usize| &analysis.methods[place].name;
     let pairs = overall.pairs.iter();
@@ -114,6 +119,19 @@ fn overall_tables(analysis: &Analysis) -> String {
         text += &aligned(&rows);
     }
     text
+}
+
+fn means(analysis: &Analysis, overall: &Overall) -> String {
+    let scenarios = counted(overall.scenarios.len(), "scenario", "scenarios");
+    let mut rows = vec![["method", "interquartile mean", "95 %"].map(String::from).to_vec()];
+    rows.extend(analysis.methods.iter().zip(&overall.methods).map(|(method, mean)| row(method.name.clone(), mean)));
+    format!("\nOver {scenarios}, scores from 0 (worst run) to 1 (best run)\n{}", aligned(&rows))
+}
+
+/// A name, a number and its interval.
+fn row(name: String, estimate: &Estimate) -> Vec<String> {
+    let interval = estimate.interval.map_or_else(|| "–".into(), |ends| ends.map(|end| number(end, 2)).join(" to "));
+    vec![name, number(estimate.value, 2), interval]
 }
 
 /// Columns as wide as they need to be: the first to the left, the others to the right, a last one of words to the left.
@@ -157,6 +175,7 @@ biped running, m, at 1,000 evaluations
   method  median     quartiles  mean  best  worst  reaches 8.4  reaches 15.1
   strong    16.8  14.1 to 19.4  16.8  22.0   11.5          100  500 (5 of 8)
   weak      13.5  11.8 to 15.2  13.5  17.0   10.0          500    – (2 of 8)
+  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds.
   pair           shift       p  p (Holm)   A12  effect
   strong – weak    3.2  0.0078    0.0156  0.77   large  strong scores more
 
@@ -164,6 +183,7 @@ apod running, m, at 1,000 evaluations
   method  median     quartiles  mean  best  worst  reaches 2.56  reaches 4.61
   strong    5.12  4.69 to 5.56  5.12  6.00   4.25           100  500 (6 of 8)
   weak      5.12  4.69 to 5.56  5.12  6.00   4.25           100  500 (6 of 8)
+  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds.
   pair           shift     p  p (Holm)   A12      effect
   strong – weak   0.00  1.00      1.00  0.50  negligible  no difference claimed
 

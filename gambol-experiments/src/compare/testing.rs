@@ -5,15 +5,17 @@ use gambol_runs::Registry;
 use ne_core::StopConditions;
 
 /// A plan with seeds from 1 on and a budget of 1,000 evaluations, in metres.
-pub(super) fn plan(methods: &[&str], scenarios: &[&str], seeds: u64) -> Plan {
-    let config = Registry::default()
+pub(crate) fn plan(methods: &[&str], scenarios: &[&str], seeds: u64) -> Plan {
+    let mut config = Registry::default()
         .config("default", creatures::find("biped-1").expect("it is shipped"), "running")
         .expect("a preset");
+    config.movement.terms.clear();
     let cell = |method: &str, scenario: &str| Cell {
         method: method.into(),
         scenario: scenario.into(),
         unit: "m".into(),
         config: config.clone(),
+        provenance: Vec::new(),
     };
     let of_scenario = |scenario: &&str| methods.iter().map(|method| cell(method, scenario)).collect::<Vec<_>>();
     Plan {
@@ -26,7 +28,7 @@ pub(super) fn plan(methods: &[&str], scenarios: &[&str], seeds: u64) -> Plan {
 }
 
 /// A run with these best scores after these evaluations. Ten steps an evaluation, a hundred evaluations a second.
-pub(super) fn run(method: &str, scenario: &str, seed: u64, points: &[(u64, Option<f64>)]) -> RunResult {
+pub(crate) fn run(method: &str, scenario: &str, seed: u64, points: &[(u64, Option<f64>)]) -> RunResult {
     let point = |&(evaluations, best): &(u64, Option<f64>)| Point {
         evaluations,
         steps: 10 * evaluations,
@@ -34,11 +36,11 @@ pub(super) fn run(method: &str, scenario: &str, seed: u64, points: &[(u64, Optio
         best,
     };
     let (method, scenario) = (method.into(), scenario.into());
-    RunResult { method, scenario, seed, points: points.iter().map(point).collect() }
+    RunResult { method, scenario, seed, points: points.iter().map(point).collect(), bare: None }
 }
 
 /// A plan and all its results: `score(method, scenario, seed)` from evaluation 500 on, half of it from 100 on.
-pub(super) fn comparison(
+pub(crate) fn comparison(
     methods: &[&str],
     scenarios: &[&str],
     seeds: u64,
@@ -60,7 +62,7 @@ pub(super) fn comparison(
 
 /// Two methods on two scenarios with eight seeds: the first is better by 1 and more on the first scenario, on the second
 /// the two take turns.
-pub(super) fn clear_and_open() -> (Plan, Vec<RunResult>) {
+pub(crate) fn clear_and_open() -> (Plan, Vec<RunResult>) {
     comparison(&["strong", "weak"], &["biped running", "apod running"], 8, |method, scenario, seed| {
         let seed = seed as f64;
         match (scenario, method) {

@@ -123,7 +123,7 @@ fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_>) -> R
         Ok(_) => {}
     }
     let run = RunFolder::open(&path).map_err(unreadable)?;
-    let result = RunResult::read(job, &run).map_err(unreadable)?;
+    let result = RunResult::read(job, &run, &options.registry).map_err(unreadable)?;
     folder.write_result(job, &result)?;
     Ok(Some(result))
 }

@@ -3,8 +3,9 @@
 use super::{NetStrategy, StrategyCatalogue, Transfer, expressed_net};
 use ne_core::SettingError;
 use ne_fixed::{
-    CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings, Nsga2, Nsga2Settings, OpenEs,
-    OpenEsSettings, WeightVector,
+    Ars, ArsSettings, CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings,
+    HillClimbing, HillClimbingSettings, Nsga2, Nsga2Settings, OpenEs, OpenEsSettings, RandomSearch,
+    RandomSearchSettings, WeightVector,
 };
 use ne_neat::{Neat, NeatSettings};
 use ne_net::Topology;
@@ -21,7 +22,10 @@ impl Default for StrategyCatalogue {
             .add::<CmaEs>("covariance matrix adaptation: a normal distribution of weights that learns which way is up")
             .add::<OpenEs>("OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations")
             .add::<Cosyne>("cooperative synapse neuroevolution: the weights of each place in the net coevolve")
-            .add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)");
+            .add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)")
+            .add::<Ars>("augmented random search, V1-t: steps along the best of random directions; a baseline")
+            .add::<HillClimbing>("hill climbing: one parent and its noisy copies, the best goes on; a baseline")
+            .add::<RandomSearch>("random search: every net is drawn anew, nothing is learnt; a baseline");
         catalogue
     }
 }
@@ -71,6 +75,8 @@ weight_search!(ConventionalNe, ConventionalNeSettings, "conventional");
 weight_search!(OpenEs, OpenEsSettings, "open-es");
 weight_search!(Cosyne, CosyneSettings, "cosyne");
 weight_search!(Nsga2, Nsga2Settings, "nsga2");
+weight_search!(Ars, ArsSettings, "ars");
+weight_search!(HillClimbing, HillClimbingSettings, "hill-climbing");
 weight_search!(
     CmaEs, CmaEsSettings, "cma-es"
 
@@ -103,5 +109,24 @@ impl NetStrategy for Neat {
 
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {
         Err(SettingError::new("strategy", "neat", "one that searches the weights of a given net"))
+    }
+}
+
+/// It learns nothing, so that it can neither begin at a net nor go on with what it knows.
+impl NetStrategy for RandomSearch {
+    const NAME: &'static str = "random-search";
+
+    type Settings = RandomSearchSettings;
+
+    fn build(settings: &RandomSearchSettings, topology: &Topology) -> Result<Self, SettingError> {
+        Self::new(settings.clone(), topology.clone())
+    }
+
+    fn settings(&self) -> &RandomSearchSettings {
+        self.settings()
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
     }
 }

@@ -39,7 +39,10 @@ pub(super) struct Gaits {
     /// Which movements
     #[arg(long, value_delimiter = ',', value_name = "NAMES", default_value = "running,jumping")]
     movements: Vec<String>,
-    /// How many seeds, from 1 on
+    /// The first seed
+    #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = super::first_seed())]
+    first_seed: u64,
+    /// How many seeds
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=10_000))]
     seeds: u64,
     /// The seconds a run has
@@ -131,7 +134,7 @@ impl Gaits {
         for creature in &creatures {
             for movement in &self.movements {
                 let mut runs = Vec::new();
-                for seed in 1..=self.seeds {
+                for seed in self.first_seed..self.first_seed + self.seeds {
                     let run = self.measure(self.config(creature, movement, seed, registry)?, registry)?;
                     if self.json {
                         say!("{}", json!(run))?;
@@ -159,7 +162,7 @@ impl Gaits {
             let mut runs = Vec::new();
             for creature in creatures {
                 for movement in &self.movements {
-                    for seed in 1..=self.seeds {
+                    for seed in self.first_seed..self.first_seed + self.seeds {
                         let mut config = self.config(creature, movement, seed, registry)?;
                         (variant.change)(&mut config);
                         // What does not concern a scenario would give the same run.

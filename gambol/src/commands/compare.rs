@@ -14,6 +14,8 @@ use std::{path::PathBuf, process::ExitCode, time::Instant};
 Examples:
   gambol compare --strategies ga,neat,cma-es --creatures biped-1,apod --movements running,jumping \\
       --seeds 10 --evaluations 15000 --out runs/ga-neat-cma
+  gambol compare --strategies ga,neat,cma-es,random-search --preset shaped --creatures biped-1 --first-seed 1001 \\
+      --seeds 12 --evaluations 15000 --out runs/shaped
   gambol compare --strategies thesis,default,large=large.json --creatures biped-1 --movements running \\
       --seeds 5 --steps 10000000 --out runs/presets
 
@@ -22,8 +24,8 @@ together:
   gambol compare ... --part 3/20 --out part-3
   gambol merge part-* --out whole
 
-Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html, scores.csv
-and curves.csv.")]
+Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html,
+scores.csv, curves.csv and settings.csv.")]
 pub(crate) struct Compare {
     /// What is compared: strategies (see: gambol strategies), presets, or NAME=CONFIG-FILE
     #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
@@ -34,9 +36,16 @@ pub(crate) struct Compare {
     /// Movements (see: gambol movements)
     #[arg(long, value_delimiter = ',', default_value = "running", value_name = "NAMES")]
     movements: Vec<String>,
-    /// How many seeds, from 1 on
+    /// One preset for all, so that strategies differ in their own settings alone: plain (a dense net, the movement alone,
+    /// nothing varies), shaped (terms, senses and variation of the default preset), or another
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+    /// How many seeds
     #[arg(long, default_value_t = 10, value_parser = clap::value_parser!(u64).range(1..=100_000))]
     seeds: u64,
+    /// The first of them
+    #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = super::first_seed())]
+    first_seed: u64,
     /// What each run may use up: so many evaluations
     #[arg(long, required_unless_present = "steps")]
     evaluations: Option<u64>,
@@ -79,7 +88,8 @@ impl Compare {
             methods: self.strategies.iter().map(|text| Method::parse(text, registry)).collect::<Result<_, _>>()?,
             creatures: self.creatures.clone(),
             movements: self.movements.clone(),
-            seeds: (1..=self.seeds).collect(),
+            seeds: (self.first_seed..self.first_seed + self.seeds).collect(),
+            preset: self.preset.clone(),
             budget: StopConditions { evaluations: self.evaluations, steps: self.steps, ..StopConditions::default() },
             set: self.set.clone(),
             engine: self.engine.clone(),
@@ -156,7 +166,7 @@ fn finish(folder: &ComparisonFolder, quiet: bool) -> Outcome {
     if !quiet {
         say!("{}", table::render(&analysis))?;
         say!("page      {}", folder.page().display())?;
-        say!("raw data  {0}/scores.csv, {0}/curves.csv", folder.path().display())?;
+        say!("raw data  {0}/scores.csv, {0}/curves.csv, {0}/settings.csv", folder.path().display())?;
     }
     Ok(ExitCode::SUCCESS)
 }

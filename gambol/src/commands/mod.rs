@@ -23,6 +23,7 @@ mod reproduce;
 mod resume;
 mod robust;
 mod train;
+mod tune;
 mod verify;
 
 use crate::{Registry, program_name, set_program_name};
@@ -153,6 +154,8 @@ enum Command {
     Check(check::Check),
     /// Compares strategies on creatures and movements: same seeds, same budget, statistics
     Compare(compare::Compare),
+    /// Looks for better settings of a strategy, by random search on seeds of its own
+    Tune(tune::Tune),
     /// Puts the parts of a comparison together
     Merge(compare::Merge),
     /// Does the experiments of the thesis again, and shows them beside what it reports
@@ -184,6 +187,7 @@ impl Command {
             Self::Robust(robust) => robust.run(registry),
             Self::Check(check) => check.run(registry),
             Self::Compare(compare) => compare.run(registry),
+            Self::Tune(tune) => tune.run(registry),
             Self::Merge(merge) => merge.run(),
             Self::Reproduce(reproduce) => reproduce.run(registry),
             Self::Bench(bench) => bench.run(registry),
@@ -194,4 +198,9 @@ impl Command {
             Self::Strategies(strategies) => strategies.run(registry),
         }
     }
+}
+
+/// A first seed: so that neither it nor the seeds after it leave the range of numbers.
+fn first_seed() -> clap::builder::RangedU64ValueParser<u64> {
+    clap::value_parser!(u64).range(..=1_000_000_000_000)
 }

@@ -14,7 +14,10 @@ fn bench(arguments: &[&str]) -> std::process::Command {
 #[test]
 fn neat_and_cma_es_solve_what_they_should_beside_the_published_figures() -> Outcome {
     let table = succeed(&mut bench(&["--tasks", "xor,one-pole", "--strategies", "neat,cma-es", "--seeds", "2"]));
-    assert_says(&table, &["2 seeds", "xor: evaluations to a solution", "NEAT 4755 (Stanley & Miikkulainen 2002)"]);
+    assert_says(
+        &table,
+        &["2 seeds from 1001", "xor: evaluations to a solution", "NEAT 4755 (Stanley & Miikkulainen 2002)"],
+    );
     assert_says(&table, &["one-pole: evaluations to a solution", "CMA-ES 283", "2/2"]);
     Ok(())
 }
@@ -37,6 +40,23 @@ fn every_attempt_is_told_as_json_and_is_the_same_again() -> Outcome {
     assert!(first.iter().all(|attempt| attempt["solved"] == true), "{first:?}");
     assert_eq!(first, attempts()?);
     Ok(())
+}
+
+#[test]
+fn random_guessing_stands_beside_published_guessing_and_every_row_names_its_net_and_settings() {
+    let table = succeed(&mut bench(&["--tasks", "one-pole", "--strategies", "random-search,ga", "--seeds", "2"]));
+    assert_says(
+        &table,
+        &["random-search [2]", "random weight guessing 199 (Gomez", "[1] one logistic neuron, a constant"],
+    );
+    assert_says(&table, &["[2] one logistic neuron, a constant among its inputs: initialization {\"uniform\""]);
+}
+
+#[test]
+fn both_ways_of_counting_are_told() {
+    let table =
+        succeed(&mut bench(&["--tasks", "two-poles-without-velocities", "--strategies", "cma-es", "--seeds", "2"]));
+    assert_says(&table, &["tested, not counted", "cma-es [1]          all", "cma-es [2]          best"]);
 }
 
 #[test]

@@ -126,6 +126,59 @@ fn two_processes_share_the_work() -> Outcome {
 }
 
 #[test]
+fn with_a_preset_all_are_alike_and_it_is_told_what_they_had() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    for (preset, test) in [("plain", "Rank-sum tests of independent runs"), ("shaped", "Signed-rank tests of pairs")] {
+        let out = folder.path().join(preset);
+        let mut compare = gambol("compare");
+        compare.args(["--strategies", "neat,random-search", "--preset", preset, "--creatures", "biped-1"]);
+        compare.args(["--movements", "jumping", "--seeds", "2", "--first-seed", "1001", "--evaluations", "200"]);
+        let printed = succeed(compare.args(["--set", "movement.steps=40", "--out"]).arg(&out));
+        assert_says(&printed, &[test]);
+        assert_eq!(printed.contains("median with terms"), preset == "shaped");
+        assert!(scores(&out)[1].starts_with("neat,biped-1 jumping,1001,"), "{:?}", scores(&out));
+        let had = fs::read_to_string(out.join("settings.csv"))?;
+        assert_says(&had, &["neat,biped-1 jumping,strategy.neat.population,", ",its own defaults", ",--set"]);
+        assert_says(&had, &["neat,biped-1 jumping,controller.hidden,null,not used: neat finds its nets itself"]);
+        assert_says(&had, &[&format!("random-search,biped-1 jumping,controller.hidden,[10],preset {preset}")]);
+    }
+    // By the fitness, a champion of the shaped runs need not score what it comes to without terms.
+    let rows = scores(&folder.path().join("shaped"));
+    let differs = |row: &String| {
+        let cells: Vec<&str> = row.split(',').collect();
+        cells[3] != cells[5]
+    };
+    assert!(rows[1..].iter().any(differs), "{rows:?}");
+    Ok(())
+}
+
+#[test]
+fn a_tuning_goes_on_and_gives_a_file_that_compare_takes() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("tune");
+    let tune = |more: &[&str]| {
+        let mut tune = gambol("tune");
+        tune.args(["hill-climbing", "--creatures", "biped-1", "--movements", "jumping", "--trials", "3"]);
+        tune.args(["--seeds", "2", "--evaluations", "100", "--set", "movement.steps=40", "--quiet"]).args(more);
+        tune
+    };
+    let best = succeed(tune(&[]).arg("--out").arg(&out));
+    assert_eq!(best, fs::read_to_string(out.join("tuned.json"))?);
+    assert_says(&best, &["\"strategy\"", "\"hill-climbing\"", "\"mutation_deviation\""]);
+    assert_eq!(succeed(tune(&[]).arg("--out").arg(&out)), best, "nothing is left to be done");
+    let message = fail(tune(&["--spread", "2"]).arg("--out").arg(&out));
+    assert_says(&message, &["holds another tuning", "trial-001.json"]);
+    let mut compare = gambol("compare");
+    compare.args(["--strategies", &format!("tuned={},ga", text(&out.join("tuned.json"))), "--preset", "plain"]);
+    compare.args(["--creatures", "biped-1", "--movements", "jumping", "--seeds", "1", "--evaluations", "50"]);
+    let whole = folder.path().join("whole");
+    succeed(compare.args(["--quiet", "--set", "movement.steps=40", "--out"]).arg(&whole));
+    assert_says(&fs::read_to_string(whole.join("settings.csv"))?, &["tuned,biped-1 jumping,strategy.hill-climbing."]);
+    assert_says(&fail(tune(&[]).args(["--preset", "plian", "--out"]).arg(&whole)), &["did you mean \"plain\"?"]);
+    Ok(())
+}
+
+#[test]
 fn requests_that_make_no_sense_are_refused() -> Outcome {
     let folder = tempfile::tempdir()?;
     let out = folder.path().join("out");

@@ -10,7 +10,8 @@ use std::process::Command;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
-const STRATEGIES: [&str; 6] = ["ga", "neat", "cma-es", "open-es", "cosyne", "nsga2"];
+const STRATEGIES: [&str; 9] =
+    ["ga", "neat", "cma-es", "open-es", "cosyne", "nsga2", "ars", "hill-climbing", "random-search"];
 
 fn small_run(strategy: &str, folder: &Path, generations: u32) -> Command {
     let mut train = gambol("train");
@@ -54,8 +55,8 @@ fn another_seed_is_another_run() -> Outcome {
 
 #[test]
 fn the_report_of_every_strategy_can_be_made_and_names_it() -> Outcome {
-    for (strategy, name) in STRATEGIES.into_iter().zip(["conventional", "neat", "cma-es", "open-es", "cosyne", "nsga2"])
-    {
+    for strategy in STRATEGIES {
+        let name = if strategy == "ga" { "conventional" } else { strategy };
         let folder = tempfile::tempdir()?;
         let run = folder.path().join("run");
         succeed(&mut small_run(strategy, &run, 4));
@@ -70,7 +71,17 @@ fn the_report_of_every_strategy_can_be_made_and_names_it() -> Outcome {
 fn they_are_listed_and_a_misspelt_one_is_corrected() -> Outcome {
     assert_says(
         &succeed(&mut gambol("strategies")),
-        &["conventional (or ga)", "neat", "cma-es", "open-es", "cosyne", "nsga2"],
+        &[
+            "conventional (or ga)",
+            "neat",
+            "cma-es",
+            "open-es",
+            "cosyne",
+            "nsga2",
+            "ars",
+            "hill-climbing",
+            "random-search",
+        ],
     );
     let listed: serde_json::Value = serde_json::from_str(&succeed(gambol("strategies").arg("--json")))?;
     assert_eq!(listed.as_array().map(Vec::len), Some(STRATEGIES.len()));
@@ -120,6 +131,10 @@ const WRONG: &[(&str, &str, &str)] = &[
     ("open-es", "deviation=1e-300",                 "must be from 0.000001 to 1000"),
     ("cosyne", "parents=0",                         "strategy.cosyne.parents = 0: must be above 0 and at most 1"),
     ("cosyne", "popultion=3",                       "did you mean `population`?"),
+    ("ars", "population=3",                         "strategy.ars.population = 3: must be even, from 2 to 1000000"),
+    ("ars", "top_directions=0",                     "strategy.ars.top_directions = 0: must be above 0 and at most 1"),
+    ("hill-climbing", "mutation_rate=2",            "strategy.hill-climbing.mutation_rate = 2: must be from 0 to 1"),
+    ("random-search", "population=0",               "strategy.random-search.population = 0: must be from 1 to 1000000"),
     ("nsga2", "population=3",                       "strategy.nsga2.population = 3: must be from 4 to 10000"),
     ("nsga2", "parents_agian=false",                "did you mean `parents_again`?"),
 ];

@@ -1,5 +1,6 @@
 //! What the strategies over weights promise, conventional neuroevolution aside.
 
+mod baselines;
 mod cma_es;
 mod cma_es_convergence;
 mod common;

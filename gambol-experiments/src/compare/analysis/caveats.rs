@@ -20,6 +20,15 @@ pub(super) fn caveats(analysis: &Analysis) -> Vec<String> {
     if analysis.scenarios.len() == 1 {
         caveats.push("There is one scenario: nothing is said about other creatures or movements.".into());
     }
+    let shaped: Vec<&str> =
+        analysis.scenarios.iter().filter(|facts| facts.shaped).map(|facts| facts.name.as_str()).collect();
+    if !shaped.is_empty() {
+        caveats.push(format!(
+            "On {} the fitness has terms. Scores are what the champion at the end of a run comes to in the movement alone, \
+             in one whole episode; the last generation of a run may go beyond the budget.",
+            listed(&shaped)
+        ));
+    }
     caveats.extend(left_out(analysis));
     caveats.extend(unscored(analysis, analysis.primary_standings()));
     caveats.extend(ended_early(analysis, &analysis.at_equal_evaluations, analysis.budget.evaluations));
@@ -34,8 +43,12 @@ fn few_seeds(analysis: &Analysis) -> Option<String> {
     if seeds == 1 {
         return Some("There is one seed: no interval, no test. With another seed the order may be another.".into());
     }
-    // With n pairs, all of one sign, p is 2 / 2ⁿ; Holm multiplies the least p with the number of tests.
-    let least_p = |seeds: usize| 2.0 / (0..seeds).fold(1.0, |signings, _| 2.0 * signings);
+    // With n pairs, all of one sign, p is 2 / 2ⁿ; with samples of n that do not overlap it is 2 / C(2n, n). Holm multiplies
+    // the least p with the number of tests.
+    let least_p = |seeds: usize| match analysis.is_paired() {
+        true => 2.0 / (0..seeds).fold(1.0, |signings, _| 2.0 * signings),
+        false => 2.0 / (1..=seeds).fold(1.0, |deals, place| deals * (seeds + place) as f64 / place as f64),
+    };
     let corrected = |seeds| (least_p(seeds) * tests as f64).min(1.0);
     if tests == 0 || corrected(seeds) <= SIGNIFICANCE {
         return None;
@@ -107,7 +120,7 @@ fn ended_early(analysis: &Analysis, standings: &Standings, budget: Option<u64>) 
 }
 
 fn without_threshold(analysis: &Analysis) -> Option<String> {
-    let scenarios = analysis.scenarios.iter().filter(|scenario| scenario.thresholds.is_empty());
+    let scenarios = analysis.scenarios.iter().filter(|scenario| scenario.thresholds.is_empty() && !scenario.shaped);
     let names: Vec<&str> = scenarios.map(|scenario| scenario.name.as_str()).collect();
     let which = listed(&names);
     (!names.is_empty())

@@ -14,11 +14,12 @@ pub(super) fn headline(analysis: &Analysis) -> Vec<String> {
     if let [only] = names[..] {
         return vec![format!("{only} is the only method: there is nothing to compare it with.")];
     }
-    if analysis.seeds.len() < FEWEST_SEEDS {
+    if analysis.seeds.len() < analysis.fewest_seeds() {
         let seeds = counted(analysis.seeds.len(), "seed", "seeds");
         return vec![format!("With {seeds} no difference can be claimed; the figures only describe these runs.")];
     }
-    let over_all = if analysis.scenarios.len() > 1 { overall(analysis, &names) } else { Vec::new() };
+    let enough = analysis.seeds.len() >= FEWEST_SEEDS;
+    let over_all = if analysis.scenarios.len() > 1 && enough { overall(analysis, &names) } else { Vec::new() };
     over_all.into_iter().chain([tests(analysis, &names)]).collect()
 }
 
@@ -95,16 +96,21 @@ fn tests(analysis: &Analysis, names: &[&str]) -> String {
     let shown = shown.filter(|test| test.better.is_some()).count();
     let found = if found.len() > MOST_DIFFERENCES { "the tables say which".into() } else { found.join("; ") };
     let rule = "p ≤ 0.05 after Holm's correction";
+    let kind = match () {
+        () if analysis.is_paired() => "paired",
+        () if standings.scenarios.iter().any(|scenario| scenario.paired) => "rank",
+        () => "rank-sum",
+    };
     match (standings.tests, shown) {
         (0, _) => "No run has a score: nothing can be compared.".into(),
-        (1, 0) => "The paired test shows no difference (p > 0.05): none can be claimed.".into(),
-        (1, _) => format!("The paired test shows a difference (p ≤ 0.05): {found}."),
+        (1, 0) => format!("The {kind} test shows no difference (p > 0.05): none can be claimed."),
+        (1, _) => format!("The {kind} test shows a difference (p ≤ 0.05): {found}."),
         (all, 0) => format!(
-            "None of the {all} paired tests on single scenarios shows a difference ({rule}): none can be claimed there."
+            "None of the {all} {kind} tests on single scenarios shows a difference ({rule}): none can be claimed there."
         ),
         (all, _) => {
             let shows = if shown == 1 { "shows" } else { "show" };
-            format!("{shown} of {all} paired tests on single scenarios {shows} a difference ({rule}): {found}.")
+            format!("{shown} of {all} {kind} tests on single scenarios {shows} a difference ({rule}): {found}.")
         }
     }
 }

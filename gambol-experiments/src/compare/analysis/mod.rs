@@ -21,16 +21,17 @@ pub use standings::{Effect, MethodScores, PairTest, ScenarioStandings, Standings
 pub use threshold::{Threshold, TimeToThreshold};
 pub use trace::Axis;
 
-use super::{Plan, RunResult};
+use super::{Cell, Plan, Provenance, RunResult};
 use ne_core::StopConditions;
 use serde::Serialize;
-use serde_json::Value;
 use trace::Traces;
 
 /// A p value or one less an interval's confidence: from here on a difference is claimed.
 const SIGNIFICANCE: f64 = 0.05;
-/// With fewer seeds no signed-rank test can reach [`SIGNIFICANCE`], and nothing is claimed.
+/// With fewer seeds no signed-rank test can reach [`SIGNIFICANCE`], and nothing is claimed of pairs or over all scenarios.
 const FEWEST_SEEDS: usize = 6;
+/// The same for rank-sum tests of single scenarios.
+const FEWEST_SEEDS_UNPAIRED: usize = 4;
 
 /// What can be said of a comparison. Methods and scenarios are in the plan's order, and pairs refer to methods by their
 /// place in it.
@@ -65,8 +66,6 @@ pub struct MethodFacts {
     pub name: String,
     /// The name of its strategy.
     pub strategy: String,
-    /// Its configuration on the first scenario, without what belongs to the scenario or the plan.
-    pub settings: Value,
 }
 
 /// A scenario, and how the best scores rose there.
@@ -76,6 +75,14 @@ pub struct ScenarioFacts {
     pub name: String,
     /// The unit of its scores.
     pub unit: String,
+    /// Whether a fitness there has terms. Then scores are what champions come to without them.
+    pub shaped: bool,
+    /// Which test is made, and why, in a sentence.
+    pub test: String,
+    /// What all methods have alike there, and from where.
+    pub alike: Vec<Provenance>,
+    /// What each method has besides.
+    pub own: Vec<Vec<Provenance>>,
     /// The curves over evaluations, steps and seconds.
     pub curves: Vec<Curves>,
     /// How long it took to reach shares of the best median score; none if that is not above 0.
@@ -91,6 +98,8 @@ pub struct RunFacts {
     pub scenario: String,
     /// The seed.
     pub seed: u64,
+    /// The best fitness at the end of the run, terms included.
+    pub fitness: Option<f64>,
     /// The score at equal evaluations; `None` if it had none by then.
     pub score_at_equal_evaluations: Option<f64>,
     /// The score at equal physics steps; `None` if it had none by then.
@@ -108,19 +117,34 @@ impl Analysis {
     pub fn primary_standings(&self) -> &Standings {
         if self.primary == Axis::Steps { &self.at_equal_steps } else { &self.at_equal_evaluations }
     }
+
+    /// Whether runs with the same seed are pairs on every scenario.
+    fn is_paired(&self) -> bool {
+        self.primary_standings().scenarios.iter().all(|scenario| scenario.paired)
+    }
+
+    /// With fewer seeds nothing is claimed of single scenarios.
+    fn fewest_seeds(&self) -> usize {
+        if self.is_paired() { FEWEST_SEEDS } else { FEWEST_SEEDS_UNPAIRED }
+    }
 }
 
 /// Analyses the results of a plan. A run that is missing or not usable counts as one without a score.
 pub fn analyse(plan: &Plan, results: &[RunResult]) -> Analysis {
     let traces = Traces::new(plan, results);
-    let at_equal_evaluations = Standings::new(&traces, Axis::Evaluations, plan.budget.evaluations);
-    let at_equal_steps = Standings::new(&traces, Axis::Steps, plan.budget.steps);
+    let paired: Vec<bool> = plan.scenarios.iter().map(|name| cells(plan, name).all(Cell::shares_worlds)).collect();
+    let at_equal_evaluations = Standings::new(&traces, Axis::Evaluations, plan.budget.evaluations, &paired);
+    let at_equal_steps = Standings::new(&traces, Axis::Steps, plan.budget.steps, &paired);
     let primary =
         if plan.budget.evaluations.is_none() && plan.budget.steps.is_some() { Axis::Steps } else { Axis::Evaluations };
     let standings = if primary == Axis::Steps { &at_equal_steps } else { &at_equal_evaluations };
     let scenarios = plan.scenarios.iter().enumerate().map(|(index, name)| ScenarioFacts {
         name: name.clone(),
-        unit: plan.cells.iter().find(|cell| cell.scenario == *name).map_or_else(String::new, |cell| cell.unit.clone()),
+        unit: cells(plan, name).next().map_or_else(String::new, |cell| cell.unit.clone()),
+        shaped: cells(plan, name).any(Cell::is_shaped),
+        test: (if paired[index] { PAIRED } else { UNPAIRED }).into(),
+        alike: alike(plan, name),
+        own: cells(plan, name).map(|cell| own(cell, &alike(plan, name))).collect(),
         curves: Curves::of_scenario(&traces, index, [&at_equal_evaluations, &at_equal_steps]),
         thresholds: Threshold::of_scenario(&traces, index, standings),
     });
@@ -141,14 +165,32 @@ pub fn analyse(plan: &Plan, results: &[RunResult]) -> Analysis {
     analysis
 }
 
+const PAIRED: &str = "Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same \
+                      seed meet the same worlds.";
+const UNPAIRED: &str = "Rank-sum tests of independent runs: worlds do not vary, so that runs with the same seed share \
+                        nothing but its number.";
+
+/// The methods on a scenario.
+fn cells<'a>(plan: &'a Plan, scenario: &'a str) -> impl Iterator<Item = &'a Cell> {
+    plan.cells.iter().filter(move |cell| cell.scenario == scenario)
+}
+
+/// What all methods have alike on a scenario.
+fn alike(plan: &Plan, scenario: &str) -> Vec<Provenance> {
+    let Some(first) = cells(plan, scenario).next() else { return Vec::new() };
+    let has_it = |had: &&Provenance| cells(plan, scenario).all(|cell| cell.provenance.contains(had));
+    first.provenance.iter().filter(has_it).cloned().collect()
+}
+
+/// What a method has besides.
+fn own(cell: &Cell, alike: &[Provenance]) -> Vec<Provenance> {
+    cell.provenance.iter().filter(|had| !alike.contains(had)).cloned().collect()
+}
+
 fn method_facts(plan: &Plan, name: &str) -> MethodFacts {
     let config = plan.cells.iter().find(|cell| cell.method == name).map(|cell| &cell.config);
-    let mut settings = serde_json::to_value(config).unwrap_or_default();
-    if let Some(settings) = settings.as_object_mut() {
-        settings.retain(|key, _| !["creature", "movement", "record", "seed", "stop"].contains(&key.as_str()));
-    }
     let strategy = config.map_or_else(String::new, |config| config.strategy.name().into());
-    MethodFacts { name: name.into(), strategy, settings }
+    MethodFacts { name: name.into(), strategy }
 }
 
 fn run_facts(plan: &Plan, traces: &Traces, standings: [&Standings; 2]) -> Vec<RunFacts> {
@@ -162,6 +204,7 @@ fn run_facts(plan: &Plan, traces: &Traces, standings: [&Standings; 2]) -> Vec<Ru
                     method: method_name.clone(),
                     scenario: scenario_name.clone(),
                     seed,
+                    fitness: trace.last().and_then(|last| last.best),
                     score_at_equal_evaluations: at_evaluations,
                     score_at_equal_steps: at_steps,
                     evaluations: trace.last().map(|last| last.evaluations),

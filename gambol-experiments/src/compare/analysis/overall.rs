@@ -82,6 +82,7 @@ impl Overall {
         let count = standings.first()?.methods.len();
         let methods: Vec<Scores> = (0..count).map(normalised).collect::<Option<_>>()?;
         let seeds = methods.first()?.runs();
+        let paired = standings.iter().all(|scenario| scenario.paired);
         let (bootstrap, seed) = (Bootstrap::default(), Seed::of_run(SEED));
         let thresholds: Vec<f64> = (0..=PROFILE_STEPS).map(|step| f64::from(step) / f64::from(PROFILE_STEPS)).collect();
         let mean = |scores| Estimate::new(bootstrap.interval(scores, interquartile_mean, seed), seeds);
@@ -91,7 +92,8 @@ impl Overall {
         };
         let means: Vec<Estimate> = methods.iter().map(mean).collect();
         let improvement = |first: usize, second: usize| {
-            let pair = Comparison::paired(methods[first].clone(), methods[second].clone()).ok()?;
+            let (x, y) = (methods[first].clone(), methods[second].clone());
+            let pair = if paired { Comparison::paired(x, y) } else { Comparison::unpaired(x, y) }.ok()?;
             let interval = bootstrap.comparison(&pair, probability_of_improvement, seed);
             let probability = Estimate::new(interval, seeds);
             let [low, high] = probability.interval.unwrap_or([0.0, 1.0]);

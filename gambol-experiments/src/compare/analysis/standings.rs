@@ -3,7 +3,9 @@ use super::{
     overall::Overall,
     trace::{Axis, Trace, Traces},
 };
-use ne_statistics::{Scores, hodges_lehmann, holm, mean, quantile, vargha_delaney, wilcoxon_signed_rank};
+use ne_statistics::{
+    Scores, hodges_lehmann, holm, mean, quantile, rank_sum, shift_between, vargha_delaney, wilcoxon_signed_rank,
+};
 use serde::Serialize;
 
 /// The scores of all runs when equally much was spent, and what they say.
@@ -28,6 +30,8 @@ pub struct ScenarioStandings {
     pub worst: Option<f64>,
     /// The best score of all runs.
     pub best: Option<f64>,
+    /// Whether runs with the same seed are pairs: they are where they share worlds.
+    pub paired: bool,
     /// The scores of each method.
     pub methods: Vec<MethodScores>,
     /// Each pair of methods; none if no run has a score, or with a single seed.
@@ -44,6 +48,8 @@ pub struct MethodScores {
     pub unscored: Vec<usize>,
     /// The scores in short.
     pub summary: Option<Summary>,
+    /// The median of the fitnesses of the champions whose scores these are, terms included; `None` if the fitness has none.
+    pub with_terms: Option<f64>,
 }
 
 /// Scores in short.
@@ -63,22 +69,22 @@ pub struct Summary {
     pub worst: f64,
 }
 
-/// Two methods on a scenario, paired by seed.
+/// Two methods on a scenario.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct PairTest {
     /// The place of the one method.
     pub first: usize,
     /// The place of the other.
     pub second: usize,
-    /// By how much the first scores more: the Hodges–Lehmann estimate.
+    /// By how much the first scores more: the Hodges–Lehmann estimate, of pairs or of independent runs.
     pub shift: f64,
-    /// The two-sided p value of the Wilcoxon signed-rank test.
+    /// The two-sided p value: of the signed-rank test of pairs, of the rank-sum test of independent runs.
     pub p: f64,
     /// The same after Holm's correction for all tests of these [`Standings`].
     pub p_corrected: f64,
-    /// Seeds at which the two differ; others do not count in the test.
-    pub differing: usize,
-    /// The matched-pairs rank-biserial correlation, from −1 to 1.
+    /// Of pairs: seeds at which the two differ; others do not count in the test.
+    pub differing: Option<usize>,
+    /// The rank-biserial correlation, from −1 to 1; of pairs that of matched pairs.
     pub rank_biserial: f64,
     /// Vargha & Delaney's A₁₂: how probably a run of the first scores more than one of the second.
     pub superiority: f64,
@@ -126,8 +132,10 @@ impl Effect {
 }
 
 impl Standings {
-    pub(super) fn new(traces: &Traces, axis: Axis, budget: Option<u64>) -> Self {
-        let of_scenario = |scenario| ScenarioStandings::new(traces.methods(scenario), axis, budget);
+    /// `paired`: of which scenarios runs with the same seed are pairs.
+    pub(super) fn new(traces: &Traces, axis: Axis, budget: Option<u64>, paired: &[bool]) -> Self {
+        let of_scenario =
+            |scenario: usize| ScenarioStandings::new(traces.methods(scenario), axis, budget, paired[scenario]);
         let mut scenarios: Vec<ScenarioStandings> = (0..traces.scenarios()).map(of_scenario).collect();
         let tests = correct(&mut scenarios);
         let overall = Overall::new(&scenarios);
@@ -136,14 +144,19 @@ impl Standings {
 }
 
 impl ScenarioStandings {
-    fn new(methods: &[Vec<Trace>], axis: Axis, budget: Option<u64>) -> Self {
+    fn new(methods: &[Vec<Trace>], axis: Axis, budget: Option<u64>, paired: bool) -> Self {
         let ends = methods.iter().flatten().filter_map(|run| Some(run.curve(axis)?.end()));
         let limit = ends.reduce(f64::min).map(|least| budget.map_or(least, |budget| least.min(budget as f64)));
         let score = |run: &Trace| run.score(axis, limit?);
         let found: Vec<f64> = methods.iter().flatten().filter_map(score).collect();
         let (worst, best) = (found.iter().copied().reduce(f64::min), found.iter().copied().reduce(f64::max));
-        let methods: Vec<MethodScores> = methods.iter().map(|runs| method_scores(runs, score, worst)).collect();
-        Self { limit, worst, best, pairs: pairs(&methods), methods }
+        let fitness = |run: &Trace| run.last()?.best.filter(|_| run.is_shaped());
+        let scores = |runs: &Vec<Trace>| {
+            let fitnesses: Vec<f64> = runs.iter().filter_map(fitness).collect();
+            MethodScores { with_terms: quantile(&fitnesses, 0.5), ..method_scores(runs, score, worst) }
+        };
+        let methods: Vec<MethodScores> = methods.iter().map(scores).collect();
+        Self { limit, worst, best, paired, pairs: pairs(&methods, paired), methods }
     }
 }
 
@@ -151,7 +164,7 @@ fn method_scores(runs: &[Trace], score: impl Fn(&Trace) -> Option<f64>, worst: O
     let found: Vec<Option<f64>> = runs.iter().map(score).collect();
     let scores: Vec<f64> = found.iter().filter_map(|score| score.or(worst)).collect();
     let unscored = (0..found.len()).filter(|&seed| found[seed].is_none()).collect();
-    MethodScores { summary: Summary::of(&scores), scores, unscored }
+    MethodScores { summary: Summary::of(&scores), scores, unscored, with_terms: None }
 }
 
 impl Summary {
@@ -168,28 +181,34 @@ impl Summary {
     }
 }
 
-fn pairs(methods: &[MethodScores]) -> Vec<PairTest> {
+fn pairs(methods: &[MethodScores], paired: bool) -> Vec<PairTest> {
     let seconds = |first| (first + 1..methods.len()).map(move |second| (first, second));
     let places = (0..methods.len()).flat_map(seconds);
-    places.filter_map(|(first, second)| pair(methods, first, second)).collect()
+    places.filter_map(|(first, second)| pair(methods, first, second, paired)).collect()
 }
 
 /// The test of a pair, not corrected yet. `None` without scores, and with a single run, which says nothing of a method.
-fn pair(methods: &[MethodScores], first: usize, second: usize) -> Option<PairTest> {
+fn pair(methods: &[MethodScores], first: usize, second: usize, paired: bool) -> Option<PairTest> {
     let (x, y) = (&methods[first].scores, &methods[second].scores);
     if x.len() == 1 {
         return None;
     }
-    let test = wilcoxon_signed_rank(x, y).ok()?;
     let superiority = vargha_delaney(x, y).ok()?;
+    let (p, rank_biserial, differing, shift) = if paired {
+        let test = wilcoxon_signed_rank(x, y).ok()?;
+        (test.p, test.rank_biserial, Some(test.pairs), hodges_lehmann(x, y).ok()?)
+    } else {
+        let test = rank_sum(x, y).ok()?;
+        (test.p, test.rank_biserial, None, shift_between(x, y).ok()?)
+    };
     Some(PairTest {
         first,
         second,
-        shift: hodges_lehmann(x, y).ok()?,
-        p: test.p,
-        p_corrected: test.p,
-        differing: test.pairs,
-        rank_biserial: test.rank_biserial,
+        shift,
+        p,
+        p_corrected: p,
+        differing,
+        rank_biserial,
         superiority,
         effect: Effect::of(superiority),
         better: None,

@@ -39,7 +39,7 @@ fn a_clear_and_an_open_scenario() {
     assert_eq!((summary.mean, summary.best, summary.worst), (16.75, 22.0, 11.5));
     // All eight differences 1.5, 2, ..., 5 are above 0: p = 2 / 2⁸, twice that for two tests.
     let test = clear.pairs[0];
-    assert_eq!((test.p, test.p_corrected, test.better, test.differing), (2.0 / 256.0, 4.0 / 256.0, Some(0), 8));
+    assert_eq!((test.p, test.p_corrected, test.better, test.differing), (2.0 / 256.0, 4.0 / 256.0, Some(0), Some(8)));
     assert_eq!((test.shift, test.rank_biserial, test.effect), (3.25, 1.0, Effect::Large));
     let test = open.pairs[0];
     assert_eq!((test.p, test.p_corrected, test.better, test.shift), (1.0, 1.0, None, 0.0));
@@ -104,7 +104,7 @@ fn equal_methods_are_not_told_apart() {
     let (plan, results) = comparison(&["a", "b"], &["s", "t"], 8, |_, _, seed| seed as f64);
     let analysis = analyse(&plan, &results);
     let test = analysis.at_equal_evaluations.scenarios[0].pairs[0];
-    assert_eq!((test.p, test.differing, test.superiority, test.better), (1.0, 0, 0.5, None));
+    assert_eq!((test.p, test.differing, test.superiority, test.better), (1.0, Some(0), 0.5, None));
     assert_eq!(analysis.headline[0], "Over all scenarios no difference can be claimed between a and b.");
     let (plan, results) = comparison(&["a", "b"], &["s", "t"], 8, |_, _, _| 1.0);
     let analysis = analyse(&plan, &results);
@@ -242,4 +242,66 @@ fn the_same_results_give_the_same_analysis_in_any_order() {
     let analysis = analyse(&plan, &results);
     results.reverse();
     assert_eq!(analyse(&plan, &results), analysis);
+}
+
+#[test]
+fn runs_in_one_world_are_independent_and_the_page_says_why() {
+    let (mut plan, results) = comparison(&["a", "b"], &["s"], 4, |method, _, seed| (10 * method) as f64 + seed as f64);
+    let test = &analyse(&plan, &results).scenarios[0].test;
+    assert!(test.starts_with("Signed-rank tests of pairs: worlds vary"), "{test}");
+    plan.cells.iter_mut().for_each(|cell| cell.config.variation = Default::default());
+    let analysis = analyse(&plan, &results);
+    assert!(analysis.scenarios[0].test.starts_with("Rank-sum tests of independent runs: worlds do not vary"));
+    let standings = &analysis.at_equal_evaluations.scenarios[0];
+    let test = standings.pairs[0];
+    // No score of b is below one of a: 2 of C(8, 4) deals.
+    assert_eq!((standings.paired, test.p, test.better, test.differing), (false, 2.0 / 70.0, Some(1), None));
+    assert_eq!((test.shift, test.rank_biserial), (-10.0, -1.0));
+    assert_eq!(analysis.headline, ["The rank-sum test shows a difference (p ≤ 0.05): b scores more than a on s."]);
+    let (mut plan, results) = comparison(&["a", "b"], &["s"], 3, |method, _, seed| (10 * method) as f64 + seed as f64);
+    plan.cells.iter_mut().for_each(|cell| cell.config.variation = Default::default());
+    let caveats = analyse(&plan, &results).caveats;
+    assert_eq!(caveats[0], "With 3 seeds the least p value a test can have is 0.10: 4 seeds are needed for 0.05.");
+}
+
+#[test]
+fn scores_of_a_shaped_fitness_are_those_of_the_movement_alone() {
+    let (mut plan, mut results) =
+        comparison(&["a", "b"], &["s"], 8, |method, _, seed| (10 * method) as f64 + seed as f64);
+    for cell in &mut plan.cells {
+        cell.config.movement.terms = vec![tasks::TermSpec::new("energy", -1.0)];
+    }
+    // By its fitness b is ahead, by the movement a.
+    for result in &mut results {
+        result.bare = Some(if result.method == "a" { 20.0 } else { 3.0 } + result.seed as f64);
+    }
+    results[0].bare = None;
+    // Its champion was first known after the budget.
+    results[2].points = run("a", "s", 2, &[(900, None), (1020, Some(1.0))]).points;
+    let analysis = analyse(&plan, &results);
+    let (facts, scenario) = (&analysis.scenarios[0], &analysis.at_equal_evaluations.scenarios[0]);
+    assert!(facts.shaped && facts.thresholds.is_empty());
+    assert_eq!(scenario.methods[0].scores[1..], [22.0, 23.0, 24.0, 25.0, 26.0, 27.0, 28.0]);
+    assert_eq!(scenario.methods[0].unscored, [0], "its champion fails without terms");
+    assert_eq!([scenario.methods[0].with_terms, scenario.methods[1].with_terms], [Some(4.5), Some(14.5)]);
+    assert_eq!(scenario.pairs[0].better, Some(0));
+    assert_eq!(analysis.runs[1].fitness, Some(1.0));
+    assert_eq!(analysis.runs[1].score_at_equal_evaluations, Some(22.0));
+    let says = |caveat: &String| caveat.starts_with("On s the fitness has terms. Scores are what the champion");
+    assert!(analysis.caveats.iter().any(says), "{:?}", analysis.caveats);
+}
+
+#[test]
+fn what_is_alike_is_told_once_and_what_is_not_for_each() {
+    let (mut plan, results) = comparison(&["a", "b"], &["s"], 2, |_, _, _| 1.0);
+    let had = |field: &str, value: u32, from: &str| Provenance {
+        field: field.into(),
+        value: value.into(),
+        from: from.into(),
+    };
+    plan.cells[0].provenance = vec![had("x", 1, "preset plain"), had("y", 2, "its own defaults")];
+    plan.cells[1].provenance = vec![had("x", 1, "preset plain"), had("y", 2, "file b.json")];
+    let facts = &analyse(&plan, &results).scenarios[0];
+    assert_eq!(facts.alike, [had("x", 1, "preset plain")]);
+    assert_eq!(facts.own, [[had("y", 2, "its own defaults")], [had("y", 2, "file b.json")]]);
 }

@@ -1,6 +1,6 @@
 use super::{
     standings::Standings,
-    trace::{Axis, Traces},
+    trace::{Axis, Trace, Traces},
 };
 use ne_statistics::{Curve, median_to_threshold};
 use serde::Serialize;
@@ -34,8 +34,13 @@ pub struct TimeToThreshold {
 }
 
 impl Threshold {
-    /// The thresholds of a scenario; none if no method's median score is above 0, as a share of it would mean nothing.
+    /// The thresholds of a scenario; none if no method's median score is above 0, as a share of it would mean nothing, and
+    /// none if a fitness has terms.
     pub(super) fn of_scenario(traces: &Traces, scenario: usize, standings: &Standings) -> Vec<Self> {
+        // Scores without terms are known of the end alone, not of the way there.
+        if traces.methods(scenario).iter().flatten().any(Trace::is_shaped) {
+            return Vec::new();
+        }
         let medians = standings.scenarios[scenario].methods.iter().filter_map(|method| Some(method.summary?.median));
         let Some(best) = medians.reduce(f64::max).filter(|&best| best > 0.0) else { return Vec::new() };
         let threshold = |share| {

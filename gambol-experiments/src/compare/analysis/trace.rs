@@ -1,4 +1,4 @@
-use crate::compare::{Plan, Point, RunResult};
+use crate::compare::{Cell, Plan, Point, RunResult};
 use ne_statistics::Curve;
 use serde::Serialize;
 
@@ -41,15 +41,18 @@ pub(super) struct Trace {
     curves: [Option<Curve>; 3],
     first: Option<Point>,
     last: Option<Point>,
+    /// Of a run whose fitness has terms: what its champion comes to without them.
+    bare: Option<Option<f64>>,
 }
 
 impl Trace {
-    fn new(result: Option<&RunResult>) -> Self {
+    fn new(result: Option<&RunResult>, is_shaped: bool) -> Self {
         let points = result.map_or(&[][..], |result| &result.points);
         Self {
             curves: Axis::ALL.map(|axis| curve(points, axis)),
             first: points.first().copied(),
             last: points.last().copied(),
+            bare: is_shaped.then(|| result.and_then(|result| result.bare)),
         }
     }
 
@@ -63,9 +66,15 @@ impl Trace {
         self.curves[axis as usize].as_ref()
     }
 
-    /// The best score when `limit` was spent, at the end of the last generation that was over by then.
+    /// The score when `limit` was spent: the best fitness at the end of the last generation that was over by then. If the
+    /// fitness has terms, in its place what the champion at the end of the run comes to without them.
     pub(super) fn score(&self, axis: Axis, limit: f64) -> Option<f64> {
-        self.curve(axis)?.value_at(limit)
+        self.bare.unwrap_or_else(|| self.curve(axis)?.value_at(limit))
+    }
+
+    /// Whether its fitness has terms.
+    pub(super) fn is_shaped(&self) -> bool {
+        self.bare.is_some()
     }
 
     /// The curve to draw: one without any score lies at `substitute` from the first generation on.
@@ -87,7 +96,8 @@ impl Traces {
     pub(super) fn new(plan: &Plan, results: &[RunResult]) -> Self {
         let trace = |method: &str, scenario: &str, seed| {
             let is_it = |run: &&RunResult| run.method == method && run.scenario == scenario && run.seed == seed;
-            Trace::new(results.iter().find(is_it))
+            let cell = plan.cells.iter().find(|cell| cell.method == method && cell.scenario == scenario);
+            Trace::new(results.iter().find(is_it), cell.is_some_and(Cell::is_shaped))
         };
         let seeds =
             |method: &str, scenario: &str| plan.seeds.iter().map(|&seed| trace(method, scenario, seed)).collect();

@@ -100,27 +100,28 @@ function scoreFigures(run, facts, place, axis) {
     return { name: method.name, method: index, value: summary.median, interval: [summary.lower, summary.upper],
       text: show(summary.median), runs: scores };
   });
-  const summaries = table("", ["Method", "Median", "Quartiles", "Mean", "Best", "Worst", "Without score"],
+  const summaries = table("", ["Method", "Median", "Quartiles", "Mean", "Best", "Worst", "Without score", ...(facts.shaped ? ["Median with terms"] : [])],
     run.methods.map((method, index) => {
       const { summary, unscored } = scenario.methods[index];
       return [{ text: method.name, method: index }, { strong: show(summary.median) }, `${show(summary.lower)} to ${show(summary.upper)}`,
-        show(summary.mean), show(summary.best), show(summary.worst), String(unscored.length)];
+        show(summary.mean), show(summary.best), show(summary.worst), String(unscored.length),
+        ...(facts.shaped ? [scenario.methods[index].with_terms === null ? "–" : fixed(scenario.methods[index].with_terms, 2)] : [])];
     }));
   const seeds = table("", ["Seed", ...run.methods.map(method => method.name)], run.seeds.map((seed, index) =>
     [String(seed), ...scenario.methods.map(({ scores, unscored }) => show(scores[index]) + (unscored.includes(index) ? " *" : ""))]));
-  const made = [figure("h4", `Scores${at}`, `A dot for each run, a line at the median, a bar from quartile to quartile; ${facts.unit || "fitness"}.`,
+  const made = [figure("h4", `Scores${at}`, `A dot for each run, a line at the median, a bar from quartile to quartile; ${facts.unit || "fitness"}${facts.shaped ? ", without terms" : ""}.`,
     new RowChart(rows, { label: `Scores on ${facts.name}; the numbers are in the table`, low: scenario.worst - margin,
       high: scenario.best + margin, axis: facts.unit ? `score, ${facts.unit}` : "score" }).root,
     summaries, folded("Scores of every run", seeds,
       ...(scenario.methods.some(method => method.unscored.length) ? [element("p", "* has no score of its own and counts with the worst", "hint")] : [])))];
-  if (scenario.pairs.length) made.push(element("h4", "Differences, paired by seed"), pairTable(run, facts, scenario, standings, show));
+  if (scenario.pairs.length) made.push(element("h4", "Differences"), element("p", facts.test, "hint"), pairTable(run, facts, scenario, standings, show));
   return made;
 }
 
 function pairTable(run, facts, scenario, standings, show) {
   const made = table("", ["Pair", facts.unit ? `Shift, ${facts.unit}` : "Shift", "p", `p corrected (${standings.tests})`, "A₁₂", "Rank-biserial",
     "Effect", "Seeds differing", "Claimed"], scenario.pairs.map(pair => [pairName(run, pair), show(pair.shift), pValue(pair.p),
-    pValue(pair.p_corrected), fixed(pair.superiority, 2), fixed(pair.rank_biserial, 2), pair.effect, String(pair.differing),
+    pValue(pair.p_corrected), fixed(pair.superiority, 2), fixed(pair.rank_biserial, 2), pair.effect, pair.differing === null ? "–" : String(pair.differing),
     pair.better === null ? "no difference" : { strong: `${run.methods[pair.better].name} scores more` }]), [6, 8]);
   return made;
 }
@@ -146,7 +147,7 @@ function curveFigure(run, facts) {
     const [factor, name] = axisScale(axis, curves.grid[curves.grid.length - 1]);
     const series = curves.methods.map((curve, method) => ({ name: run.methods[method].name, method, middle: curve.median,
       lower: curve.lower, upper: curve.upper }));
-    chart.show({ x: curves.grid, xName: name, xFactor: factor, yName: facts.unit ? `best so far, ${facts.unit}` : "best so far",
+    chart.show({ x: curves.grid, xName: name, xFactor: factor, yName: facts.shaped ? "best fitness so far, with terms" : facts.unit ? `best so far, ${facts.unit}` : "best so far",
       mark: curves.limit, series });
     const places = curves.grid.map((_, place) => place).filter(place => place % 12 === 0 && place > 0);
     const text = ({ middle, lower, upper }, place) => middle[place] === null ? "–"
@@ -155,7 +156,7 @@ function curveFigure(run, facts) {
       places.map(place => [fixed(curves.grid[place] / factor, factor === 1 && curves.grid[place] >= 100 ? 0 : 2),
         ...series.map(series => text(series, place))])));
   };
-  return { show, made: figure("h4", "Best score so far", "The median of the runs, with a band from quartile to quartile.", chart.root, numbers) };
+  return { show, made: figure("h4", "Best score so far", `The median of the runs, with a band from quartile to quartile.${facts.shaped ? " What evolution sees: the movement and the terms." : ""}`, chart.root, numbers) };
 }
 
 function buildScenarios(run) {
@@ -194,16 +195,18 @@ function seedText(seeds) {
 
 function buildMethods(run) {
   const place = document.getElementById("methods");
-  place.append(element("h3", "The methods and their settings"));
-  for (const { name, strategy, settings } of run.methods) {
+  place.append(element("h3", "What each strategy had, and from where"));
+  const row = (first, { field, value, from }) => [first, field, value === null ? "–" : JSON.stringify(value), from];
+  for (const facts of run.scenarios) {
     const details = element("details");
-    details.append(element("summary", strategy && strategy !== name ? `${name}: ${strategy}` : name));
-    const text = element("pre", JSON.stringify(settings, null, 2));
-    text.tabIndex = 0;
-    details.append(text);
+    const own = [...new Set(facts.own.flat().map(({ field }) => field.split(".")[0]))];
+    details.append(element("summary", `${facts.name}: the methods differ in ${own.length ? listed(own) : "nothing"}`));
+    const rows = [...facts.alike.map(had => row("all alike", had)),
+      ...facts.own.flatMap((had, method) => had.map(had => row({ text: run.methods[method].name, method }, had)))];
+    details.append(table("", ["Who", "What", "Value", "From"], rows, [1, 2, 3]));
     place.append(details);
   }
-  place.append(element("p", `Settings as on ${run.scenarios[0]?.name ?? "the first scenario"}. Seeds: ${seedText(run.seeds)}.`, "hint"));
+  place.append(element("p", `Seeds: ${seedText(run.seeds)}.`, "hint"));
 }
 
 function startPage() {

@@ -1,0 +1,215 @@
+//! Tuning a strategy's numeric settings for comparisons, by random search (Bergstra & Bengio, *Random Search for
+//! Hyper-Parameter Optimization*, JMLR 13, 2012): the same number of trials for every strategy, on seeds that are not those
+//! compared on.
+//!
+//! A tuning is a comparison of a strategy with itself: each trial is a method, with settings [drawn](draw) around the
+//! defaults, and the first has the defaults. So a tuning stops, goes on and is looked at as a comparison is. The best is the
+//! trial with the highest interquartile mean over all scenarios.
+
+mod draw;
+
+pub use draw::draw;
+
+use crate::compare::{Analysis, CompareError, Method, PlanError, PlanRequest};
+use gambol_runs::{Registry, config::StrategySettings};
+use serde_json::json;
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+/// How often settings of a trial are drawn, until they can run.
+const TRIES: u32 = 200;
+
+/// What is to be tuned, and how.
+#[derive(Clone, Debug)]
+pub struct TuneRequest {
+    /// The strategy, by name or alias.
+    pub strategy: String,
+    /// How many settings are tried, the defaults among them; at least 1.
+    pub trials: u32,
+    /// The seed that settings are drawn from.
+    pub draw_seed: u64,
+    /// Numbers are multiplied with a factor from 1/`spread` to `spread`; above 1.
+    pub spread: f64,
+    /// Everything else; its methods are filled in.
+    pub plan: PlanRequest,
+}
+
+/// Why nothing can be tuned.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TuneError {
+    /// There is no such strategy.
+    #[error("{0}")]
+    Unknown(String),
+    /// It has no numbers, or none of those drawn can run.
+    #[error("{strategy}: no settings that can run were found in {tries} draws")]
+    Nothing {
+        /// The strategy.
+        strategy: String,
+        /// How many draws.
+        tries: u32,
+    },
+    /// The trials make no plan.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The comparison failed.
+    #[error(transparent)]
+    Compare(#[from] CompareError),
+    /// There is another tuning in the folder.
+    #[error("{} holds another tuning: {} differs; choose another folder with --out", folder.display(), file.display())]
+    Other {
+        /// The folder.
+        folder: PathBuf,
+        /// The file that differs.
+        file: PathBuf,
+    },
+    /// A file cannot be read or written.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+}
+
+impl TuneRequest {
+    /// Draws the trials, writes their settings to `folder/trials`, and gives the request of their comparison. The same
+    /// request gives the same files; those that are there already must have the same bytes.
+    ///
+    /// # Errors
+    /// If there is no such strategy, no draw can run, or a file cannot be written.
+    pub fn prepare(
+        &self,
+        folder: &Path,
+        registry: &Registry,
+    ) -> Result<(Vec<StrategySettings>, PlanRequest), TuneError> {
+        let entry = registry.strategies.find(&self.strategy);
+        let entry = entry.ok_or_else(|| TuneError::Unknown(registry.strategies.unknown(&self.strategy)))?;
+        let place = folder.join("trials");
+        let (mut trials, mut methods) = (Vec::new(), Vec::new());
+        for trial in 0..self.trials {
+            let path = place.join(format!("trial-{trial:03}.json"));
+            let method =
+                Method { name: format!("trial-{trial:03}"), preset: None, strategy: None, config: Some(path.clone()) };
+            let settings = self.trial(&entry.settings(), trial, registry)?;
+            fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+            match fs::read_to_string(&path) {
+                Ok(known) if known != text(&settings) => {
+                    return Err(TuneError::Other { folder: folder.into(), file: path });
+                }
+                Ok(_) => {}
+                Err(_) => write_tuned(&path, &settings)?,
+            }
+            trials.push(settings);
+            methods.push(method);
+        }
+        Ok((trials, PlanRequest { methods, ..self.plan.clone() }))
+    }
+
+    /// The settings of a trial: the first draw that can run.
+    fn trial(
+        &self,
+        defaults: &StrategySettings,
+        trial: u32,
+        registry: &Registry,
+    ) -> Result<StrategySettings, TuneError> {
+        let scratch = tempfile::NamedTempFile::new();
+        let scratch = scratch.map_err(|source| TuneError::Write { path: std::env::temp_dir(), source })?;
+        let method =
+            Method { name: "trial".into(), preset: None, strategy: None, config: Some(scratch.path().to_owned()) };
+        let plan = PlanRequest { methods: vec![method], ..self.plan.clone() };
+        for attempt in 0..TRIES {
+            let settings = match trial {
+                0 => defaults.clone(),
+                _ => draw(defaults, self.spread, self.draw_seed, trial, attempt),
+            };
+            write_tuned(scratch.path(), &settings)?;
+            match plan.plan(registry) {
+                Ok(_) => return Ok(settings),
+                // Out of range; if the defaults are, then not for what was drawn.
+                Err(PlanError::Setup { .. } | PlanError::Request { .. }) if trial > 0 => {}
+                Err(error) => return Err(error.into()),
+            }
+        }
+        Err(TuneError::Nothing { strategy: defaults.name().into(), tries: TRIES })
+    }
+}
+
+/// The place of the best trial: with the highest interquartile mean over all scenarios, of equals the first.
+pub fn best(analysis: &Analysis) -> usize {
+    let overall = analysis.primary_standings().overall.as_ref();
+    let means = overall.map_or(&[][..], |overall| &overall.methods);
+    let better = |best: usize, (place, mean): (usize, f64)| if mean > means[best].value { place } else { best };
+    means.iter().map(|mean| mean.value).enumerate().fold(0, better)
+}
+
+/// Writes the settings as a configuration file that `compare` takes.
+///
+/// # Errors
+/// If the file cannot be written.
+pub fn write_tuned(path: &Path, settings: &StrategySettings) -> Result<(), TuneError> {
+    ne_core::archive::write_whole(path, text(settings).as_bytes())
+        .map_err(|source| TuneError::Write { path: path.into(), source })
+}
+
+/// Settings as they stand in a file.
+pub fn text(settings: &StrategySettings) -> String {
+    format!("{:#}\n", json!({ "strategy": settings }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::compare::testing::comparison;
+    use ne_core::StopConditions;
+
+    fn request(strategy: &str, trials: u32) -> TuneRequest {
+        let plan = PlanRequest {
+            creatures: vec!["biped-1".into()],
+            movements: vec!["jumping".into()],
+            seeds: vec![900_001],
+            budget: StopConditions { evaluations: Some(50), ..StopConditions::default() },
+            preset: Some("plain".into()),
+            ..PlanRequest::default()
+        };
+        TuneRequest { strategy: strategy.into(), trials, draw_seed: 1, spread: 4.0, plan }
+    }
+
+    #[test]
+    fn every_strategy_has_trials_that_can_run_the_same_each_time() {
+        let registry = Registry::default();
+        for entry in registry.strategies.entries() {
+            let folder = tempfile::tempdir().expect("a folder");
+            let (trials, plan) = request(entry.name(), 4).prepare(folder.path(), &registry).expect("trials");
+            assert_eq!(trials[0], entry.settings(), "the first has the defaults");
+            assert!(trials[1..].iter().all(|trial| *trial != trials[0]), "{}", entry.name());
+            let planned = plan.plan(&registry).expect("they can be compared");
+            let had: Vec<_> = planned.cells.iter().map(|cell| cell.config.strategy.clone()).collect();
+            assert_eq!(had, trials);
+            let again = request(entry.name(), 4).prepare(folder.path(), &registry).expect("the same");
+            assert_eq!(again.0, trials);
+            let other = TuneRequest { draw_seed: 2, ..request(entry.name(), 4) };
+            let error = other.prepare(folder.path(), &registry).expect_err("another tuning").to_string();
+            assert!(error.contains("holds another tuning"), "{error}");
+        }
+    }
+
+    #[test]
+    fn the_best_has_the_highest_mean_over_all_scenarios() {
+        let (plan, results) = comparison(&["a", "b", "c"], &["s", "t"], 3, |method, scenario, seed| {
+            [[1.0, 9.0, 5.0], [2.0, 7.0, 9.0]][scenario][method] + seed as f64 / 10.0
+        });
+        assert_eq!(best(&crate::compare::analyse(&plan, &results)), 1);
+        assert_eq!(best(&crate::compare::analyse(&plan, &[])), 0, "without scores the defaults");
+    }
+
+    #[test]
+    fn a_misspelt_strategy_is_corrected() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let error = request("naet", 1).prepare(folder.path(), &Registry::default()).expect_err("unknown").to_string();
+        assert!(error.contains("did you mean \"neat\"?"), "{error}");
+    }
+}

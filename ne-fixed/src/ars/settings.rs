@@ -1,0 +1,58 @@
+use crate::Initialization;
+use ne_core::SettingError;
+use serde::{Deserialize, Serialize};
+
+/// The settings of [`Ars`](crate::Ars). Those a file leaves out have their defaults.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ArsSettings {
+    /// Number of samples, 2N for N directions, even, from 2 to 1,000,000; default 32. The centre is evaluated besides, so
+    /// that a generation has one individual more.
+    pub population: usize,
+    /// The step size α, above 0 and at most 1000; default 0.05.
+    pub step_size: f64,
+    /// The deviation of the samples from the centre, ν, in units of the weights, from 1e-6 to 1000; default 0.1.
+    pub noise: f64,
+    /// The share of the directions, the best, that the step is made of, b/N, above 0 and at most 1; default ½. At least
+    /// one is.
+    pub top_directions: f64,
+    /// How the first centre is drawn; default Gaussian, scaled by fan-in.
+    pub initial_centre: Initialization,
+}
+
+impl Default for ArsSettings {
+    fn default() -> Self {
+        Self {
+            population: 32,
+            step_size: 0.05,
+            noise: 0.1,
+            top_directions: 0.5,
+            initial_centre: Initialization::ScaledGaussian { scale: 1.0 },
+        }
+    }
+}
+
+impl ArsSettings {
+    /// Checks the numbers.
+    ///
+    /// # Errors
+    /// Names the field and its range: `population = 7: must be even, from 2 to 1000000`.
+    pub fn validate(&self) -> Result<(), SettingError> {
+        if !((2..=1_000_000).contains(&self.population) && self.population.is_multiple_of(2)) {
+            return Err(SettingError::new("population", self.population, "even, from 2 to 1000000"));
+        }
+        let above_0 = |field, value, most| {
+            let fits = value > 0.0 && value <= most;
+            if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
+        };
+        above_0("step_size", self.step_size, 1000.0)?;
+        SettingError::check_range("noise", self.noise, 1e-6, 1000.0)?;
+        above_0("top_directions", self.top_directions, 1.0)?;
+        self.initial_centre.validate().map_err(|error| error.within("initial_centre"))
+    }
+
+    /// Of how many directions a step is made, b.
+    pub(super) fn top(&self) -> usize {
+        ((self.top_directions * (self.population / 2) as f64) as usize).max(1)
+    }
+}

@@ -1,0 +1,7 @@
+//! Random search: the baseline that any search must beat.
+
+mod settings;
+mod state;
+mod strategy;
+
+pub use {settings::RandomSearchSettings, strategy::RandomSearch};
