@@ -12,7 +12,7 @@ pub struct Provenance {
     pub field: String,
     /// Its value; `null` if it is not used.
     pub value: Value,
-    /// In words: `its own defaults`, `preset plain`, `file tuned.json`, `--set`.
+    /// In words: `its own defaults`, `preset plain`, `file tuned.json`, `by --set`.
     pub from: String,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn provenance(request: &Request, config: &RunConfig, registry: &Regis
         (with_file, file.as_str()),
         (with_engine, "--engine"),
         (with_variation, "--variation"),
-        (request.clone(), "--set"),
+        (request.clone(), "by --set"),
     ];
     for (part, name) in parts {
         let Some(next) = resolved(&part) else { continue };
@@ -78,7 +78,7 @@ pub(super) fn provenance(request: &Request, config: &RunConfig, registry: &Regis
         let last = from.iter().rev().find(|(of, _)| *of == field);
         let from = match last {
             _ if ignored => format!("not used: {} finds its nets itself", config.strategy.name()),
-            _ if field.starts_with("stop.") => "--evaluations, --steps".into(),
+            _ if field.starts_with("stop.") => "by --evaluations or --steps".into(),
             Some((_, from)) => from.clone(),
             None => "–".into(),
         };
@@ -162,7 +162,7 @@ mod tests {
         assert_eq!(from(&plan, 1, "strategy.neat.recurrent").0, "its own defaults");
         assert_eq!(from(&plan, 0, "controller.hidden"), ("preset plain".into(), serde_json::json!([10])));
         assert_eq!(from(&plan, 1, "controller.hidden"), ("not used: neat finds its nets itself".into(), Value::Null));
-        assert_eq!(from(&plan, 0, "controller.input_range"), ("--set".into(), serde_json::json!(2.0)));
+        assert_eq!(from(&plan, 0, "controller.input_range"), ("by --set".into(), serde_json::json!(2.0)));
         assert_eq!(from(&plan, 0, "movement.terms"), ("preset plain".into(), serde_json::json!([])));
         assert_eq!(from(&plan, 0, "stop.evaluations").1, 100);
         let alone = self::plan(&["cma-es"], None, &[]).expect("a plan");

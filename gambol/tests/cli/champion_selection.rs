@@ -97,7 +97,7 @@ fn a_run_that_ends_between_re_evaluations_has_a_champion_and_goes_on_the_same() 
         assert!(fitness().is_some(), "after {generations} generations");
     }
     assert_same_run(&whole, &grown);
-    let waiting = json(&whole.join("checkpoint"))["content"]["candidates"].as_array().map(Vec::len);
+    let waiting = json(&whole.join("checkpoint"))["content"]["candidates"]["each"].as_array().map(Vec::len);
     assert_eq!(waiting, Some(4), "of generations 21 to 24");
     Ok(())
 }

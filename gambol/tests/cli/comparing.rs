@@ -138,7 +138,7 @@ fn with_a_preset_all_are_alike_and_it_is_told_what_they_had() -> Outcome {
         assert_eq!(printed.contains("median with terms"), preset == "shaped");
         assert!(scores(&out)[1].starts_with("neat,biped-1 jumping,1001,"), "{:?}", scores(&out));
         let had = fs::read_to_string(out.join("settings.csv"))?;
-        assert_says(&had, &["neat,biped-1 jumping,strategy.neat.population,", ",its own defaults", ",--set"]);
+        assert_says(&had, &["neat,biped-1 jumping,strategy.neat.population,", ",its own defaults", ",by --set"]);
         assert_says(&had, &["neat,biped-1 jumping,controller.hidden,null,not used: neat finds its nets itself"]);
         assert_says(&had, &[&format!("random-search,biped-1 jumping,controller.hidden,[10],preset {preset}")]);
     }
@@ -193,7 +193,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga,ga"], "the strategy \"ga\" is there twice"),
         (&["--strategies", "ga", "--movements", "running,running"], "the movement \"running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
-        (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean `biped-2`?"),
+        (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean \"biped-2\"?"),
         (&["--strategies", "ga", "--movements", "runing"], "did you mean \"running\"?"),
         (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
         (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),

@@ -205,7 +205,7 @@ fn what_does_not_go_together_is_an_error() -> Outcome {
     assert_says(&fail(gambol("gait").arg(&path).args(["--movement", "running"])), &["--movement is for trajectories"]);
     let missing = folder.path().join("none.csv");
     assert_says(&fail(gambol("gait").arg(&missing).args(["--creature", "apod"])), &["cannot read", text(&missing)]);
-    assert_says(&fail(gambol("gait").arg(&csv).args(["--creature", "bipde-1"])), &["did you mean `biped-1`?"]);
+    assert_says(&fail(gambol("gait").arg(&csv).args(["--creature", "bipde-1"])), &["did you mean \"biped-1\"?"]);
     assert_says(&fail(gambol("gait").arg(folder.path())), &[text(folder.path()), "is not the folder of a run"]);
     let flying = fail(gambol("gait").arg(&csv).args(["--creature", "biped-1", "--movement", "flying"]));
     assert_says(&flying, &["there is no movement whose gaits are judged \"flying\"", "running, jumping"]);

@@ -16,10 +16,10 @@ use std::{
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
 /// Kills the program once it has told of so many generations; it goes on meanwhile, so that the kill lands anywhere in
-/// a generation. With none it is killed as soon as there is a checkpoint.
+/// a generation. With none it is killed as soon as there is a run.
 pub(crate) fn kill_after(command: &mut Command, folder: &Path, generations: usize) {
     let (mut child, output) = start_and_read(command, generations);
-    while !folder.join("checkpoint").exists() {
+    while !folder.join("config.json").exists() {
         thread::sleep(Duration::from_millis(1));
     }
     child.kill().expect("it is running");

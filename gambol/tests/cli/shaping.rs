@@ -300,7 +300,7 @@ fn a_stage_has_a_creature_by_its_name_or_its_file() -> Outcome {
     assert_eq!(["01-biped", "02-other", "03-mine"].map(name), [json!("biped-1"), json!("tetrapod-1"), json!("mine")]);
     config["stages"][1]["changes"]["creature"] = json!("tetrapot-1");
     let message = fail(gambol("check").arg(write(folder.path(), &config)));
-    assert_says(&message, &["stages[1].changes.creature: ", "did you mean `tetrapod-1`?"]);
+    assert_says(&message, &["stages[1].changes.creature: ", "did you mean \"tetrapod-1\"?"]);
     Ok(())
 }
 

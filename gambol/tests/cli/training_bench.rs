@@ -38,7 +38,7 @@ fn json_has_the_figures() -> Outcome {
 #[test]
 fn misspelt_names_are_corrected() {
     for (arguments, says) in [
-        (&["--creature", "bipde-1"][..], "did you mean `biped-1`?"),
+        (&["--creature", "bipde-1"][..], "did you mean \"biped-1\"?"),
         (&["--engine", "lnaes"], "there is no engine \"lnaes\"; did you mean \"lanes\"?"),
         (&["--generations", "0"], "stop.generations = 0: must be at least 1"),
         (&["--steps", "0"], "movement.steps = 0: must be from 1 to 1000000"),
