@@ -51,7 +51,7 @@ fn every_command_knows_the_movement_and_its_verdict() {
     // Killed, and resumed.
     let broken = [&train[..], &["--out", "broken", "--quiet"]].concat();
     let mut child = program(here, &broken).stdout(Stdio::null()).stderr(Stdio::null()).spawn().expect("it starts");
-    while !here.join("broken/checkpoint").exists() && child.try_wait().expect("a process").is_none() {
+    while !here.join("broken/config.json").exists() && child.try_wait().expect("a process").is_none() {
         thread::sleep(Duration::from_millis(2));
     }
     child.kill().and_then(|()| child.wait()).expect("it can be killed");

@@ -92,6 +92,6 @@ fn any_crate_can_say_what_the_default_preset_adds_for_a_movement() {
     assert_eq!((config.movement.steps, config.controller.modular), (Some(100), None));
     assert_eq!(
         registry.config("defualt", creature(), "running").expect_err("none").to_string(),
-        "there is no preset \"defualt\"; did you mean \"default\"? (there are: default, thesis, stanley-2002)"
+        "there is no preset \"defualt\"; did you mean \"default\"? (there are: default, thesis, stanley-2002, plain, shaped)"
     );
 }
