@@ -22,7 +22,7 @@ pub struct CustomSensor {
 /// The value of a channel.
 type Read = dyn Fn(&dyn BodyView, usize) -> f32 + Send + Sync;
 
-/// What is told of one body: the channels, and how they are read.
+/// The channels of a sensor in one body, and how they are read.
 #[derive(Clone)]
 pub(crate) struct Told {
     pub(crate) channels: Vec<Channel>,

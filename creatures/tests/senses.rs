@@ -323,7 +323,7 @@ fn sensors_of_other_crates_are_read_by_name() {
     assert_eq!(serde_json::to_string(&sensor).expect("plain data"), written);
     let Sensor::Custom(custom) = &sensor else { panic!("{sensor:?}") };
 
-    // A creature may have it, but nobody can read it yet.
+    // A creature may have it, but no code can read it yet.
     let mut file = small();
     file["sensors"] = serde_json::json!(["torso-rotation", sensor]);
     Blueprint::from_json(&file.to_string()).expect("valid");

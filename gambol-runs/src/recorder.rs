@@ -174,7 +174,7 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// The indices of those who are kept of a population: all of one that is not too large, else from the best to the worst, evenly.
+/// The indices of those individuals that are kept of a population: all of one that is not too large, else from the best to the worst, evenly.
 fn spread_by_rank(evaluations: &[Evaluation]) -> Vec<usize> {
     let mut indices: Vec<usize> = (0..evaluations.len()).collect();
     if evaluations.len() > GALLERY_MEMBERS {

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 use std::{ops::Range, time::Instant};
 use tasks::Benchmark;
 
-/// Who is put to the test that is not counted, where a task [has one](BenchmarkTask::has_uncounted_test).
+/// Which candidates are put to the test that is not counted, where a task [has one](BenchmarkTask::has_uncounted_test).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Counting {
@@ -46,7 +46,7 @@ pub struct Measured {
     pub strategy: String,
     /// The task.
     pub task: BenchmarkTask,
-    /// Who is tested.
+    /// Which candidates are tested.
     pub counting: Counting,
     /// Settings and net, in words.
     pub description: String,

@@ -91,7 +91,7 @@ fn replay_to_one_file_twice_is_refused() -> Outcome {
     Ok(())
 }
 
-/// What is no regular file is not replaced, whoever asks for it: a pipe stays a pipe, and a link leads where it led.
+/// What is no regular file is not replaced, whichever command asks for it: a pipe stays a pipe, and a link leads where it led.
 #[cfg(unix)]
 #[test]
 fn force_replaces_neither_pipes_nor_links() -> Outcome {
