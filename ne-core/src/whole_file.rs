@@ -90,7 +90,7 @@ fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
             // Before it was locked, another writer may have taken it for abandoned.
             Ok(()) if !file.path().exists() => {}
             Err(TryLockError::WouldBlock) => {}
-            // Where the file system knows no locks, nobody else can lock it to clear it away.
+            // Where the file system knows no locks, no other process can lock it to clear it away.
             Ok(()) | Err(TryLockError::Error(_)) => return Ok(file),
         }
     }

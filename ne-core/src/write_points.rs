@@ -39,7 +39,7 @@ pub fn observe(observer: impl Fn(WritePoint<'_>) + Send + Sync + 'static) {
     let _ = OBSERVER.set(Box::new(observer));
 }
 
-/// Tells the observer, if there is one. Called by whoever writes, before it does.
+/// Tells the observer, if there is one. Every writer calls it before it writes.
 pub fn reach(point: WritePoint<'_>) {
     if let Some(observer) = OBSERVER.get() {
         observer(point);

@@ -44,7 +44,7 @@ fn of_a_large_population_a_thousand_are_in_the_gallery() -> Outcome {
 /// Between re-evaluations, which become rarer, candidates wait; all in all they are bounded. (CMA-ES has a history beside them,
 /// by which it knows that a search stagnates.)
 #[test]
-#[ignore = "ten thousand generations"]
+#[ignore = "ten thousand generations: cargo test --release -p gambol --test cli large -- --ignored"]
 fn the_candidates_in_the_checkpoint_of_a_long_run_take_as_much_as_those_of_a_short_one() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
@@ -75,7 +75,7 @@ fn most_memory(command: &mut std::process::Command) -> u64 {
 /// Measured: 1.97 GB, most of it genomes, their copies in the loop, and evaluations with their measurements.
 #[cfg(target_os = "linux")]
 #[test]
-#[ignore = "a million individuals"]
+#[ignore = "a million individuals: cargo test --release -p gambol --test cli large -- --ignored"]
 fn a_population_of_a_million_takes_little_more_than_two_gigabytes() -> Outcome {
     let folder = tempfile::tempdir()?;
     let mut train = gambol("train");

@@ -106,7 +106,7 @@ pub(crate) fn fuzz(reader: &'static Reader, limits: Limits) -> Result<(), String
 }
 
 /// Ends the process if an input takes too long: a thread that hangs cannot be ended otherwise.
-#[expect(clippy::print_stderr, reason = "nobody else can say it any more")]
+#[expect(clippy::print_stderr, reason = "the process ends here, and no other code can say it")]
 fn watch(name: &'static str, under_way: UnderWay, done: Arc<AtomicBool>) -> thread::JoinHandle<()> {
     thread::spawn(move || {
         while !done.load(Ordering::Relaxed) {

@@ -185,7 +185,7 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
                 self.breed(&mut population[index], parents, strength, place(index));
             }
         }
-        // In later generations these are immigrants, who are drawn.
+        // In later generations these are immigrants, which are drawn.
         let start = if is_first { self.parents.start.as_slice() } else { &[] };
         for (index, individual) in population.iter_mut().enumerate().skip(first_drawn) {
             let draw = |individual: &mut WeightVector| self.draw(individual, place(index));
