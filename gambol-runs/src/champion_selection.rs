@@ -28,8 +28,9 @@ pub(crate) struct ReferenceSelection {
 /// Says which of these controllers is the first whose gait is usable.
 type FirstUsable = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
 
-/// Says in how many perturbed worlds of a trial the gait of a controller is usable.
-type Steadiness = dyn Fn(&dyn Phenotype, Trial) -> usize + Send + Sync;
+/// Says in how many perturbed worlds of a trial the gait of a controller is usable; any smaller number will do if it is so in
+/// fewer than are given.
+type Steadiness = dyn Fn(&dyn Phenotype, Trial, usize) -> usize + Send + Sync;
 
 /// In how many worlds of which trial a gait must be usable for one tier above [`USABLE`], for two and so on; one that fails
 /// at a step is not tried at those above. First a quarter of the worlds, half, three quarters, all but one. Finer steps would
@@ -58,6 +59,12 @@ enum Kept {
     Little,
     Half,
     Most,
+}
+
+/// In how many worlds of a trial a gait must be usable for this tier.
+fn needed(trial: Trial, tier: u8) -> usize {
+    let tiers = STEPS.iter().zip(USABLE + 1..).filter(|&(&(of, _), step)| of == trial && step <= tier);
+    tiers.map(|(&(_, worlds), _)| worlds).max().unwrap_or(0)
 }
 
 /// The champion selection's task in rapier, which remembers what it played last.
@@ -107,8 +114,9 @@ impl ReferenceSelection {
             }),
             steadiness: reference.robustness_check.clone().map(|ground| {
                 let evaluator = evaluator.clone();
-                let steadiness = move |phenotype: &dyn Phenotype, trial| {
-                    network_of(phenotype).map_or(0, |network| evaluator.install(|| ground.usable(&network, trial)))
+                let steadiness = move |phenotype: &dyn Phenotype, trial, needed| {
+                    let usable = |network| evaluator.install(|| ground.usable(&network, trial, needed));
+                    network_of(phenotype).map_or(0, usable)
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
@@ -171,7 +179,7 @@ impl ReferenceSelection {
             let known = last.filter(|&(known, _)| known == trial);
             let (_, usable) = known.unwrap_or_else(|| {
                 let span = tracing::debug_span!("perturbed worlds", ?trial);
-                (trial, span.in_scope(|| steadiness(&controller, trial)))
+                (trial, span.in_scope(|| steadiness(&controller, trial, needed(trial, enough))))
             });
             last = Some((trial, usable));
             if usable < worlds {

@@ -76,10 +76,11 @@ impl RobustnessCheck {
         Self { judge, seed, worlds: Default::default() }
     }
 
-    /// In how many of the worlds a controller's gait is usable, on the threads of the current pool.
-    pub(crate) fn usable(&self, network: &Network, trial: Trial) -> usize {
+    /// In how many of the worlds a controller's gait is usable, on the threads of the current pool; fewer than `needed`, how many
+    /// does not matter, if it is so in fewer than these.
+    pub(crate) fn usable(&self, network: &Network, trial: Trial, needed: usize) -> usize {
         let build = || Worlds::new(&self.judge, &self.draw(trial)).shortened(trial.seconds());
-        self.worlds[trial as usize].get_or_init(build).usable(network)
+        self.worlds[trial as usize].get_or_init(build).usable(network, needed)
     }
 
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
@@ -142,10 +143,13 @@ mod tests {
                 let (champion, registry) = (champion(seed), Registry::default());
                 let judge = Judge::new(champion.episode_parts(), &registry).expect("builds");
                 let robustness_check = RobustnessCheck::new(judge.clone(), Seed::of_run(seed));
-                let count = robustness_check.usable(&champion.network, trial);
+                let count = robustness_check.usable(&champion.network, trial, 0);
+                let known = robustness_check.usable(&champion.network, trial, count);
+                assert_eq!(known, count, "as many as are needed");
+                assert!(robustness_check.usable(&champion.network, trial, count + 1) <= count);
                 let judge = judge.in_rapier();
                 let one_by_one = robustness_check.draw(trial).into_iter().map(|world| Worlds::new(&judge, &[world]));
-                assert_eq!(one_by_one.map(|world| world.usable(&champion.network)).sum::<usize>(), count);
+                assert_eq!(one_by_one.map(|world| world.usable(&champion.network, 0)).sum::<usize>(), count);
                 count
             })
             .collect();

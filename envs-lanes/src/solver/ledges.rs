@@ -20,6 +20,8 @@ pub(super) struct Ledges {
     cells_per_metre: f32,
     /// For each cell, the shapes that are in it, in order. What is further left or right belongs to the first or the last.
     cells: Vec<Vec<usize>>,
+    /// For each shape, the first cell it is in.
+    first_cells: Vec<usize>,
 }
 
 /// A shape of the ground.
@@ -70,9 +72,11 @@ impl Ledges {
         };
         let top = ledges.iter().map(Ledge::top).fold(f32::NEG_INFINITY, f32::max);
         let has_floor = ground.shapes.first() == Some(&GroundShape::HalfSpace);
-        let mut ground = Self { ledges, has_floor, top, left, cells_per_metre, cells: vec![Vec::new(); count] };
+        let (cells, first_cells) = (vec![Vec::new(); count], Vec::new());
+        let mut ground = Self { ledges, has_floor, top, left, cells_per_metre, cells, first_cells };
         for index in 0..ground.ledges.len() {
             let [from, to] = ground.ledges[index].span().map(|end| ground.cell(end));
+            ground.first_cells.push(from);
             for cell in &mut ground.cells[from..=to] {
                 cell.push(index);
             }
@@ -97,16 +101,18 @@ impl Ledges {
     pub(super) fn find_near(&self, x: f32, reach: f32, found: &mut Vec<usize>) {
         found.clear();
         found.extend(self.in_cells_near(x, reach));
-        // One that is in several of the cells was found in each.
         found.sort_unstable();
-        found.dedup();
     }
 
-    /// The indices in the cells that are within `reach` of a point at x, m.
+    /// The indices in the cells that are within `reach` of a point at x, m, each once.
     fn in_cells_near(&self, x: f32, reach: f32) -> impl Iterator<Item = usize> {
         let margin = reach + MARGIN;
         let [from, to] = [x - margin, x + margin].map(|end| self.cell(end));
-        self.cells[from..=to].iter().flatten().copied()
+        let later = (from + 1..=to).flat_map(move |cell| {
+            // What is there in the cell before as well was found by then.
+            self.cells[cell].iter().filter(move |&&index| self.first_cells[index] == cell)
+        });
+        self.cells[from].iter().chain(later).copied()
     }
 
     /// Whether nothing within `reach` of a point at y is as low as the highest of the shapes, m.

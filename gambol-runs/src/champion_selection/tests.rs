@@ -84,9 +84,11 @@ impl ScheduledSelection {
         };
         let tried: Arc<Mutex<Vec<Trial>>> = Arc::default();
         let register = tried.clone();
-        let steadiness = move |phenotype: &dyn Phenotype, trial: Trial| {
+        let steadiness = move |phenotype: &dyn Phenotype, trial: Trial, needed: usize| {
             register.lock().expect("no test panics here").push(trial);
-            candidate(phenotype).steady[trial as usize]
+            let worlds = candidate(phenotype).steady[trial as usize];
+            // What is too little need not be counted.
+            if worlds < needed { 0 } else { worlds }
         };
         let champion_selection = ReferenceSelection {
             task: Box::new(Fake(lanes)),

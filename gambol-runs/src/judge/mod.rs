@@ -119,12 +119,16 @@ impl Judge {
 
     /// In how many near worlds a controller's gait is usable, on the threads of the current pool.
     pub fn try_near_worlds(&self, network: &Network) -> NearWorlds {
-        let worlds = self.near.get_or_init(|| {
+        let worlds = self.near();
+        NearWorlds { usable: worlds.usable(network, 0), worlds: worlds.len() }
+    }
+
+    fn near(&self) -> &Worlds {
+        self.near.get_or_init(|| {
             let landscape: &Landscape = self.environment().landscape();
             let conditions = near_worlds(self.environment().motors().len()).into_iter();
             Worlds::new(self, &conditions.map(|conditions| (conditions, landscape.clone())).collect::<Vec<_>>())
-        });
-        NearWorlds { usable: worlds.usable(network), worlds: worlds.len() }
+        })
     }
 
     /// Whether a controller's gait is usable, here and in near worlds; never for a movement that is not judged.
@@ -141,8 +145,8 @@ impl Judge {
         };
         let verdicts = reference.verdicts(networks).into_iter().map(|verdicts| verdicts.into_iter().next()?);
         networks.iter().zip(verdicts).position(|(network, verdict)| {
-            let Some(verdict) = verdict.filter(|verdict| verdict.usable) else { return false };
-            with_near_worlds(verdict, Some(self.try_near_worlds(network))).usable
+            let required = NearWorlds::required(self.near().len());
+            verdict.is_some_and(|verdict| verdict.usable) && self.near().usable(network, required) >= required
         })
     }
 

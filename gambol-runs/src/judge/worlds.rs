@@ -36,8 +36,8 @@ enum World {
 enum Until {
     /// The whole episode.
     Over,
-    /// Until the gait is lost, if lanes play it.
-    Lost,
+    /// Until the gait is lost, if lanes play it; or, of a controller whose gait is lost in more than so many worlds, not at all.
+    Lost { most: usize },
 }
 
 /// Feet are no longer than this, m.
@@ -90,7 +90,7 @@ impl Worlds {
     /// The verdict on each of several controllers in each world; `None` for one that is not usable and [is
     /// lost](Rules::is_lost) before its episode is over, and where there is nothing to measure.
     pub(crate) fn verdicts(&self, networks: &[Network]) -> Vec<Vec<Option<Judgement>>> {
-        let reports = self.play(networks, Until::Lost);
+        let reports = self.play(networks, Until::Lost { most: self.len() });
         reports.into_iter().map(|worlds| worlds.into_iter().map(|report| report?.verdict).collect()).collect()
     }
 
@@ -117,11 +117,14 @@ impl Worlds {
         reports
     }
 
-    /// In how many worlds nothing but its length speaks against the gait of a controller.
-    pub(crate) fn usable(&self, network: &Network) -> usize {
+    /// In how many worlds nothing but its length speaks against the gait of a controller; fewer than `needed`, how many does
+    /// not matter, if it is so in fewer than these.
+    pub(crate) fn usable(&self, network: &Network, needed: usize) -> usize {
         let length = |reason: &Reason| matches!(reason, Reason::TooShort { .. });
-        let sound = |verdict: &&Judgement| verdict.reasons.iter().all(length);
-        self.verdicts(std::slice::from_ref(network)).iter().flatten().flatten().filter(sound).count()
+        let sound = |verdict: &Judgement| verdict.reasons.iter().all(length);
+        let most = self.len().saturating_sub(needed);
+        let reports = self.play(std::slice::from_ref(network), Until::Lost { most });
+        reports.into_iter().flatten().flatten().filter_map(|report| report.verdict).filter(sound).count()
     }
 
     fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>], until: Until) -> Vec<(usize, Option<Gait>)> {
@@ -133,16 +136,24 @@ impl Worlds {
         let plays: Vec<Play<'_>> =
             begun.iter().map(|((_, network, world), start)| Play { network, start, steps: steps(world) }).collect();
         let bodies: Vec<_> = begun.iter().map(|((_, _, world), _)| world.body()).collect();
-        let is_lost = |play: usize, now: &Snapshot| {
-            let (Some(rules), Some(body)) = (&self.rules, bodies[play]) else { return false };
-            until == Until::Lost && rules.is_lost(body, now)
+        let is_lost = |play: usize, now: &Snapshot| match (&self.rules, bodies[play]) {
+            (Some(rules), Some(body)) => rules.is_lost(body, now),
+            _ => false,
         };
+        let controller = |play: usize| begun[play].0.0 / self.len();
+        // In how many worlds each controller is lost; places ascend.
+        let mut lost = vec![0; begun.len().checked_sub(1).map_or(0, |last| controller(last) + 1)];
         let mut recordings: Vec<Vec<Snapshot>> = vec![Vec::new(); plays.len()];
         envs_lanes::play(environment, &plays, |play, snapshot| {
-            if is_lost(play, snapshot) {
-                // There is nothing to measure in an empty recording.
-                recordings[play] = Vec::new();
-                return false;
+            if let Until::Lost { most } = until {
+                let lost = &mut lost[controller(play)];
+                let now = is_lost(play, snapshot);
+                *lost += usize::from(now);
+                if now || *lost > most {
+                    // There is nothing to measure in an empty recording.
+                    recordings[play] = Vec::new();
+                    return false;
+                }
             }
             recordings[play].push(snapshot.clone());
             true

@@ -38,6 +38,13 @@ pub struct NearWorlds {
     pub worlds: usize,
 }
 
+impl NearWorlds {
+    /// In how many of so many near worlds a gait must be usable.
+    pub fn required(worlds: usize) -> usize {
+        (worlds * NEAR_WORLDS_REQUIRED).div_ceil(NEAR_WORLDS)
+    }
+}
+
 /// In how many near worlds a gait is tried.
 pub const NEAR_WORLDS: usize = 8;
 
@@ -58,7 +65,7 @@ impl Judgement {
     /// The same, of a gait that was also tried in near worlds. One that is usable in fewer than 7 of 8 is not usable.
     #[must_use]
     pub fn with_near_worlds(mut self, near: NearWorlds) -> Self {
-        let required = (near.worlds * NEAR_WORLDS_REQUIRED).div_ceil(NEAR_WORLDS);
+        let required = NearWorlds::required(near.worlds);
         if near.usable < required {
             self.reasons.push(Reason::Brittle { usable: near.usable, worlds: near.worlds, required });
         }
