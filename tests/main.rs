@@ -3,6 +3,7 @@
 
 mod arrows;
 mod circles;
+mod classic_table;
 mod documents;
 mod engines;
 mod golden;

@@ -6,11 +6,11 @@
 use crate::root;
 use std::{collections::BTreeSet, env, fs};
 
-const DOCUMENTS: [&str; 3] = ["README.md", "docs/gaits.md", "docs/ablation.md"];
+const DOCUMENTS: [&str; 4] = ["README.md", "docs/gaits.md", "docs/ablation.md", "docs/strategies.md"];
 const MARK: &str = "<!-- table: ";
 
 /// The cells of a line of CSV; cells with commas stand in quotation marks.
-fn cells(line: &str) -> Vec<String> {
+pub(crate) fn cells(line: &str) -> Vec<String> {
     let (mut cells, mut is_quoted) = (vec![String::new()], false);
     for letter in line.chars() {
         match letter {

@@ -15,6 +15,22 @@ pub trait Setting: Clone + Debug + PartialEq + Serialize + DeserializeOwned + Se
     }
 }
 
+/// Checks a population of pairs.
+pub(crate) fn check_pairs(population: usize) -> Result<(), SettingError> {
+    match (2..=1_000_000).contains(&population) && population.is_multiple_of(2) {
+        true => Ok(()),
+        false => Err(SettingError::new("population", population, "even, from 2 to 1000000")),
+    }
+}
+
+/// Checks a number that must be above 0.
+pub(crate) fn check_above_0(field: &str, value: f64, most: f64) -> Result<(), SettingError> {
+    match value > 0.0 && value <= most {
+        true => Ok(()),
+        false => Err(SettingError::new(field, value, format!("above 0 and at most {most}"))),
+    }
+}
+
 impl Setting for Selection {
     fn validate(&self) -> Result<(), SettingError> {
         Self::validate(self)

@@ -21,6 +21,10 @@ const REPRESENTATIVES: Purpose = Purpose::new("neat representatives");
 ///
 /// Once evaluated, it is divided into species by the distance to random members of the generation before.
 ///
+/// Not in the paper: with [`restart`](NeatSettings::restart) the search begins anew, with nets drawn as at first, when the
+/// best fitness has not been beaten for so many generations (Fukunaga, *Restart Scheduling for Genetic Algorithms*, PPSN
+/// 1998). Species and innovations to come have numbers that were never given.
+///
 /// # Statistics
 /// - `species`: how many there are;
 /// - `largest_species`: the number of its members;
@@ -115,6 +119,15 @@ impl Neat {
         proposals
     }
 
+    /// Forgets the population, so that the next generation is drawn.
+    fn begin_anew(&mut self) {
+        self.parents.clear();
+        self.scores.clear();
+        self.species.clear();
+        self.threshold = self.settings.speciation.threshold;
+        (self.best, self.stagnation) = (None, 0);
+    }
+
     /// Gives numbers to what the individuals propose.
     fn number(&mut self, population: &mut [NeatGenome], proposals: Vec<Proposal>) {
         self.innovations.begin_generation();
@@ -180,6 +193,9 @@ impl Strategy for Neat {
     }
 
     fn ask(&mut self, seed: Seed) -> &[NeatGenome] {
+        if self.settings.restart.is_some_and(|patience| self.stagnation >= patience) {
+            self.begin_anew();
+        }
         let mut population = std::mem::take(&mut self.population);
         population.resize_with(self.settings.population, || NeatGenome::blank(self.layout));
         if self.parents.is_empty() && !self.start.is_empty() {

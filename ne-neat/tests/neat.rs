@@ -308,6 +308,28 @@ proptest! {
     }
 }
 
+#[test]
+fn a_search_without_progress_begins_anew() {
+    let settings = NeatSettings { restart: Some(3), ..NeatSettings::stanley_2002() };
+    let mut neat = new(settings.clone());
+    for number in 1..=4 {
+        let seed = Seed::of_run(1).generation(number);
+        let same = vec![Evaluation::new(1.0); neat.ask(seed).len()];
+        neat.tell(&same, seed);
+    }
+    let ids: Vec<u64> = neat.species().iter().map(|species| species.id).collect();
+    let seed = Seed::of_run(1).generation(5);
+    let mut fresh = new(settings.clone());
+    let drawn = fresh.ask(seed);
+    assert_eq!(reload(&neat).ask(seed), drawn, "as a first generation is");
+    assert_eq!(neat.ask(seed), drawn);
+    let mut neat = reload(&neat);
+    neat.tell(&vec![Evaluation::new(0.5); settings.population], seed);
+    assert!(neat.species().iter().all(|species| !ids.contains(&species.id)), "of new species");
+    let next = Seed::of_run(1).generation(6);
+    assert_ne!(neat.ask(next), new(settings).ask(next), "and goes on from it");
+}
+
 /// Golden: another digest changes every recorded run.
 #[test]
 fn runs_are_the_same_for_ever() {

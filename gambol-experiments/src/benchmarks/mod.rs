@@ -3,11 +3,13 @@
 //! Nothing here is about creatures. It answers another question: are the strategies implemented right, and how well do
 //! they search where others have published numbers?
 
+mod csv;
 mod entrants;
 mod published;
 mod solve;
 mod table;
 
+pub use csv::attempts_csv;
 pub use entrants::{Entrant, entrants};
 pub use published::{PUBLISHED, Published};
 pub use solve::{Attempt, Counting, Measured, measure};
@@ -29,7 +31,7 @@ pub enum BenchmarkTask {
     TwoPoles,
     /// The same without velocities among the inputs, with the damping fitness.
     TwoPolesWithoutVelocities,
-    /// The same, and a solution has to hold the poles from 200 of 625 other starts too. So Stanley & Miikkulainen, 2002, had it, but from 1° in place of 4°.
+    /// The same, and a solution has to hold the poles from 200 of 625 other starts too. So Stanley & Miikkulainen, 2002, had it, by the paper from 1° in place of 4°.
     GeneralTwoPoles,
 }
 

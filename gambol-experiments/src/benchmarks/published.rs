@@ -19,8 +19,9 @@ pub struct Published {
 const STANLEY: &str = "Stanley & Miikkulainen 2002";
 const GOMEZ: &str = "Gomez, Schmidhuber & Miikkulainen 2008";
 
-/// Mean evaluations to a solution, as published (the 33,184 of 2002 are for general solutions, from 1°). The table of 2008 was read in a secondary source; its runs start the
-/// long pole at 4°, the runs of 2002 at 1°.
+/// Mean evaluations to a solution, as published (the 33,184 of 2002 are for general solutions). The table of 2008 was read in a
+/// secondary source; its runs start the long pole at 4°, those of 2002 at 1° by the paper and at 0.07 rad, 4°, in the program
+/// published with it.
 pub const PUBLISHED: &[Published] = &[
     published("NEAT", Some("neat"), BenchmarkTask::Xor, 4_755, STANLEY),
     published("CoSyNE", Some("cosyne"), BenchmarkTask::OnePole, 98, GOMEZ),

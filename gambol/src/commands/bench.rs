@@ -1,7 +1,7 @@
 use super::{Outcome, bench_gaits::Gaits, bench_training::Training};
 use crate::{
     Registry,
-    benchmarks::{BenchmarkTask, Counting, PUBLISHED, entrants, measure, render},
+    benchmarks::{BenchmarkTask, Counting, PUBLISHED, attempts_csv, entrants, measure, render},
     strategies::StrategyCatalogue,
     suggest,
 };
@@ -56,6 +56,9 @@ struct Strategies {
     /// Print every attempt as JSON
     #[arg(long)]
     json: bool,
+    /// Print every attempt as a line of CSV
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
 }
 
 impl Bench {
@@ -80,7 +83,7 @@ impl Strategies {
         };
         let mut measured = Vec::new();
         for entrant in entrants().iter().filter(|one| wanted(one.settings.name(), one.task)) {
-            if !self.json {
+            if !self.json && !self.csv {
                 tell!("{} on {}", entrant.settings.name(), entrant.task.name());
             }
             let seeds = self.first_seed..self.first_seed + self.seeds;
@@ -91,6 +94,8 @@ impl Strategies {
         }
         if self.json {
             say!("{}", json!({ "measured": measured, "published": PUBLISHED }))?;
+        } else if self.csv {
+            say!("{}", attempts_csv(&measured).trim_end())?;
         } else {
             say!("{} seeds from {}\n\n{}", self.seeds, self.first_seed, render(&measured).trim_end())?;
         }

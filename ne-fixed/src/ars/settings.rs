@@ -1,4 +1,7 @@
-use crate::Initialization;
+use crate::{
+    Initialization,
+    setting::{check_above_0, check_pairs},
+};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -38,16 +41,10 @@ impl ArsSettings {
     /// # Errors
     /// Names the field and its range: `population = 7: must be even, from 2 to 1000000`.
     pub fn validate(&self) -> Result<(), SettingError> {
-        if !((2..=1_000_000).contains(&self.population) && self.population.is_multiple_of(2)) {
-            return Err(SettingError::new("population", self.population, "even, from 2 to 1000000"));
-        }
-        let above_0 = |field, value, most| {
-            let fits = value > 0.0 && value <= most;
-            if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
-        };
-        above_0("step_size", self.step_size, 1000.0)?;
+        check_pairs(self.population)?;
+        check_above_0("step_size", self.step_size, 1000.0)?;
         SettingError::check_range("noise", self.noise, 1e-6, 1000.0)?;
-        above_0("top_directions", self.top_directions, 1.0)?;
+        check_above_0("top_directions", self.top_directions, 1.0)?;
         self.initial_centre.validate().map_err(|error| error.within("initial_centre"))
     }
 

@@ -1,8 +1,5 @@
 use super::{Ars, ArsSettings};
-use crate::{
-    StateError,
-    state_error::{check_numbers, generation},
-};
+use crate::{StateError, state_error::check_numbers};
 use ne_core::SettingError;
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -23,14 +20,13 @@ pub(super) struct State {
 
 impl From<Ars> for State {
     fn from(strategy: Ars) -> Self {
-        let asked = if strategy.asked { strategy.population } else { Vec::new() };
         Self {
+            asked: strategy.nets.saved(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
             centre: strategy.centre,
             reward_deviation: strategy.reward_deviation,
             step_length: strategy.step_length,
-            asked: asked.iter().map(|net| net.weights().to_vec()).collect(),
         }
     }
 }
@@ -41,13 +37,12 @@ impl TryFrom<State> for Ars {
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
         if !state.centre.is_empty() {
-            check_numbers("centre", &state.centre, strategy.topology.weight_count())?;
+            check_numbers("centre", &state.centre, strategy.nets.topology.weight_count())?;
         }
         SettingError::check_range("reward_deviation", state.reward_deviation, 0.0, f64::INFINITY)?;
         SettingError::check_range("step_length", state.step_length, 0.0, f64::INFINITY)?;
-        strategy.population = generation("asked", state.asked, 1 + strategy.settings.population, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
-        if strategy.asked && state.centre.is_empty() {
+        strategy.nets.load(state.asked, 1 + strategy.settings.population)?;
+        if strategy.nets.asked && state.centre.is_empty() {
             return Err(SettingError::new("centre", "none", "there when individuals were asked").into());
         }
         strategy.centre = state.centre;

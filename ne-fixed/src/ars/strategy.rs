@@ -1,7 +1,7 @@
 use super::{ArsSettings, state::State};
 use crate::{
     WeightVector,
-    nets::{check_growth, check_start},
+    nets::{Nets, check_growth},
     normal::Normal,
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
@@ -38,15 +38,11 @@ const DIRECTIONS: Purpose = Purpose::new("ars directions");
 #[serde(into = "State", try_from = "State")]
 pub struct Ars {
     pub(super) settings: ArsSettings,
-    pub(super) topology: Topology,
+    pub(super) nets: Nets,
     /// M; empty before the first generation.
     pub(super) centre: Vec<f64>,
     pub(super) reward_deviation: f64,
     pub(super) step_length: f64,
-    /// The generation last asked. Once told, what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
 }
 
 impl Ars {
@@ -55,11 +51,9 @@ impl Ars {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: ArsSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
-        let (centre, population) = (Vec::new(), Vec::new());
-        Ok(Self { settings, topology, centre, reward_deviation: 0.0, step_length: 0.0, population, asked: false })
+        let nets = Nets::new(topology)?;
+        Ok(Self { settings, nets, centre: Vec::new(), reward_deviation: 0.0, step_length: 0.0 })
     }
 
     /// The same search, whose centre begins at these weights, those of the best net of several. Without effect once a
@@ -68,9 +62,9 @@ impl Ars {
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[0]`.
     pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
-        check_start(start, &self.topology)?;
+        let start = self.nets.start(start, 0.0)?;
         if let (true, Some(best)) = (self.centre.is_empty(), start.first()) {
-            self.centre = best.iter().map(|&weight| weight.into()).collect();
+            self.centre = best.weights().iter().map(|&weight| weight.into()).collect();
         }
         Ok(self)
     }
@@ -87,7 +81,7 @@ impl Ars {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check_growth(growth, &self.topology, &next.topology)?;
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
         let centre = if self.centre.is_empty() { Vec::new() } else { growth.transfer(&self.centre, 0.0) };
         Ok(Self { centre, ..next })
     }
@@ -99,11 +93,11 @@ impl Ars {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
     fn first_centre(&self, seed: Seed) -> Vec<f64> {
-        let mut net = WeightVector::zero(self.topology.clone());
+        let mut net = WeightVector::zero(self.nets.topology.clone());
         self.settings.initial_centre.draw(&mut net, &mut seed.stream(CENTRE));
         net.weights().iter().map(|&weight| weight.into()).collect()
     }
@@ -121,7 +115,7 @@ impl Ars {
         }
         let mut step = vec![0.0; self.centre.len()];
         for &index in &top {
-            let [plus, minus] = [1, 2].map(|place| self.population[2 * index + place].weights());
+            let [plus, minus] = [1, 2].map(|place| self.nets.population[2 * index + place].weights());
             // Divided first: a difference of huge rewards may be too large for a number.
             let difference = pairs[index][0] / self.reward_deviation - pairs[index][1] / self.reward_deviation;
             let scale = self.settings.step_size * difference / (top.len() as f64 * 2.0 * self.settings.noise);
@@ -146,8 +140,8 @@ impl Strategy for Ars {
         if self.centre.is_empty() {
             self.centre = self.first_centre(seed);
         }
-        self.population.resize_with(1 + self.settings.population, || WeightVector::zero(self.topology.clone()));
-        let (first, samples) = self.population.split_at_mut(1);
+        let mut population = self.nets.make_room(1 + self.settings.population);
+        let (first, samples) = population.split_at_mut(1);
         first[0].genes_mut().0.iter_mut().zip(&self.centre).for_each(|(gene, &x)| *gene = finite(x));
         let normal = Normal::new();
         for (index, pair) in samples.chunks_exact_mut(2).enumerate() {
@@ -159,13 +153,12 @@ impl Strategy for Ars {
                 (*plus, *minus) = (finite(x + noise), finite(x - noise));
             }
         }
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        self.asked = false;
+        debug_assert_eq!(evaluations.len(), self.nets.population.len());
+        self.nets.asked = false;
         self.step(&rewards(&evaluations[1..]));
     }
 

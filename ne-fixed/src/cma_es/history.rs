@@ -36,6 +36,12 @@ impl History {
         }
     }
 
+    /// Forgets all but what [`level`](Self::level) looks at.
+    pub(super) fn shorten(&mut self) {
+        let first = self.generations.len().saturating_sub(LAST);
+        self.generations.drain(..first);
+    }
+
     /// How far the search has got: the median of the best fitnesses of the last generations; `None` before the first.
     pub(super) fn level(&self) -> Option<Fitness> {
         let mut bests: Vec<Fitness> = self.generations.iter().rev().take(LAST).map(|[best, _]| *best).collect();

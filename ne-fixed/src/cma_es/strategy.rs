@@ -236,6 +236,8 @@ impl CmaEs {
         let returning = self.settings.restart == Restart::Returning;
         if returning {
             self.keep(distribution);
+            // Where it goes on, its history begins anew.
+            self.kept.iter_mut().for_each(|kept| kept.history.shorten());
         }
         let best = self.kept.as_ref().filter(|_| returning && self.restarts.is_elsewhere());
         if let Some(kept) = best {
@@ -309,6 +311,10 @@ impl Strategy for CmaEs {
             }
             let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
             self.history.push(&ranked, n, distribution.updates);
+            if self.settings.restart == Restart::None {
+                // Nobody asks whether it stagnates.
+                self.history.shorten();
+            }
         }
         let share = self.settings.start_generations.saturating_mul(self.restarts.population as u64);
         if self.is_starting() && self.restarts.evaluations >= share {

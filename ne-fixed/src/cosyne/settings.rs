@@ -23,6 +23,9 @@ pub struct CosyneSettings {
     pub permutation: Permutation,
     /// How the weights of the first generation are drawn; default uniform in ±1.
     pub initialization: Initialization,
+    /// Generations without a better best fitness after which the search begins anew, at least 1; default none, for never.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub restart: Option<u64>,
 }
 
 /// Chosen by experiment: two poles with velocities, a net 6-8-1. There, fewer children make the search slower, since nets
@@ -38,13 +41,15 @@ impl Default for CosyneSettings {
             mutation_scale: 0.3,
             permutation: Permutation::ByFitness,
             initialization: Initialization::Uniform { limit: 1.0 },
+            restart: None,
         }
     }
 }
 
 impl CosyneSettings {
     /// For pole balancing with nets of about ten weights: population 16, first weights uniform in ±10, strong
-    /// mutation, all weights permuted. Found by experiment.
+    /// mutation, all weights permuted, and a new search after 60 generations without progress, since one that will balance
+    /// does so early. Found by experiment.
     pub fn pole_balancing() -> Self {
         Self {
             population: 16,
@@ -52,6 +57,7 @@ impl CosyneSettings {
             mutation_scale: 2.0,
             permutation: Permutation::All,
             initialization: Initialization::Uniform { limit: 10.0 },
+            restart: Some(60),
             ..Self::default()
         }
     }
@@ -73,7 +79,11 @@ impl CosyneSettings {
         self.crossover.validate().map_err(|error| error.within("crossover"))?;
         SettingError::check_range("mutation_rate", self.mutation_rate, 0.0, 1.0)?;
         SettingError::check_range("mutation_scale", self.mutation_scale, 0.0, 1000.0)?;
-        self.initialization.validate().map_err(|error| error.within("initialization"))
+        self.initialization.validate().map_err(|error| error.within("initialization"))?;
+        if self.restart == Some(0) {
+            return Err(SettingError::new("restart", 0, "at least 1"));
+        }
+        Ok(())
     }
 
     /// How many nets are parents.

@@ -15,6 +15,11 @@ pub(super) struct State {
     start: Vec<Vec<f32>>,
     /// The generation last told; empty before the first.
     parents: Vec<Parent>,
+    /// The best score since the search began, and the generations since it was beaten; only where it may begin anew.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    best: Option<Fitness>,
+    #[serde(default, skip_serializing_if = "is_zero")]
+    stagnation: u64,
     /// The generation asked and not told yet; empty between generations.
     asked: Vec<Vec<f32>>,
 }
@@ -26,6 +31,11 @@ struct Parent {
     weights: Vec<f32>,
 }
 
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "serde hands it over so")]
+fn is_zero(number: &u64) -> bool {
+    *number == 0
+}
+
 impl From<Cosyne> for State {
     fn from(strategy: Cosyne) -> Self {
         let Parents { start, nets, scores } = &strategy.parents;
@@ -34,6 +44,8 @@ impl From<Cosyne> for State {
             parents: parents.map(|(net, &fitness)| Parent { fitness, weights: net.into() }).collect(),
             asked: strategy.nets.saved(),
             start: start.iter().map(Vec::from).collect(),
+            best: strategy.best,
+            stagnation: strategy.stagnation,
             settings: strategy.settings,
             topology: strategy.nets.topology,
         }
@@ -50,6 +62,7 @@ impl TryFrom<State> for Cosyne {
         let parents = state.parents.into_iter().map(|parent| parent.weights).collect();
         strategy.parents.nets = generation("parents", parents, size, &strategy.nets.topology)?;
         strategy.nets.load(state.asked, size)?;
+        (strategy.best, strategy.stagnation) = (state.best, state.stagnation);
         Ok(strategy)
     }
 }

@@ -5,7 +5,7 @@ use crate::{
     nets::{Nets, Parents, begin, check_growth},
     ranking::best_first,
 };
-use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
+use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -27,6 +27,10 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 ///
 /// Failed evaluations rank below every fitness; of equals those with the lower index are better.
 ///
+/// Not in the paper: with [`restart`](CosyneSettings::restart) the search begins anew, with weights drawn as at first, when
+/// the best fitness has not been beaten for so many generations (Fukunaga, *Restart Scheduling for Genetic Algorithms*, PPSN
+/// 1998). A small population that has converged to a bad place does not leave it.
+///
 /// # Statistics
 /// - `diversity`: the standard deviation of a gene over the population, mean of all genes, in units of the weights;
 /// - `marked_share`: the expected share of the weights that are marked after the generation last told, children not
@@ -40,6 +44,9 @@ pub struct Cosyne {
     pub(super) settings: CosyneSettings,
     pub(super) nets: Nets,
     pub(super) parents: Parents,
+    /// The best score since the search began, and the generations since it was beaten; known only where it may begin anew.
+    pub(super) best: Option<Fitness>,
+    pub(super) stagnation: u64,
 }
 
 impl Cosyne {
@@ -49,7 +56,7 @@ impl Cosyne {
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: CosyneSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
         settings.validate()?;
-        Ok(Self { settings, nets: Nets::new(topology)?, parents: Parents::default() })
+        Ok(Self { settings, nets: Nets::new(topology)?, parents: Parents::default(), best: None, stagnation: 0 })
     }
 
     /// The settings.
@@ -124,6 +131,10 @@ impl Strategy for Cosyne {
 
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         let size = self.settings.population;
+        if self.settings.restart.is_some_and(|patience| self.stagnation >= patience) {
+            self.parents = Parents::default();
+            (self.best, self.stagnation) = (None, 0);
+        }
         let mut population = self.nets.make_room(size);
         let place = |index: usize| seed.individual(index as u64);
         if self.parents.nets.is_empty() {
@@ -155,6 +166,11 @@ impl Strategy for Cosyne {
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
         self.nets.tell(evaluations, &mut self.parents);
+        if self.settings.restart.is_some() {
+            let best = self.parents.scores.iter().copied().max().flatten();
+            self.stagnation = if best > self.best { 0 } else { self.stagnation + 1 };
+            self.best = self.best.max(best);
+        }
     }
 
     fn statistics(&self) -> Vec<Statistic> {

@@ -20,13 +20,12 @@ pub(super) struct State {
 
 impl From<HillClimbing> for State {
     fn from(strategy: HillClimbing) -> Self {
-        let asked = if strategy.asked { strategy.population } else { Vec::new() };
         Self {
+            asked: strategy.nets.saved(),
             settings: strategy.settings,
-            topology: strategy.topology,
+            topology: strategy.nets.topology,
             parent: strategy.parent.map(|parent| parent.weights().to_vec()),
             as_good: strategy.as_good,
-            asked: asked.iter().map(|net| net.weights().to_vec()).collect(),
         }
     }
 }
@@ -37,12 +36,11 @@ impl TryFrom<State> for HillClimbing {
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
         let parent: Vec<Vec<f32>> = state.parent.into_iter().collect();
-        strategy.parent = generation("parent", parent, 1, &strategy.topology)?.pop();
+        strategy.parent = generation("parent", parent, 1, &strategy.nets.topology)?.pop();
         let children = strategy.settings.population - 1;
         SettingError::check_range("as_good", state.as_good as f64, 0.0, children as f64)?;
         strategy.as_good = state.as_good;
-        strategy.population = generation("asked", state.asked, strategy.settings.population, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
+        strategy.nets.load(state.asked, strategy.settings.population)?;
         Ok(strategy)
     }
 }

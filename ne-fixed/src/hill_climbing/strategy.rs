@@ -1,7 +1,7 @@
 use super::{HillClimbingSettings, state::State};
 use crate::{
     Mutation, WeightVector,
-    nets::{check_growth, check_start},
+    nets::{Nets, check_growth},
     ranking::best_first,
 };
 use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
@@ -27,15 +27,11 @@ const MUTATION: Purpose = Purpose::new("hill-climbing mutation");
 #[serde(into = "State", try_from = "State")]
 pub struct HillClimbing {
     pub(super) settings: HillClimbingSettings,
-    pub(super) topology: Topology,
+    pub(super) nets: Nets,
     /// None before the first generation was told, unless the search begins at given weights.
     pub(super) parent: Option<WeightVector>,
     /// How many of the children last told were at least as good as their parent.
     pub(super) as_good: usize,
-    /// The generation last asked. Once told, what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
 }
 
 impl HillClimbing {
@@ -44,10 +40,8 @@ impl HillClimbing {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: HillClimbingSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
-        Ok(Self { settings, topology, parent: None, as_good: 0, population: Vec::new(), asked: false })
+        Ok(Self { settings, nets: Nets::new(topology)?, parent: None, as_good: 0 })
     }
 
     /// The same search, whose first parent is the first of these nets, the best of several. Without effect once a generation
@@ -56,9 +50,9 @@ impl HillClimbing {
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[0]`.
     pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
-        check_start(start, &self.topology)?;
-        if let (true, Some(best)) = (self.parent.is_none() && !self.asked, start.first()) {
-            self.parent = Some(WeightVector::checked(self.topology.clone(), best.clone(), 0.0));
+        let start = self.nets.start(start, 0.0)?;
+        if self.parent.is_none() && !self.nets.asked {
+            self.parent = start.into_iter().next();
         }
         Ok(self)
     }
@@ -75,8 +69,8 @@ impl HillClimbing {
         growth: &TopologyMap,
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
-        check_growth(growth, &self.topology, &next.topology)?;
-        let parent = self.parent.map(|parent| parent.remapped(&next.topology, growth));
+        check_growth(growth, &self.nets.topology, &next.nets.topology)?;
+        let parent = self.parent.map(|parent| parent.remapped(&next.nets.topology, growth));
         Ok(Self { parent, ..next })
     }
 
@@ -87,7 +81,7 @@ impl HillClimbing {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 
     /// The net that has children; none before the first generation was told.
@@ -104,9 +98,9 @@ impl Strategy for HillClimbing {
     }
 
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
-        self.population.resize_with(self.settings.population, || WeightVector::zero(self.topology.clone()));
+        let mut population = self.nets.make_room(self.settings.population);
         let mutation = self.settings.mutation();
-        for (index, net) in self.population.iter_mut().enumerate() {
+        for (index, net) in population.iter_mut().enumerate() {
             let place = seed.individual(index as u64);
             let Some(parent) = &self.parent else {
                 self.settings.initialization.draw(net, &mut place.stream(FIRST_GENERATION));
@@ -119,13 +113,12 @@ impl Strategy for HillClimbing {
                 weights.iter_mut().for_each(|weight| *weight = weight.clamp(f32::MIN, f32::MAX));
             }
         }
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        self.asked = false;
+        debug_assert_eq!(evaluations.len(), self.nets.population.len());
+        self.nets.asked = false;
         let scores: Vec<_> = evaluations.iter().map(Evaluation::fitness).collect();
         let first_generation = self.parent.is_none();
         self.as_good = match first_generation {
@@ -139,7 +132,7 @@ impl Strategy for HillClimbing {
             [best, ..] => best,
             [] => return,
         };
-        self.parent = Some(self.population[best].clone());
+        self.parent = Some(self.nets.population[best].clone());
     }
 
     fn statistics(&self) -> Vec<Statistic> {

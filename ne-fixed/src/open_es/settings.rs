@@ -1,5 +1,8 @@
 use super::Adam;
-use crate::Initialization;
+use crate::{
+    Initialization,
+    setting::{check_above_0, check_pairs},
+};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -46,15 +49,9 @@ impl OpenEsSettings {
     /// # Errors
     /// Names the field and its range: `population = 7: must be even, from 2 to 1000000`.
     pub fn validate(&self) -> Result<(), SettingError> {
-        if !((2..=1_000_000).contains(&self.population) && self.population.is_multiple_of(2)) {
-            return Err(SettingError::new("population", self.population, "even, from 2 to 1000000"));
-        }
-        let above_0 = |field, value, most| {
-            let fits = value > 0.0 && value <= most;
-            if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
-        };
+        check_pairs(self.population)?;
         SettingError::check_range("deviation", self.deviation, 1e-6, 1000.0)?;
-        above_0("deviation_decay", self.deviation_decay, 1.0)?;
+        check_above_0("deviation_decay", self.deviation_decay, 1.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-6, self.deviation)?;
         self.adam.validate().map_err(|error| error.within("adam"))?;
         SettingError::check_range("weight_decay", self.weight_decay, 0.0, 1.0)?;

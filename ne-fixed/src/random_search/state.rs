@@ -1,5 +1,5 @@
 use super::{RandomSearch, RandomSearchSettings};
-use crate::{StateError, state_error::generation};
+use crate::StateError;
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
 
@@ -15,12 +15,7 @@ pub(super) struct State {
 
 impl From<RandomSearch> for State {
     fn from(strategy: RandomSearch) -> Self {
-        let asked = if strategy.asked { strategy.population } else { Vec::new() };
-        Self {
-            settings: strategy.settings,
-            topology: strategy.topology,
-            asked: asked.iter().map(|net| net.weights().to_vec()).collect(),
-        }
+        Self { asked: strategy.nets.saved(), settings: strategy.settings, topology: strategy.nets.topology }
     }
 }
 
@@ -29,8 +24,7 @@ impl TryFrom<State> for RandomSearch {
 
     fn try_from(state: State) -> Result<Self, StateError> {
         let mut strategy = Self::new(state.settings, state.topology)?;
-        strategy.population = generation("asked", state.asked, strategy.settings.population, &strategy.topology)?;
-        strategy.asked = !strategy.population.is_empty();
+        strategy.nets.load(state.asked, strategy.settings.population)?;
         Ok(strategy)
     }
 }

@@ -1,5 +1,5 @@
 use super::{RandomSearchSettings, state::State};
-use crate::WeightVector;
+use crate::{WeightVector, nets::Nets};
 use ne_core::{Evaluation, Purpose, Seed, SettingError, Statistic, Strategy};
 use ne_net::Topology;
 use serde::{Deserialize, Serialize};
@@ -20,11 +20,7 @@ const DRAW: Purpose = Purpose::new("random-search draw");
 #[serde(into = "State", try_from = "State")]
 pub struct RandomSearch {
     pub(super) settings: RandomSearchSettings,
-    pub(super) topology: Topology,
-    /// The generation last asked. Once told, what stands here is memory to be used again.
-    pub(super) population: Vec<WeightVector>,
-    /// Whether `population` was asked and not told yet.
-    pub(super) asked: bool,
+    pub(super) nets: Nets,
 }
 
 impl RandomSearch {
@@ -33,10 +29,8 @@ impl RandomSearch {
     /// # Errors
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: RandomSearchSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
-        let topology = topology.into();
         settings.validate()?;
-        topology.validate().map_err(|error| error.within("topology"))?;
-        Ok(Self { settings, topology, population: Vec::new(), asked: false })
+        Ok(Self { settings, nets: Nets::new(topology)? })
     }
 
     /// The settings.
@@ -46,7 +40,7 @@ impl RandomSearch {
 
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
-        &self.topology
+        &self.nets.topology
     }
 }
 
@@ -58,17 +52,16 @@ impl Strategy for RandomSearch {
     }
 
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
-        self.population.resize_with(self.settings.population, || WeightVector::zero(self.topology.clone()));
-        for (index, net) in self.population.iter_mut().enumerate() {
+        let mut population = self.nets.make_room(self.settings.population);
+        for (index, net) in population.iter_mut().enumerate() {
             self.settings.initialization.draw(net, &mut seed.individual(index as u64).stream(DRAW));
         }
-        self.asked = true;
-        &self.population
+        self.nets.ask(population)
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
-        debug_assert_eq!(evaluations.len(), self.population.len());
-        self.asked = false;
+        debug_assert_eq!(evaluations.len(), self.nets.population.len());
+        self.nets.asked = false;
     }
 
     fn statistics(&self) -> Vec<Statistic> {

@@ -329,3 +329,17 @@ fn after_a_search_elsewhere_the_best_so_far_goes_on() {
     visited.dedup();
     assert_eq!(visited[..7], [0, 1, 0, 2, 3, 2, 4], "from 2 on, which got farthest, it comes back to 2");
 }
+
+/// The bytes of a checkpoint after so many generations.
+fn saved_bytes(settings: &CmaEsSettings, generations: u64) -> usize {
+    let mut strategy = new(settings.clone());
+    (1..=generations).for_each(|number| drop(generation(&mut strategy, number)));
+    serde_json::to_string(&strategy).expect("serialises").len()
+}
+
+#[test]
+fn a_long_run_has_no_larger_checkpoint() {
+    let settings = CmaEsSettings::default();
+    let (short, long) = (saved_bytes(&settings, 100), saved_bytes(&settings, 10_000));
+    assert!(long as f64 <= 1.2 * short as f64, "{short} bytes after 100 generations, {long} after 10,000");
+}

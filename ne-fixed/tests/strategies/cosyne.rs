@@ -1,7 +1,8 @@
 //! What CoSyNE promises.
 
 use crate::common::{
-    assert_damages_are_found, assert_resumes, dense, digest, evaluations_to, generation, recurrent, score, weights,
+    assert_damages_are_found, assert_resumes, dense, digest, evaluations_to, generation, generation_of, recurrent,
+    reload, score, weights,
 };
 use ne_core::{
     Evaluation, Seed, Strategy,
@@ -47,6 +48,19 @@ fn keeps_the_promises_of_a_strategy() {
 fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(CosyneSettings::default()), 5);
     assert_resumes(new(permuting_all()), 5);
+    assert_resumes(new(CosyneSettings { restart: Some(1), ..permuting_all() }), 12);
+}
+
+#[test]
+fn a_search_without_progress_begins_anew() {
+    let settings = CosyneSettings { restart: Some(3), ..CosyneSettings::default() };
+    let mut strategy = new(settings.clone());
+    (1..=4).for_each(|number| generation_of(&mut strategy, number, &Evaluation::new(1.0)));
+    let seed = Seed::of_run(1).generation(5);
+    assert_eq!(reload(&strategy).ask(seed), new(settings.clone()).ask(seed), "drawn as a first generation is");
+    generation_of(&mut strategy, 5, &Evaluation::new(0.5));
+    let next = Seed::of_run(1).generation(6);
+    assert_ne!(strategy.ask(next), new(settings).ask(next), "and goes on from it");
 }
 
 /// Golden: another digest changes every recorded run.
@@ -60,7 +74,7 @@ fn runs_are_the_same_for_ever() {
 #[test]
 fn errors_of_settings_name_the_field() {
     type Change = fn(&mut CosyneSettings);
-    let changes: [(Change, &str); 8] = [
+    let changes: [(Change, &str); 9] = [
         (|s| s.population = 1, "population = 1: must be from 2 to 1000000"),
         (|s| s.parents = 0.0, "parents = 0: must be above 0 and at most 1"),
         (|s| s.parents = 1.1, "parents = 1.1: must be above 0 and at most 1"),
@@ -72,6 +86,7 @@ fn errors_of_settings_name_the_field() {
             |s| s.initialization = Initialization::Uniform { limit: -1.0 },
             "initialization.uniform.limit = -1: must be from 0 to 1000",
         ),
+        (|s| s.restart = Some(0), "restart = 0: must be at least 1"),
     ];
     for (change, message) in changes {
         let mut settings = CosyneSettings::default();

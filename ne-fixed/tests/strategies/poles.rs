@@ -8,7 +8,7 @@
 //! `cargo test --release -p ne-fixed --test strategies poles -- --include-ignored --nocapture`
 
 use crate::common::{fully_recurrent, single_neuron};
-use ne_core::{Genome, Seed, Strategy};
+use ne_core::{Evaluation, Genome, Seed, Strategy};
 use ne_fixed::{CmaEs, CmaEsSettings, Cosyne, CosyneSettings, WeightVector};
 use ne_net::GraphShape;
 use tasks::{Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings};
@@ -94,4 +94,53 @@ fn two_poles_as_fast_as_published() {
 fn two_poles_without_velocities_as_fast_as_published() {
     let (shape, task) = (fully_recurrent(4, 2, false), two_poles(DoublePoleSettings::without_velocities()));
     check(|| cma_es(shape.clone()), &task, 20, 3_416.0);
+    check(|| cosyne(shape.clone()), &task, 20, 3_416.0);
+}
+
+/// As [`evaluations`], but of each generation only the best is tested, as papers have it; the evaluations are those up to the
+/// end of its generation.
+fn evaluations_by_generations<S: Strategy<Genome = WeightVector>>(
+    mut strategy: S,
+    task: &dyn Benchmark,
+    run: u64,
+) -> Option<usize> {
+    let mut count = 0;
+    for number in 1.. {
+        let seed = Seed::of_run(run).generation(number);
+        let genomes = strategy.ask(seed);
+        let evaluations: Vec<Evaluation> =
+            genomes.iter().map(|genome| task.evaluate(&mut genome.express(), seed)).collect();
+        count += evaluations.len();
+        // Reversed, since of equals `max_by_key` takes the last.
+        let best = genomes.iter().zip(&evaluations).rev().max_by_key(|(_, evaluation)| evaluation.fitness());
+        let (genome, evaluation) = best.expect("there are individuals");
+        if task.is_solved(&mut genome.express(), evaluation) {
+            return Some(count);
+        }
+        if count > 100_000 {
+            break;
+        }
+        strategy.tell(&evaluations, seed);
+    }
+    None
+}
+
+/// Checks the mean of the evaluations of 50 runs on seeds that no setting was chosen on.
+fn check_by_generations<S: Strategy<Genome = WeightVector>>(
+    strategy: impl Fn() -> S,
+    task: &dyn Benchmark,
+    most: usize,
+) {
+    let counts = (1001..=1050).map(|run| evaluations_by_generations(strategy(), task, run));
+    let solved: Option<Vec<usize>> = counts.collect();
+    let mean = solved.expect("every seed solves the task").iter().sum::<usize>() / 50;
+    assert!(mean <= most, "{}, {}: {mean} evaluations", task.name(), strategy().name());
+}
+
+#[test]
+#[ignore = "dozens of runs: cargo test --release -p ne-fixed --test strategies poles -- --include-ignored"]
+fn two_poles_without_velocities_by_the_best_of_a_generation() {
+    let (shape, task) = (fully_recurrent(4, 2, false), two_poles(DoublePoleSettings::without_velocities()));
+    check_by_generations(|| cma_es(shape.clone()), &task, 1_900);
+    check_by_generations(|| cosyne(shape.clone()), &task, 5_000);
 }

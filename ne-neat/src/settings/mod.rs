@@ -40,6 +40,10 @@ pub struct NeatSettings {
     pub crossover: Crossover,
     /// How a child's genes change.
     pub mutation: MutationSettings,
+    /// Generations without a better best fitness after which the search begins anew, at least 1; none for never, as in the
+    /// paper, and in a file that does not state it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub restart: Option<u64>,
 }
 
 impl NeatSettings {
@@ -67,7 +71,11 @@ impl NeatSettings {
         self.speciation.validate(self.population).map_err(|error| error.within("speciation"))?;
         self.reproduction.validate().map_err(|error| error.within("reproduction"))?;
         self.crossover.validate().map_err(|error| error.within("crossover"))?;
-        self.mutation.validate().map_err(|error| error.within("mutation"))
+        self.mutation.validate().map_err(|error| error.within("mutation"))?;
+        if self.restart == Some(0) {
+            return Err(SettingError::new("restart", 0, "at least 1"));
+        }
+        Ok(())
     }
 
     /// What the genomes of a run with these settings have in common; checks the settings too.
@@ -113,7 +121,7 @@ mod tests {
     fn errors_name_the_field() {
         type Change = fn(&mut NeatSettings);
         let target = |species, step| Some(TargetSpecies { species, step });
-        let changes: [(Change, &str); 18] = [
+        let changes: [(Change, &str); 19] = [
             (|s| s.population = 1, "population = 1: must be from 2 to 1000000"),
             (|s| s.hidden_activations.clear(), "hidden_activations = none: must be at least one"),
             (
@@ -159,6 +167,7 @@ mod tests {
             (|s| s.reproduction.interspecies = -0.1, "reproduction.interspecies = -0.1: must be from 0 to 1"),
             (|s| s.crossover.averaging = 1.1, "crossover.averaging = 1.1: must be from 0 to 1"),
             (|s| s.mutation.enable = 1.1, "mutation.enable = 1.1: must be from 0 to 1"),
+            (|s| s.restart = Some(0), "restart = 0: must be at least 1"),
         ];
         let check = |settings: &NeatSettings, message: &str| {
             assert_eq!(settings.validate().expect_err("out of range").to_string(), message);

@@ -1,8 +1,9 @@
 //! Poles on a cart. The figures to beat are those of NEAT in Gomez, Schmidhuber & Miikkulainen, *Accelerated Neural
 //! Evolution through Cooperatively Coevolved Synapses*, JMLR 9, 2008, and without velocities in the paper of NEAT.
 
-use crate::runs::{mean, solve};
+use crate::runs::{mean, solve, solve_by_generations};
 use ne_neat::NeatSettings;
+use ne_net::GraphNet;
 use tasks::{Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings};
 
 /// The mean number of evaluations to a solution; every seed must find one.
@@ -35,4 +36,20 @@ fn runs_are_no_longer_than_published() {
         let found = evaluations(task, settings, seeds);
         assert!(found <= published, "{}, population {}: {found}", task.name(), settings.population);
     }
+}
+
+/// With the best of each generation alone tested, on seeds that no setting was chosen on.
+#[test]
+#[ignore = "dozens of runs: cargo test --release -p ne-neat --test classic -- --ignored"]
+fn poles_without_velocities_are_balanced_by_the_best_of_a_generation() {
+    let blind = DoublePole::new(DoublePoleSettings::without_velocities()).expect("valid");
+    let solve = |is_general: bool, seed| {
+        let is_enough =
+            |net: &mut GraphNet| !is_general || blind.generalization(net).is_ok_and(|starts| starts.is_general());
+        solve_by_generations(&blind, is_enough, &NeatSettings::pole_balancing(), seed, 200_000).expect("solved")
+    };
+    let found = mean((1001..=1050).map(|seed| solve(false, seed)));
+    assert!(found <= 8_000.0, "{found}");
+    let found = mean((1001..=1020).map(|seed| solve(true, seed)));
+    assert!(found <= 20_000.0, "general solutions: {found}");
 }

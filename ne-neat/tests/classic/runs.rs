@@ -1,7 +1,8 @@
 //! Runs that end with the first solver.
 
-use ne_core::{Genome, Seed, Strategy};
+use ne_core::{Evaluation, Genome, Seed, Strategy};
 use ne_neat::{Neat, NeatGenome, NeatSettings};
+use ne_net::GraphNet;
 use tasks::Benchmark;
 
 /// What the first solver of a run was.
@@ -29,6 +30,38 @@ pub(crate) fn solve(task: &dyn Benchmark, settings: &NeatSettings, seed: u64, li
                 return None;
             }
             evaluations.push(evaluation);
+        }
+        neat.tell(&evaluations, place);
+    }
+    None
+}
+
+/// As [`solve`], but of each generation only the best is tested, as papers have it, and it has to be enough of a solution;
+/// the evaluations are those up to the end of its generation.
+pub(crate) fn solve_by_generations(
+    task: &dyn Benchmark,
+    is_enough: impl Fn(&mut GraphNet) -> bool,
+    settings: &NeatSettings,
+    seed: u64,
+    limit: usize,
+) -> Option<usize> {
+    let mut neat = Neat::new(settings.clone(), task.inputs(), task.outputs()).expect("valid settings");
+    let mut evaluated = 0;
+    for generation in 1.. {
+        let place = Seed::of_run(seed).generation(generation);
+        let genomes = neat.ask(place);
+        let evaluations: Vec<Evaluation> =
+            genomes.iter().map(|genome| task.evaluate(&mut genome.express(), place)).collect();
+        evaluated += evaluations.len();
+        // Reversed, since of equals `max_by_key` takes the last.
+        let best = genomes.iter().zip(&evaluations).rev().max_by_key(|(_, evaluation)| evaluation.fitness());
+        let (genome, evaluation) = best.expect("there are individuals");
+        let mut net = genome.express();
+        if task.is_candidate(evaluation) && task.is_solved(&mut net, evaluation) && is_enough(&mut net) {
+            return Some(evaluated);
+        }
+        if evaluated >= limit {
+            return None;
         }
         neat.tell(&evaluations, place);
     }

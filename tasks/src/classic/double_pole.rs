@@ -62,7 +62,8 @@ impl DoublePoleSettings {
     /// The start angle of Gomez, Schmidhuber & Miikkulainen (2008), degrees; that of the presets.
     pub const START_ANGLE_2008: f64 = 4.0;
 
-    /// The start angle of Stanley & Miikkulainen (2002), degrees. From 1° the task is another than from 4°.
+    /// The start angle of Stanley & Miikkulainen (2002), degrees, as the paper has it; the program published with it starts at
+    /// 0.07 rad, 4°. From 1° the task is another than from 4°.
     pub const START_ANGLE_2002: f64 = 1.0;
 
     /// The controller sees velocities: fitness survival, start angle 4°, no bias input, outputs from 0 to 1.
