@@ -10,15 +10,16 @@ use crate::{
     judge::USABLE,
     request::Request,
     robust::robustness,
+    texts::csv_cell,
     training::{TrainOptions, train},
 };
 use clap::Args;
 use creatures::Blueprint;
-use ne_core::StopConditions;
+use ne_core::{StopConditions, archive};
 use ne_statistics::quantile;
 use serde::Serialize;
 use serde_json::json;
-use std::{error::Error, process::ExitCode, time::Instant};
+use std::{error::Error, path::PathBuf, process::ExitCode, time::Instant};
 use tasks::gait::Goal;
 
 #[derive(Args)]
@@ -77,10 +78,21 @@ pub(super) struct Gaits {
     #[arg(long, default_value_t = 0, hide_default_value = true)]
     #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
     threads: usize,
+    /// Write the table as CSV as well, a row for each scenario or variant
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    csv: Option<PathBuf>,
+    /// Overwrite the file of --csv
+    #[arg(long, requires = "csv")]
+    force: bool,
     /// Print every run as a line of JSON
     #[arg(long)]
     json: bool,
 }
+
+/// What the columns of the table are called: of scenarios, and of an ablation.
+const SCENARIOS: [&str; 8] =
+    ["creature", "movement", "usable", "median to it", "slowest", "median", "robust", "least robust"];
+const ABLATION: [&str; 5] = ["variant", "usable", "median to it", "quality", "robust"];
 
 /// What came of one run.
 #[derive(Clone, Serialize)]
@@ -108,6 +120,9 @@ struct Run {
 
 impl Gaits {
     pub(super) fn run(self, registry: &Registry) -> Outcome {
+        if let Some(path) = &self.csv {
+            super::check_output(path, self.force)?;
+        }
         let known = || registry.creatures.names().into_iter().map(str::to_owned).collect();
         let creatures = if self.creatures.is_empty() { known() } else { self.creatures.clone() };
         if let Some(text) = &self.ablate {
@@ -120,17 +135,9 @@ impl Gaits {
                 None => format!("{} s", self.seconds),
             };
             say!("{budget} a run{until}, {} seeds\n", self.seeds)?;
-            say!(
-                "{:<18} {:<9} {:>8} {:>12} {:>10} {:>12} {:>9}",
-                "",
-                "",
-                "usable",
-                "median to it",
-                "slowest",
-                "median",
-                "robust"
-            )?;
+            say!("{}", line(&SCENARIOS.map(String::from)))?;
         }
+        let mut table = Vec::new();
         for creature in &creatures {
             for movement in &self.movements {
                 let mut runs = Vec::new();
@@ -141,12 +148,32 @@ impl Gaits {
                     }
                     runs.push(run);
                 }
+                let row = row(&runs, registry);
                 if !self.json {
-                    say!("{}", row(&runs, registry))?;
+                    say!("{}", line(&row))?;
+                    for run in runs.iter().filter(|run| !run.usable) {
+                        say!("    seed {}: {}", run.seed, run.reasons.join("; "))?;
+                    }
                 }
+                table.push(row);
             }
         }
+        self.write_csv(&SCENARIOS, &table)?;
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Writes the table where it is asked for.
+    fn write_csv<const COLUMNS: usize>(
+        &self,
+        columns: &[&str; COLUMNS],
+        rows: &[[String; COLUMNS]],
+    ) -> Result<(), Box<dyn Error>> {
+        let Some(path) = &self.csv else { return Ok(()) };
+        let row = |cells: Vec<String>| cells.join(",") + "\n";
+        let mut text = row(columns.iter().map(|cell| csv_cell(cell)).collect());
+        text.extend(rows.iter().map(|cells| row(cells.iter().map(|cell| csv_cell(cell)).collect())));
+        Ok(archive::write_whole(path, text.as_bytes())
+            .map_err(|error| format!("cannot write {}: {error}", path.display()))?)
     }
 
     /// Every variant whose name contains the text, and the preset itself, on every scenario.
@@ -156,8 +183,9 @@ impl Gaits {
         if let [_] = variants[..] {
             return Err(format!("no variant has \"{text}\" in its name").into());
         }
-        say!("{:<34} {:>8} {:>12} {:>9} {:>7}", "", "usable", "median to it", "quality", "robust")?;
+        say!("{}", ablation_line(&ABLATION.map(String::from)))?;
         let mut usual: Vec<(RunConfig, Run)> = Vec::new();
+        let mut table = Vec::new();
         for variant in variants {
             let mut runs = Vec::new();
             for creature in creatures {
@@ -180,12 +208,15 @@ impl Gaits {
             if usual.is_empty() {
                 usual.clone_from(&runs);
             }
+            let pairs: Vec<(&Run, &Run)> =
+                runs.iter().zip(&usual).map(|((_, mine), (_, usual))| (mine, usual)).collect();
+            let row = summary(variant, &pairs);
             if !self.json {
-                let pairs: Vec<(&Run, &Run)> =
-                    runs.iter().zip(&usual).map(|((_, mine), (_, usual))| (mine, usual)).collect();
-                say!("{}", summary(variant, &pairs))?;
+                say!("{}", ablation_line(&row))?;
             }
+            table.push(row);
         }
+        self.write_csv(&ABLATION, &table)?;
         Ok(ExitCode::SUCCESS)
     }
 
@@ -272,9 +303,21 @@ impl Gaits {
     }
 }
 
-/// The runs of a scenario as a line of the table.
-fn row(runs: &[Run], registry: &Registry) -> String {
-    let Some(Run { creature, movement, .. }) = runs.first() else { return String::new() };
+/// A row of the table of scenarios as a line for people.
+fn line([creature, movement, usable, to_usable, slowest, quality, robust, least]: &[String; 8]) -> String {
+    format!(
+        "{creature:<18} {movement:<9} {usable:>8} {to_usable:>12} {slowest:>10} {quality:>12} {robust:>9} {least:>12}"
+    )
+}
+
+/// A row of the table of variants as a line for people.
+fn ablation_line([variant, usable, to_usable, quality, robust]: &[String; 5]) -> String {
+    format!("{variant:<34} {usable:>8} {to_usable:>12} {quality:>9} {robust:>7}")
+}
+
+/// The runs of a scenario as a row of the table.
+fn row(runs: &[Run], registry: &Registry) -> [String; 8] {
+    let Some(Run { creature, movement, .. }) = runs.first() else { return Default::default() };
     let usable = runs.iter().filter(|run| run.usable).count();
     let middle = |numbers: Vec<f64>| quantile(&numbers, 0.5);
     let seconds: Vec<f64> = runs.iter().filter_map(|run| run.seconds_to_usable).collect();
@@ -283,24 +326,24 @@ fn row(runs: &[Run], registry: &Registry) -> String {
     let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
     let goal = registry.movements.rules(movement).map(|rules| rules.view().goal);
     let unit = if goal == Some(Goal::Height) { " sh" } else { " bl/s" };
-    let robust = middle(runs.iter().filter_map(|run| run.robust).collect());
-    let robust = robust.map_or_else(|| "–".into(), |share| format!("{:.0} %", 100.0 * share));
-    let mut row = format!(
-        "{creature:<18} {movement:<9} {:>8} {:>12} {:>10} {:>12} {robust:>9}",
+    let shares: Vec<f64> = runs.iter().filter_map(|run| run.robust).collect();
+    let least = shares.iter().copied().reduce(f64::min);
+    let percent = |share: Option<f64>| share.map_or_else(|| "–".into(), |share| format!("{:.0} %", 100.0 * share));
+    [
+        creature.clone(),
+        movement.clone(),
         format!("{usable}/{}", runs.len()),
         shown(middle(seconds), " s"),
         shown(slowest, " s"),
         shown(quality, unit),
-    );
-    for run in runs.iter().filter(|run| !run.usable) {
-        row.push_str(&format!("\n    seed {}: {}", run.seed, run.reasons.join("; ")));
-    }
-    row
+        percent(middle(shares)),
+        percent(least),
+    ]
 }
 
-/// A variant as a line of the table: how many runs are usable, the time to it, the median of the quality over that of the
+/// A variant as a row of the table: how many runs are usable, the time to it, the median of the quality over that of the
 /// same run of the first variant, and the mean share of perturbed worlds. `runs`: each with that of the first variant.
-fn summary(variant: &Variant, runs: &[(&Run, &Run)]) -> String {
+fn summary(variant: &Variant, runs: &[(&Run, &Run)]) -> [String; 5] {
     let usable = runs.iter().filter(|(run, _)| run.usable).count();
     let steps_of = |run: &Run| run.steps_to_usable.filter(|_| run.usable).map_or(f64::INFINITY, |steps| steps as f64);
     let steps = match quantile(&runs.iter().map(|(run, _)| steps_of(run)).collect::<Vec<_>>(), 0.5) {
@@ -316,7 +359,7 @@ fn summary(variant: &Variant, runs: &[(&Run, &Run)]) -> String {
         0 => "–".into(),
         count => format!("{:.0} %", 100.0 * shares.iter().sum::<f64>() / count as f64),
     };
-    format!("{:<34} {:>8} {steps:>12} {ratio:>9} {robust:>7}", variant.name, format!("{usable}/{}", runs.len()))
+    [variant.name.into(), format!("{usable}/{}", runs.len()), steps, ratio, robust]
 }
 
 fn above_zero(text: &str) -> Result<f64, String> {

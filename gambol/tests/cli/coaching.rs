@@ -173,6 +173,19 @@ fn bench_gaits_tells_every_run() -> Outcome {
         assert_eq!(run["usable"] == true, run["reasons"].as_array().is_some_and(Vec::is_empty), "{run}");
     }
     assert_says(&bench(&[]), &["20000 physics steps a run, or until usable, 2 seeds", "tetrapod-1", "jumping", "/2"]);
+    // The same table as a file, once.
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("table.csv");
+    let flags = ["--csv", file.to_str().expect("UTF-8")];
+    bench(&flags);
+    let table = std::fs::read_to_string(&file)?;
+    let rows: Vec<Vec<&str>> = table.lines().map(|row| row.split(',').collect()).collect();
+    assert_eq!(rows[0][..4], ["creature", "movement", "usable", "median to it"]);
+    assert_eq!((rows.len(), rows[1].len(), &rows[1][..2]), (2, 8, &["tetrapod-1", "jumping"][..]));
+    let mut again = gambol("bench");
+    again.arg("gaits").args(arguments).args(flags);
+    assert_says(&fail(&mut again), &["table.csv exists; say --force to overwrite it"]);
+    assert_eq!(std::fs::read_to_string(&file)?, table);
     Ok(())
 }
 
