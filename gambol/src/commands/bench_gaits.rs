@@ -91,8 +91,11 @@ pub(super) struct Gaits {
 
 /// What the columns of the table are called: of scenarios, and of an ablation.
 const SCENARIOS: [&str; 8] =
-    ["creature", "movement", "usable", "median to it", "slowest", "median", "robust", "least robust"];
+    ["creature", "movement", "usable", "after (median)", "slowest", "speed or rise", "robust", "least robust"];
 const ABLATION: [&str; 5] = ["variant", "usable", "median to it", "quality", "robust"];
+
+/// What stands in the table for what was not measured, or never happened.
+const UNKNOWN: &str = "–";
 
 /// What came of one run.
 #[derive(Clone, Serialize)]
@@ -162,16 +165,19 @@ impl Gaits {
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Writes the table where it is asked for.
+    /// Writes the table where it is asked for, without columns of which nothing is known.
     fn write_csv<const COLUMNS: usize>(
         &self,
         columns: &[&str; COLUMNS],
         rows: &[[String; COLUMNS]],
     ) -> Result<(), Box<dyn Error>> {
         let Some(path) = &self.csv else { return Ok(()) };
-        let row = |cells: Vec<String>| cells.join(",") + "\n";
-        let mut text = row(columns.iter().map(|cell| csv_cell(cell)).collect());
-        text.extend(rows.iter().map(|cells| row(cells.iter().map(|cell| csv_cell(cell)).collect())));
+        let known: Vec<usize> = (0..COLUMNS).filter(|&column| rows.iter().any(|row| row[column] != UNKNOWN)).collect();
+        let line =
+            |cell: &dyn Fn(usize) -> String| known.iter().map(|&column| cell(column)).collect::<Vec<_>>().join(",");
+        let mut lines = vec![line(&|column| csv_cell(columns[column]))];
+        lines.extend(rows.iter().map(|row| line(&|column| csv_cell(&row[column]))));
+        let text = lines.join("\n") + "\n";
         Ok(archive::write_whole(path, text.as_bytes())
             .map_err(|error| format!("cannot write {}: {error}", path.display()))?)
     }
@@ -306,7 +312,7 @@ impl Gaits {
 /// A row of the table of scenarios as a line for people.
 fn line([creature, movement, usable, to_usable, slowest, quality, robust, least]: &[String; 8]) -> String {
     format!(
-        "{creature:<18} {movement:<9} {usable:>8} {to_usable:>12} {slowest:>10} {quality:>12} {robust:>9} {least:>12}"
+        "{creature:<18} {movement:<9} {usable:>8} {to_usable:>14} {slowest:>10} {quality:>13} {robust:>9} {least:>12}"
     )
 }
 
@@ -322,13 +328,13 @@ fn row(runs: &[Run], registry: &Registry) -> [String; 8] {
     let middle = |numbers: Vec<f64>| quantile(&numbers, 0.5);
     let seconds: Vec<f64> = runs.iter().filter_map(|run| run.seconds_to_usable).collect();
     let slowest = seconds.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
-    let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| "–".into(), |n| format!("{n:.2}{unit}"));
+    let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| UNKNOWN.into(), |n| format!("{n:.2}{unit}"));
     let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
     let goal = registry.movements.rules(movement).map(|rules| rules.view().goal);
     let unit = if goal == Some(Goal::Height) { " sh" } else { " bl/s" };
     let shares: Vec<f64> = runs.iter().filter_map(|run| run.robust).collect();
     let least = shares.iter().copied().reduce(f64::min);
-    let percent = |share: Option<f64>| share.map_or_else(|| "–".into(), |share| format!("{:.0} %", 100.0 * share));
+    let percent = |share: Option<f64>| share.map_or_else(|| UNKNOWN.into(), |share| format!("{:.0} %", 100.0 * share));
     [
         creature.clone(),
         movement.clone(),
@@ -348,15 +354,16 @@ fn summary(variant: &Variant, runs: &[(&Run, &Run)]) -> [String; 5] {
     let steps_of = |run: &Run| run.steps_to_usable.filter(|_| run.usable).map_or(f64::INFINITY, |steps| steps as f64);
     let steps = match quantile(&runs.iter().map(|(run, _)| steps_of(run)).collect::<Vec<_>>(), 0.5) {
         Some(steps) if steps.is_finite() => format!("{:.2} M", steps / 1e6),
-        _ => "–".into(),
+        _ => UNKNOWN.into(),
     };
     let quality = |run: &Run| run.quality.unwrap_or(0.0).max(0.0);
     let ratios =
         runs.iter().filter(|(_, usual)| quality(usual) > 0.0).map(|(run, usual)| quality(run) / quality(usual));
-    let ratio = quantile(&ratios.collect::<Vec<_>>(), 0.5).map_or_else(|| "–".into(), |ratio| format!("× {ratio:.2}"));
+    let ratio =
+        quantile(&ratios.collect::<Vec<_>>(), 0.5).map_or_else(|| UNKNOWN.into(), |ratio| format!("× {ratio:.2}"));
     let shares: Vec<f64> = runs.iter().filter_map(|(run, _)| run.robust).collect();
     let robust = match shares.len() {
-        0 => "–".into(),
+        0 => UNKNOWN.into(),
         count => format!("{:.0} %", 100.0 * shares.iter().sum::<f64>() / count as f64),
     };
     [variant.name.into(), format!("{usable}/{}", runs.len()), steps, ratio, robust]
