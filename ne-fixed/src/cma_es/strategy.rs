@@ -312,7 +312,7 @@ impl Strategy for CmaEs {
             let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
             self.history.push(&ranked, n, distribution.updates);
             if self.settings.restart == Restart::None {
-                // Nobody asks whether it stagnates.
+                // It is never asked whether this search stagnates.
                 self.history.shorten();
             }
         }
