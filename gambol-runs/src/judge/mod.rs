@@ -145,8 +145,12 @@ impl Judge {
         };
         let verdicts = reference.verdicts(networks).into_iter().map(|verdicts| verdicts.into_iter().next()?);
         networks.iter().zip(verdicts).position(|(network, verdict)| {
-            let required = NearWorlds::required(self.near().len());
-            verdict.is_some_and(|verdict| verdict.usable) && self.near().usable(network, required) >= required
+            if verdict.is_none_or(|verdict| !verdict.usable) {
+                return false;
+            }
+            let near = self.near();
+            let required = NearWorlds::required(near.len());
+            near.usable(network, required) >= required
         })
     }
 

@@ -36,7 +36,7 @@ pub(crate) fn solve(task: &dyn Benchmark, settings: &NeatSettings, seed: u64, li
     None
 }
 
-/// As [`solve`], but of each generation only the best is tested, as papers have it, and it has to be enough of a solution;
+/// As [`solve`], but only the best of each generation is tested, as in papers, and it must be enough of a solution;
 /// the evaluations are those up to the end of its generation.
 pub(crate) fn solve_by_generations(
     task: &dyn Benchmark,
