@@ -65,18 +65,17 @@ const STANLEY_2002: Preset = Preset {
 const PLAIN: Preset = Preset {
     name: "plain",
     description: "for fair comparisons: a dense net of ten hidden neurons, the movement alone as fitness, nothing varies",
-    change: |_, _| {},
+    // Episodes as long as those that champions of the default preset are judged by, so that the scores of both compare.
+    change: |config, known| config.movement.steps = defaults::steps(config, known),
 };
 
-/// What cannot be given to every strategy is given to none: NEAT has no nets that limbs share.
+/// All that the default preset has, but for the settings of its strategy.
 const SHAPED: Preset = Preset {
     name: "shaped",
-    description: "for fair comparisons: terms, senses, target angles and variation of the default, one net for all limbs",
+    description: "for fair comparisons: all that the default preset has, but for the settings of its strategy",
     change: |config, known| {
         config.variation = Variation::light();
         defaults::apply(config, known);
-        config.controller.modular = None;
-        config.controller.hidden = vec![10];
         // Every strategy has its own defaults, the first mutation strength too.
         config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::default());
     },

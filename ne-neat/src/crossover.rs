@@ -206,7 +206,7 @@ mod tests {
     }
 
     fn child(crossover: Crossover, a: &NeatGenome, b: &NeatGenome, fitness: Ordering, seed: u64) -> NeatGenome {
-        let mut child = NeatGenome::blank(*a.layout());
+        let mut child = NeatGenome::blank(*a.layout(), None);
         crossover.cross(a, b, fitness, &mut child, &mut stream(seed));
         child
     }

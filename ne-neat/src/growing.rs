@@ -5,29 +5,46 @@ use crate::{
     innovation::direct_connection,
 };
 use ne_core::SettingError;
-use ne_net::TopologyMap;
-use std::cmp::Reverse;
+use ne_net::{Copies, TopologyMap};
+use std::{cmp::Reverse, sync::Arc};
 
 impl Neat {
     /// Goes on with other settings, on another task, or with other inputs and outputs: the population last told is the
     /// first generation, best first. It is divided into species anew.
     ///
-    /// `inputs` and `outputs` say for each new one which old one it is. A new input is connected with nothing; a new output
+    /// `copies`: those of which the small net is searched for from now on, if one is. `inputs` and `outputs` say for each new one
+    /// of the net that is searched for which old one it is. A new input is connected with nothing; a new output
     /// has no connection, and no bias. One that is lost takes its connections with it. All genomes are renumbered alike, so that genes that had the same number have the
     /// same number still, and whatever is invented from now on has a number that was never given.
     ///
     /// # Errors
-    /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, or `inputs` or
-    /// `outputs` are not of these nets.
+    /// If a setting is out of range, nets get their bias in another way or may no longer be recurrent, `inputs` or
+    /// `outputs` are not of these nets, or a small net is to become a whole one, or a whole one a small one.
     pub fn remapped(
         self,
         settings: NeatSettings,
+        copies: Option<Arc<Copies>>,
         inputs: &TopologyMap,
         outputs: &TopologyMap,
     ) -> Result<Self, SettingError> {
         check("inputs", inputs, self.layout.inputs)?;
         check("outputs", outputs, self.layout.outputs)?;
-        let mut next = Self::new(settings, inputs.weight_count(), outputs.weight_count())?;
+        if copies.is_some() != self.copies.is_some() {
+            let told =
+                |copies: &Option<Arc<Copies>>| if copies.is_some() { "copies of a small net" } else { "whole nets" };
+            return Err(SettingError::new("copies", told(&copies), format!("{}, as before", told(&self.copies))));
+        }
+        let mut next = match &copies {
+            Some(copies) => Self::of_copies(settings, Arc::clone(copies))?,
+            None => Self::new(settings, inputs.weight_count(), outputs.weight_count())?,
+        };
+        let found = [next.layout.inputs, next.layout.outputs];
+        for ((field, map), found) in [("inputs", inputs), ("outputs", outputs)].into_iter().zip(found) {
+            if map.weight_count() != found {
+                let found = format!("to {}", map.weight_count());
+                return Err(SettingError::new(field, found, "to as many as the copies have"));
+            }
+        }
         if next.layout.bias != self.layout.bias {
             let allowed = format!("{:?}, as the nets have it", self.layout.bias);
             return Err(SettingError::new("bias", format!("{:?}", next.layout.bias), allowed));
@@ -50,6 +67,9 @@ impl Neat {
         let activation = next.settings.output_activation;
         let grown = parents.into_iter().map(|parent| renumbering.genome(parent, activation));
         next.start = grown.collect::<Option<_>>().ok_or_else(too_many)?;
+        if let Some(copies) = &copies {
+            next.start.iter_mut().for_each(|genome| genome.set_copies(copies));
+        }
         next.next_species = self.next_species;
         Ok(next)
     }
@@ -128,7 +148,7 @@ impl Renumbering {
 
     /// The genome; `None` if numbers have run out.
     fn genome(&self, genome: &NeatGenome, activation: ne_net::Activation) -> Option<NeatGenome> {
-        let mut grown = NeatGenome::blank(self.new);
+        let mut grown = NeatGenome::blank(self.new, None);
         let (nodes, connections) = grown.genes_mut();
         for gene in genome.nodes() {
             if let Fate::Kept(id) = self.node(gene.id)? {

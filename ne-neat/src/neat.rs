@@ -5,6 +5,8 @@ use crate::{
     speciation::{Species, assign, breeders, offspring},
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, SpeciesReport, Statistic, Strategy};
+use ne_net::{Copies, GraphShape};
+use std::sync::Arc;
 
 const FIRST_GENERATION: Purpose = Purpose::new("neat first generation");
 const REPRODUCTION: Purpose = Purpose::new("neat reproduction");
@@ -21,7 +23,8 @@ const REPRESENTATIVES: Purpose = Purpose::new("neat representatives");
 ///
 /// Once evaluated, it is divided into species by the distance to random members of the generation before.
 ///
-/// Not in the paper: with [`restart`](NeatSettings::restart) the search begins anew, with nets drawn as at first, when the
+/// Not in the paper: with [copies](Self::of_copies) what evolves is a small net, of a limb, say, and each individual is a whole
+/// of copies of it; with [`restart`](NeatSettings::restart) the search begins anew, with nets drawn as at first, when the
 /// best fitness has not been beaten for so many generations (Fukunaga, *Restart Scheduling for Genetic Algorithms*, PPSN
 /// 1998). Species and innovations to come have numbers that were never given.
 ///
@@ -40,6 +43,8 @@ const REPRESENTATIVES: Purpose = Purpose::new("neat representatives");
 pub struct Neat {
     pub(crate) settings: NeatSettings,
     pub(crate) layout: Layout,
+    /// Of what net the whole ones are made; none if it is the whole.
+    pub(crate) copies: Option<Arc<Copies>>,
     pub(crate) innovations: Innovations,
     /// The first generation, best first, if it is not drawn; empty after it.
     pub(crate) start: Vec<NeatGenome>,
@@ -73,6 +78,7 @@ impl Neat {
             threshold: settings.speciation.threshold,
             settings,
             layout,
+            copies: None,
             start: Vec::new(),
             parents: Vec::new(),
             scores: Vec::new(),
@@ -83,6 +89,27 @@ impl Neat {
             best: None,
             stagnation: 0,
         })
+    }
+
+    /// A search for the small net that these are copies of.
+    ///
+    /// # Errors
+    /// If a setting or a number of the copies is out of range, or the first nets would have too many neurons.
+    pub fn of_copies(settings: NeatSettings, copies: Arc<Copies>) -> Result<Self, SettingError> {
+        copies.validate().map_err(|error| error.within("copies"))?;
+        let search = Self::new(settings, copies.small_inputs(), copies.small_outputs())?;
+        let most = GraphShape::MAX_NEURONS / copies.copies.len();
+        let neurons = search.settings.start.hidden() + search.layout.outputs;
+        if neurons > most {
+            let allowed = format!("at most {most} neurons with {} copies of the net", copies.copies.len());
+            return Err(SettingError::new("start", format!("{neurons} neurons"), allowed));
+        }
+        Ok(Self { copies: Some(copies), ..search })
+    }
+
+    /// The copies that make up whole nets; `None`: the nets are the whole.
+    pub fn copies(&self) -> Option<&Arc<Copies>> {
+        self.copies.as_ref()
     }
 
     /// The settings.
@@ -197,7 +224,7 @@ impl Strategy for Neat {
             self.begin_anew();
         }
         let mut population = std::mem::take(&mut self.population);
-        population.resize_with(self.settings.population, || NeatGenome::blank(self.layout));
+        population.resize_with(self.settings.population, || NeatGenome::blank(self.layout, self.copies.clone()));
         if self.parents.is_empty() && !self.start.is_empty() {
             let proposals = self.fill(&mut population, seed);
             self.number(&mut population, proposals);

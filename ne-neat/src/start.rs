@@ -62,7 +62,8 @@ impl StartTopology {
         layout.sources() * layout.outputs + (layout.sources() + layout.outputs) * self.hidden()
     }
 
-    fn hidden(&self) -> usize {
+    /// The hidden neurons that every net of the first generation has.
+    pub(crate) fn hidden(&self) -> usize {
         match *self {
             Self::HiddenLayer { neurons } => neurons,
             _ => 0,

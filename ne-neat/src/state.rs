@@ -2,8 +2,9 @@ use crate::{
     ConnectionGene, GenomeError, Neat, NeatGenome, NeatSettings, NodeGene, innovation::Innovations, speciation::Species,
 };
 use ne_core::{Fitness, SettingError};
+use ne_net::Copies;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error as _};
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Why a saved [`Neat`] cannot go on.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -97,6 +98,8 @@ pub(crate) struct State {
     settings: NeatSettings,
     inputs: usize,
     outputs: usize,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    copies: Option<Arc<Copies>>,
     innovations: Innovations,
     threshold: f64,
     next_species: u64,
@@ -170,6 +173,7 @@ impl From<Neat> for State {
         Self {
             inputs: neat.layout.inputs,
             outputs: neat.layout.outputs,
+            copies: neat.copies,
             threshold: neat.threshold,
             next_species: neat.next_species,
             best: neat.best,
@@ -188,7 +192,17 @@ impl TryFrom<State> for Neat {
     type Error = StateError;
 
     fn try_from(state: State) -> Result<Self, StateError> {
-        let mut neat = Self::new(state.settings, state.inputs, state.outputs)?;
+        let mut neat = match state.copies {
+            Some(copies) => Self::of_copies(state.settings, copies)?,
+            None => Self::new(state.settings, state.inputs, state.outputs)?,
+        };
+        for (field, found, expected) in
+            [("inputs", state.inputs, neat.layout.inputs), ("outputs", state.outputs, neat.layout.outputs)]
+        {
+            if found != expected {
+                return Err(SettingError::new(field, found, format!("{expected}, as the copies have it")).into());
+            }
+        }
         if !(state.threshold > 0.0 && state.threshold.is_finite()) {
             return Err(StateError::Threshold { found: state.threshold });
         }
@@ -248,6 +262,10 @@ fn generation(field: &str, genes: Vec<Genes>, expected: usize, neat: &Neat) -> R
     }
     let genome = |(index, genes): (usize, Genes)| {
         let genome = NeatGenome::new(neat.layout, genes.nodes, genes.connections)
+            .and_then(|genome| match &neat.copies {
+                Some(copies) => genome.with_copies(Arc::clone(copies)),
+                None => Ok(genome),
+            })
             .map_err(|source| StateError::Individual { field: field.into(), index, source })?;
         let Innovations { next_node, next_innovation, .. } = neat.innovations;
         let node = genome.nodes().last().map(|gene| gene.id);

@@ -83,7 +83,7 @@ fn genomes_do_the_same_and_stay_related() {
         let old: Vec<&NeatGenome> = order.iter().map(|&index| &old[index]).collect();
         assert!(old.iter().any(|genome| genome.hidden_count() > 3));
 
-        let mut grown = neat.remapped(settings.clone(), &inputs, &outputs).expect("grows");
+        let mut grown = neat.remapped(settings.clone(), None, &inputs, &outputs).expect("grows");
         let text = serde_json::to_string(&grown).expect("serialises");
         let mut read: Neat = serde_json::from_str(&text).expect("deserialises");
         let new = grown.ask(Seed::of_run(2).generation(1)).to_vec();
@@ -135,7 +135,7 @@ fn a_lost_input_is_as_one_that_is_silent() {
             let (old, evaluations) = generation(&mut neat, 15);
             let mut order: Vec<usize> = (0..old.len()).collect();
             order.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-            let mut next = neat.remapped(settings.clone(), &turned, &outputs).expect("goes on");
+            let mut next = neat.remapped(settings.clone(), None, &turned, &outputs).expect("goes on");
             let new = next.ask(Seed::of_run(2).generation(1)).to_vec();
             for (old, new) in order.iter().map(|&index| &old[index]).zip(&new) {
                 let text = serde_json::to_string(new).expect("serialises");
@@ -166,7 +166,7 @@ fn populations_may_change_their_size() {
         let mut neat = Neat::new(NeatSettings { population: 40, ..NeatSettings::default() }, 3, 2).expect("valid");
         (1..=5).for_each(|number| drop(generation(&mut neat, number)));
         let settings = NeatSettings { population: size, ..NeatSettings::default() };
-        let mut grown = neat.remapped(settings, &same.0, &same.1).expect("goes on");
+        let mut grown = neat.remapped(settings, None, &same.0, &same.1).expect("goes on");
         assert_eq!(grown.ask(Seed::of_run(2).generation(1)).len(), size);
     }
 }
@@ -176,7 +176,7 @@ fn errors_name_what_does_not_fit() {
     let neat = || Neat::new(NeatSettings { recurrent: true, ..NeatSettings::default() }, 3, 2).expect("valid");
     let (inputs, outputs) = growths();
     let error = |settings: NeatSettings, inputs: &TopologyMap, outputs: &TopologyMap| {
-        neat().remapped(settings, inputs, outputs).expect_err("does not fit").to_string()
+        neat().remapped(settings, None, inputs, outputs).expect_err("does not fit").to_string()
     };
     let recurrent = || NeatSettings { recurrent: true, ..NeatSettings::default() };
     let others = TopologyMap::none(4);

@@ -48,6 +48,7 @@
 //! ```
 
 mod activation;
+mod copies;
 mod dense;
 mod error;
 mod graph;
@@ -59,6 +60,7 @@ mod topology_map;
 mod view;
 
 pub use activation::Activation;
+pub use copies::{CopiedShape, Copies, CopySense, NetCopy};
 pub use dense::{DenseNet, DenseShape};
 pub use error::NetworkError;
 pub use graph::{GraphNet, GraphNeuron, GraphShape};

@@ -1,5 +1,6 @@
 use crate::{
-    DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network, NetworkError, SharedShape, error::check_weights,
+    CopiedShape, DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network, NetworkError, SharedShape,
+    error::check_weights,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
@@ -9,7 +10,7 @@ use std::{fmt, sync::Arc};
 ///
 /// The shapes are shared, so that a clone is cheap.
 ///
-/// In JSON: `{"dense": {…}}`, `{"graph": {…}}` or `{"shared": {…}}`.
+/// In JSON: `{"dense": {…}}`, `{"graph": {…}}`, `{"shared": {…}}` or `{"copied": {…}}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
@@ -20,6 +21,8 @@ pub enum Topology {
     Graph(Arc<GraphShape>),
     /// A graph whose weights are computed from fewer genes; its nets are graph nets.
     Shared(Arc<SharedShape>),
+    /// Copies of one small net, whose weights they all have; its nets are graph nets.
+    Copied(Arc<CopiedShape>),
 }
 
 impl Topology {
@@ -29,6 +32,7 @@ impl Topology {
             Self::Dense(shape) => shape.inputs,
             Self::Graph(shape) => shape.inputs,
             Self::Shared(shape) => shape.net.inputs,
+            Self::Copied(shape) => shape.copies.inputs,
         }
     }
 
@@ -38,15 +42,18 @@ impl Topology {
             Self::Dense(shape) => shape.outputs,
             Self::Graph(shape) => shape.outputs.len(),
             Self::Shared(shape) => shape.net.outputs.len(),
+            Self::Copied(shape) => shape.copies.outputs.len(),
         }
     }
 
-    /// The number of weights, biases included; of a topology with shared weights the number of its genes.
+    /// The number of weights, biases included; of a topology with shared weights the number of its genes,
+    /// and of copies that of the small net.
     pub fn weight_count(&self) -> usize {
         match self {
             Self::Dense(shape) => shape.weight_count(),
             Self::Graph(shape) => shape.weight_count(),
             Self::Shared(shape) => shape.gene_count(),
+            Self::Copied(shape) => shape.small.weight_count(),
         }
     }
 
@@ -56,6 +63,7 @@ impl Topology {
         let (dense, graph, shared) = match self {
             Self::Dense(shape) => (Some(shape), None, None),
             Self::Graph(shape) => (None, Some(shape), None),
+            Self::Copied(shape) => (None, Some(&shape.small), None),
             Self::Shared(shape) => (None, None, Some(shape)),
         };
         let dense = dense.into_iter().flat_map(|shape| shape.connections());
@@ -73,6 +81,7 @@ impl Topology {
             Self::Dense(shape) => shape.validate(),
             Self::Graph(shape) => shape.validate(),
             Self::Shared(shape) => shape.validate(),
+            Self::Copied(shape) => shape.validate(),
         }
     }
 
@@ -97,6 +106,9 @@ impl Topology {
             Self::Dense(shape) => DenseNet::from_checked(Arc::clone(shape), weights).into(),
             Self::Graph(shape) => GraphNet::from_checked(Arc::clone(shape), weights).into(),
             Self::Shared(shape) => GraphNet::from_checked(Arc::clone(&shape.net), &shape.weights(weights)).into(),
+            Self::Copied(shape) => {
+                shape.copies.whole(&GraphNet::from_checked(Arc::clone(&shape.small), weights)).into()
+            }
         }
     }
 }
@@ -123,6 +135,12 @@ impl From<SharedShape> for Topology {
     }
 }
 
+impl From<CopiedShape> for Topology {
+    fn from(shape: CopiedShape) -> Self {
+        Self::Copied(shape.into())
+    }
+}
+
 impl From<GraphShape> for Topology {
     fn from(shape: GraphShape) -> Self {
         Self::Graph(shape.into())
@@ -135,6 +153,7 @@ impl fmt::Display for Topology {
             Self::Dense(shape) => shape.fmt(f),
             Self::Graph(shape) => shape.fmt(f),
             Self::Shared(shape) => shape.fmt(f),
+            Self::Copied(shape) => shape.fmt(f),
         }
     }
 }

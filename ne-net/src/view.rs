@@ -35,12 +35,13 @@ impl NetView {
 }
 
 impl Topology {
-    /// Its nets as neurons and connections. With shared weights too the weights are those of the net, not its genes.
+    /// Its nets as neurons and connections. With shared weights and in copies too the weights are those of the net.
     pub fn view(&self) -> NetView {
         match self {
             Self::Dense(shape) => dense(shape),
             Self::Graph(shape) => graph(shape),
             Self::Shared(shape) => graph(&shape.net),
+            Self::Copied(_) => self.network(&vec![0.0; self.weight_count()]).view(),
         }
     }
 }

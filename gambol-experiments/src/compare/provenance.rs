@@ -23,7 +23,7 @@ const OTHERS: [&str; 7] = ["creature", "further_bodies", "origin", "preset", "re
 const OPENED: [&str; 3] = ["controller", "movement", "stop"];
 
 /// What a strategy that finds its nets itself does not use.
-const OF_GIVEN_NETS: [&str; 5] = ["hidden", "hidden_activation", "hidden_scale", "modular", "output_activation"];
+const OF_GIVEN_NETS: [&str; 4] = ["hidden", "hidden_activation", "hidden_scale", "output_activation"];
 
 /// Where every field of a method's configuration is from. `request` is what it was made of.
 ///
@@ -182,7 +182,7 @@ mod tests {
             for cell in &plan.cells {
                 assert_eq!(cell.is_shaped(), preset == "shaped");
                 assert_eq!(cell.shares_worlds(), preset == "shaped");
-                assert!(cell.config.controller.modular.is_none(), "NEAT could not have it");
+                assert_eq!(cell.config.controller.modular, first.config.controller.modular, "NEAT too");
                 let entry = Registry::default().strategies.of(&cell.config.strategy).expect("known").settings();
                 assert_eq!(cell.config.strategy, entry, "its own defaults");
             }

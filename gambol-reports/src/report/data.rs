@@ -229,11 +229,15 @@ pub(super) fn terrain(terrain: &Terrain, physics: &PhysicsSettings) -> String {
 fn topology(config: &RunConfig, registry: &Registry) -> Fact {
     let finds_topology = registry.strategies.of(&config.strategy).is_ok_and(StrategyEntry::finds_topology);
     match &config.topology {
-        _ if finds_topology => match config.strategy.settings().get("recurrent").and_then(Value::as_bool) {
-            Some(true) => Fact::new("Topology", "evolves, recurrent"),
-            Some(false) => Fact::new("Topology", "evolves, feed-forward"),
-            None => Fact::new("Topology", "evolves"),
-        },
+        _ if finds_topology => {
+            let kind = match config.strategy.settings().get("recurrent").and_then(Value::as_bool) {
+                Some(true) => ", recurrent",
+                Some(false) => ", feed-forward",
+                None => "",
+            };
+            let copied = if config.controller.modular.is_some() { ", copied for each limb" } else { "" };
+            Fact::new("Topology", format!("evolves{kind}{copied}"))
+        }
         Some(frozen) => Fact::new("Topology", format!("frozen: {}", frozen.net)),
         None => {
             let hidden: Vec<String> = config.controller.hidden.iter().map(ToString::to_string).collect();

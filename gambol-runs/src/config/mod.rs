@@ -114,7 +114,7 @@ pub struct ControllerSettings {
     #[serde(default)]
     pub actuation: Actuation,
     /// A modular controller: a copy of one small net for each limb, with shared weights, and with the clocks of the limbs like this; `null`: one net for the whole body,
-    /// which sees every sensor. Joints hear hidden neurons alone, or the sensors if there are none.
+    /// which sees every sensor. Joints hear hidden neurons alone, or the sensors if there are none. NEAT finds the small net.
     #[serde(default)]
     pub modular: Option<LimbPhases>,
 }

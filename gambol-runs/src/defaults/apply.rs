@@ -41,6 +41,11 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     }
 }
 
+/// How long the defaults have an episode of a configuration's movement; `None`: as long as the movement by itself.
+pub fn steps(config: &RunConfig, catalogue: &DefaultsCatalogue) -> Option<u32> {
+    catalogue.of(&config.movement.name, &BodyFacts::of(config)).steps
+}
+
 impl BodyFacts {
     /// The body of a configuration; one that is not valid is told apart later, and has no legs here.
     fn of(config: &RunConfig) -> Self {

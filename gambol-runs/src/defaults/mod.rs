@@ -13,7 +13,7 @@ mod swimming;
 mod tests;
 mod walking;
 
-pub use apply::apply;
+pub use apply::{apply, steps};
 
 use crate::config::LimbPhases;
 use envs_rapier::Variation;

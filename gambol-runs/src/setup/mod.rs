@@ -10,7 +10,7 @@ use crate::{
     reference::ReferenceEpisode,
     topology::{
         self,
-        limbs::{self, Limbs},
+        limbs::{self, LimbCopies, Limbs},
     },
     training_task::TrainingTask,
 };
@@ -36,6 +36,9 @@ pub struct Setup {
     pub topology: Topology,
     /// What each weight of the topology is for; equal names in two topologies mean the same.
     pub weight_names: Vec<String>,
+    /// The names of the inputs and of the outputs of the net that is searched for: of a limb's, if a strategy that finds
+    /// topologies finds one for all limbs.
+    pub(crate) searched: [Vec<String>; 2],
     /// The unit of the fitness.
     pub unit: String,
     /// What a strategy that searches for several objectives finds compromises between; the fitness alone if the
@@ -83,10 +86,24 @@ impl Setup {
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());
         let shape = config.controller.shape(senses.len(), motors.len()).map_err(|error| error.within("controller"))?;
         let entry = registry.strategies.of(&config.strategy)?;
+        let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
+        let mut searched = [names(senses), names(motors)];
         let mut weight_names = None;
         let topology = match &config.topology {
             None => match config.controller.modular {
                 None => shape.into(),
+                Some(phases) if entry.finds_topology() => {
+                    let environment = episode.environment();
+                    let LimbCopies { topology, inputs, outputs } = limbs::copies(
+                        environment.blueprint(),
+                        environment.senses(),
+                        environment.motors(),
+                        &config.controller,
+                        phases,
+                    );
+                    searched = [inputs, outputs];
+                    topology.into()
+                }
                 Some(phases) => {
                     let environment = episode.environment();
                     let Limbs { topology, names } = limbs::topology(
@@ -138,7 +155,8 @@ impl Setup {
             None => task,
         };
         RungSettings::validate(&config.rungs, task.steps(), config.trials.count)?;
-        Ok(Self { task, rungs: config.rungs.clone(), episode, reference, topology, weight_names, unit, objectives })
+        let rungs = config.rungs.clone();
+        Ok(Self { task, rungs, episode, reference, topology, weight_names, searched, unit, objectives })
     }
 
     /// The rungs that come before the task of training, the first one first.

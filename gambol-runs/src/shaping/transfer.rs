@@ -130,10 +130,9 @@ impl PreparedTransfer {
             config.topology = Some(frozen.remapped(bare.inputs(), bare.outputs(), allow_loss));
         }
         let setup = Setup::new(&config, registry)?;
-        let after = [setup.inputs(), setup.outputs()];
-        let [inputs, outputs] = [0, 1].map(|which| {
-            let new: Vec<String> = after[which].iter().map(|channel| channel.name.clone()).collect();
-            TopologyMap::by_name(&names_of(&before[which]), &new)
+        let [inputs, outputs] = [0, 1].map(|which| match &source.kind {
+            Kind::Run { setup: old, .. } => TopologyMap::by_name(&old.searched[which], &setup.searched[which]),
+            Kind::Champion(_) => TopologyMap::by_name(&names_of(&before[which]), &setup.searched[which]),
         });
         let genes = match (&source.kind, &net) {
             (_, Some(net)) => TopologyMap::by_name(&net.names, &setup.weight_names),
@@ -257,8 +256,7 @@ pub(super) fn check_planned(
     if transferred != Transferred::Population {
         return Ok(());
     }
-    let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
-    let [inputs, outputs] = channels.map(|(before, after)| TopologyMap::by_name(&names(before), &names(after)));
+    let [inputs, outputs] = [0, 1].map(|which| TopologyMap::by_name(&before.searched[which], &after.searched[which]));
     let transfer = Transfer { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
     // A search that has not begun shows whether it could go on with the other nets.
     let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;

@@ -9,6 +9,7 @@ use ne_fixed::{
 };
 use ne_neat::{Neat, NeatSettings};
 use ne_net::Topology;
+use std::sync::Arc;
 
 impl Default for StrategyCatalogue {
     fn default() -> Self {
@@ -96,7 +97,10 @@ impl NetStrategy for Neat {
     type Settings = NeatSettings;
 
     fn build(settings: &NeatSettings, topology: &Topology) -> Result<Self, SettingError> {
-        Self::new(settings.clone(), topology.inputs(), topology.outputs())
+        match topology {
+            Topology::Copied(copied) => Self::of_copies(settings.clone(), Arc::clone(&copied.copies)),
+            whole => Self::new(settings.clone(), whole.inputs(), whole.outputs()),
+        }
     }
 
     fn settings(&self) -> &NeatSettings {
@@ -104,7 +108,17 @@ impl NetStrategy for Neat {
     }
 
     fn transfer(self, settings: &NeatSettings, to: &Transfer<'_>) -> Result<Self, SettingError> {
-        Self::remapped(self, settings.clone(), to.inputs, to.outputs)
+        let copies = match to.topology {
+            Topology::Copied(copied) => Some(Arc::clone(&copied.copies)),
+            _ => None,
+        };
+        if copies.is_some() != self.copies().is_some() {
+            let told = |is_some| if is_some { "a net for each limb" } else { "one net" };
+            let (found, allowed) = (told(copies.is_some()), told(self.copies().is_some()));
+            let allowed = format!("{allowed}, as before: a net that neat has found for the one is none for the other");
+            return Err(SettingError::new("controller.modular", found, allowed));
+        }
+        Self::remapped(self, settings.clone(), copies, to.inputs, to.outputs)
     }
 
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {

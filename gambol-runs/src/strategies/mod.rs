@@ -29,7 +29,7 @@ pub trait NetStrategy:
     const NAME: &'static str;
 
     /// Whether it finds the topology of its nets itself, and so takes from a given one nothing but the numbers of inputs and
-    /// outputs.
+    /// outputs. Where limbs share a net it is given a [copied](Topology::Copied) topology, and finds the net that is copied.
     const FINDS_TOPOLOGY: bool = false;
 
     /// What a configuration says of it; the default is what it has if the configuration says nothing.
@@ -84,13 +84,13 @@ pub trait NetStrategy:
 /// What becomes of the nets of a search that goes on.
 #[derive(Clone, Copy, Debug)]
 pub struct Transfer<'a> {
-    /// The new topology; of NEAT only its inputs and outputs count.
+    /// The new topology; of NEAT only its inputs, outputs and copies count.
     pub topology: &'a Topology,
     /// Which of its weights go on from which of the old topology's.
     pub genes: &'a TopologyMap,
-    /// Which of the new inputs are which of the old.
+    /// Which inputs of the net that is searched for are which of the old.
     pub inputs: &'a TopologyMap,
-    /// Which of the new outputs are which of the old.
+    /// Which outputs of the net that is searched for are which of the old.
     pub outputs: &'a TopologyMap,
 }
 

@@ -6,6 +6,10 @@
 //! copies differ in two ways, each with genes of its own: the clock runs ahead by another phase in each limb, and where
 //! along the body a limb hangs shifts its thresholds.
 
+mod copies;
+
+pub(crate) use copies::{LimbCopies, copies};
+
 use crate::config::{ControllerSettings, LimbPhases};
 use creatures::{Blueprint, Motors, Senses, Source};
 use ne_net::{GraphNeuron, GraphShape, SharedShape, SharedWeight, Turn};

@@ -209,6 +209,46 @@ fn the_weights_of_a_found_topology_can_be_searched() -> Outcome {
 }
 
 #[test]
+fn neat_finds_one_net_for_all_limbs() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    let train = |name: &str, creature: &str, generations: &str| {
+        let mut train = gambol("train");
+        train.args([creature, "running", "--strategy", "neat", "--population", "12", "--generations", generations]);
+        train.args(["--set", "movement.steps=60", "--quiet", "--out"]).arg(path(name));
+        train
+    };
+    let stop = |train: &mut Command| succeed(train.arg("--no-report"));
+    stop(train("whole", "tetrapod-2", "9").args(["--threads", "2"]));
+    stop(train("broken", "tetrapod-2", "4").args(["--threads", "1"]));
+    succeed(gambol("resume").arg(path("broken")).args(["--generations", "9", "--no-report", "--quiet"]));
+    assert_same_run(&path("whole"), &path("broken"));
+    assert_says(&succeed(gambol("verify").arg(path("whole"))), &["identical"]);
+    // Every leg has as many weights: copies of one net.
+    let shape = json(&path("whole").join("champion.json"))["content"]["network"]["shape"].clone();
+    let neurons = shape["neurons"].as_array().map_or(0, Vec::len);
+    assert!(neurons >= 8 && neurons % 4 == 0, "{neurons} neurons");
+    // What it knows is of use to a body with more legs, whose parts have other names.
+    let hexapod = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/creatures/hexapod.json");
+    succeed(train("hexapod", hexapod, "2").arg("--allow-loss").arg("--from").arg(path("whole")));
+    let legs = json(&path("hexapod").join("champion.json"))["content"]["outputs"].as_array().map_or(0, Vec::len);
+    assert!(legs > 8, "{legs} motors");
+    let report = std::fs::read_to_string(path("hexapod").join("report.html"))?;
+    assert_says(&report, &["evolves, feed-forward, copied for each limb"]);
+    let message = fail(
+        train("one-net", "tetrapod-2", "2").args(["--set", "controller.modular=null", "--from"]).arg(path("whole")),
+    );
+    assert_says(
+        &message,
+        &[
+            "controller.modular = one net: must be a net for each limb, as before: a net that neat has found for the one",
+        ],
+    );
+    assert!(!path("one-net").exists());
+    Ok(())
+}
+
+#[test]
 fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
     let folder = tempfile::tempdir()?;
     let found = folder.path().join("found");

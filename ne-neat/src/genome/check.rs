@@ -1,8 +1,8 @@
 use super::{ConnectionGene, Layout, NeatGenome, NodeGene, NodeId, NodeKind, graph::is_cyclic};
 use ne_core::SettingError;
-use ne_net::GraphShape;
+use ne_net::{Copies, GraphShape};
 use serde::Deserialize;
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, sync::Arc};
 
 /// Why genes are not a genome.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -78,19 +78,43 @@ pub enum GenomeError {
     /// Connections form a cycle where none may be.
     #[error("connections: form a cycle, which a layout that is not recurrent does not allow")]
     Cycle,
+    /// The copies are not copies of this net.
+    #[error("copies: of a net of {expected} {what}, the layout has {found}")]
+    Copies {
+        /// `inputs` or `outputs`.
+        what: String,
+        /// How many the copies are of.
+        expected: usize,
+        /// How many there are.
+        found: usize,
+    },
 }
 
 impl NeatGenome {
     /// Checks everything that a genome promises.
     pub(super) fn check(&self) -> Result<(), GenomeError> {
         self.layout.validate().map_err(GenomeError::Layout)?;
+        self.check_copies()?;
         self.check_nodes()?;
         self.check_connections()?;
         if !self.layout.recurrent && is_cyclic(self) { Err(GenomeError::Cycle) } else { Ok(()) }
     }
 
+    fn check_copies(&self) -> Result<(), GenomeError> {
+        let Some(copies) = &self.copies else { return Ok(()) };
+        for (what, expected, found) in [
+            ("inputs", copies.small_inputs(), self.layout.inputs),
+            ("outputs", copies.small_outputs(), self.layout.outputs),
+        ] {
+            if expected != found {
+                return Err(GenomeError::Copies { what: what.into(), expected, found });
+            }
+        }
+        Ok(())
+    }
+
     fn check_nodes(&self) -> Result<(), GenomeError> {
-        check_count("nodes", self.nodes.len(), GraphShape::MAX_NEURONS)?;
+        check_count("nodes", self.nodes.len(), self.most_neurons())?;
         check_order("nodes", self.nodes.iter().map(|gene| gene.id))?;
         let Layout { outputs, .. } = self.layout;
         let first = self.layout.sources() as NodeId;
@@ -152,12 +176,15 @@ pub(super) struct UncheckedGenome {
     layout: Layout,
     nodes: Vec<NodeGene>,
     connections: Vec<ConnectionGene>,
+    #[serde(default)]
+    copies: Option<Arc<Copies>>,
 }
 
 impl TryFrom<UncheckedGenome> for NeatGenome {
     type Error = GenomeError;
 
     fn try_from(unchecked: UncheckedGenome) -> Result<Self, GenomeError> {
-        Self::new(unchecked.layout, unchecked.nodes, unchecked.connections)
+        let UncheckedGenome { layout, nodes, connections, copies } = unchecked;
+        Self { layout, nodes, connections, copies }.checked()
     }
 }

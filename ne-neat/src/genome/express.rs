@@ -53,6 +53,10 @@ impl Genome for NeatGenome {
         }
         let outputs = computed[..self.layout.outputs].iter().flatten().map(|index| inputs + index).collect();
         let shape = GraphShape { inputs, recurrent: self.layout.recurrent, neurons, outputs };
-        GraphNet::from_checked(Arc::new(shape), &weights)
+        let net = GraphNet::from_checked(Arc::new(shape), &weights);
+        match &self.copies {
+            Some(copies) => copies.whole(&net),
+            None => net,
+        }
     }
 }

@@ -11,7 +11,9 @@ pub use genes::{ConnectionGene, InnovationNumber, NodeGene};
 pub use layout::{BiasKind, Layout, NodeId, NodeKind};
 
 use check::UncheckedGenome;
+use ne_net::{Copies, GraphShape};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// Genes of neurons and connections: a net whose topology evolves.
 ///
@@ -20,17 +22,20 @@ use serde::{Deserialize, Serialize};
 /// node; unless the [layout](Layout) is recurrent, connections form no cycle, disabled ones included.
 ///
 /// [`express`](ne_core::Genome::express) builds the net: disabled connections are left out, and so are hidden neurons
-/// from which no way leads to an output.
+/// from which no way leads to an output. With [copies](Self::copies) the net that evolves is a small one, of one limb, say,
+/// and what is built is the whole.
 ///
 /// In JSON: `{"layout": {"inputs": 2, "outputs": 1, "bias": "input-node", "recurrent": false}, "nodes": [{"id": 3,
 /// "activation": "tanh", "bias": 0}], "connections": [{"innovation": 0, "from": 0, "to": 3, "weight": 0.5, "enabled":
-/// true}]}`. Reading checks all of the above.
+/// true}]}`, and `"copies": {…}` if there are any. Reading checks all of the above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "UncheckedGenome")]
 pub struct NeatGenome {
     layout: Layout,
     nodes: Vec<NodeGene>,
     connections: Vec<ConnectionGene>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    copies: Option<Arc<Copies>>,
 }
 
 impl NeatGenome {
@@ -39,14 +44,25 @@ impl NeatGenome {
     /// # Errors
     /// If it is not as described above; the error names the gene.
     pub fn new(layout: Layout, nodes: Vec<NodeGene>, connections: Vec<ConnectionGene>) -> Result<Self, GenomeError> {
-        let genome = Self { layout, nodes, connections };
-        genome.check()?;
-        Ok(genome)
+        Self { layout, nodes, connections, copies: None }.checked()
+    }
+
+    /// The same genes for the small net of these copies.
+    ///
+    /// # Errors
+    /// If the small net of these copies has other numbers of inputs or outputs, or there are too many neurons.
+    pub fn with_copies(self, copies: Arc<Copies>) -> Result<Self, GenomeError> {
+        Self { copies: Some(copies), ..self }.checked()
+    }
+
+    fn checked(self) -> Result<Self, GenomeError> {
+        self.check()?;
+        Ok(self)
     }
 
     /// A genome without genes, which is not yet a valid one: memory to write one into.
-    pub(crate) fn blank(layout: Layout) -> Self {
-        Self { layout, nodes: Vec::new(), connections: Vec::new() }
+    pub(crate) fn blank(layout: Layout, copies: Option<Arc<Copies>>) -> Self {
+        Self { layout, nodes: Vec::new(), connections: Vec::new(), copies }
     }
 
     /// Becomes a copy of an individual of the same run, in its own memory.
@@ -58,6 +74,20 @@ impl NeatGenome {
     /// The inputs and outputs, and what kind of nets these are.
     pub fn layout(&self) -> &Layout {
         &self.layout
+    }
+
+    /// The copies that make up the whole net; `None`: the net is the whole.
+    pub fn copies(&self) -> Option<&Arc<Copies>> {
+        self.copies.as_ref()
+    }
+
+    pub(crate) fn set_copies(&mut self, copies: &Arc<Copies>) {
+        self.copies = Some(Arc::clone(copies));
+    }
+
+    /// The most neurons that it may have.
+    pub(crate) fn most_neurons(&self) -> usize {
+        GraphShape::MAX_NEURONS / self.copies.as_ref().map_or(1, |copies| copies.copies.len())
     }
 
     /// The genes of the neurons, in order of their numbers.

@@ -8,7 +8,7 @@ use crate::{
     noise::Noise,
 };
 use ne_core::RandomStream;
-use ne_net::{Activation, GraphShape};
+use ne_net::Activation;
 use rand::RngExt;
 
 /// New structure without numbers, proposed for a genome.
@@ -68,7 +68,7 @@ pub(super) fn new_node(
     activations: &[Activation],
     stream: &mut RandomStream,
 ) -> Option<NewNode> {
-    if genome.nodes().len() >= GraphShape::MAX_NEURONS {
+    if genome.nodes().len() >= genome.most_neurons() {
         return None;
     }
     let can_split = |gene: &ConnectionGene| gene.enabled && genome.layout().kind(gene.from) != NodeKind::Bias;

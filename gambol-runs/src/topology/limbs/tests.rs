@@ -13,7 +13,7 @@ const EXAMPLES: [&str; 6] = [
     include_str!("../../../../examples/creatures/tripod.json"),
 ];
 
-fn all_creatures() -> Vec<Blueprint> {
+pub(super) fn all_creatures() -> Vec<Blueprint> {
     let shipped = creatures::shipped().iter().map(|creature| creatures::find(creature.name).expect("shipped"));
     let shipped = shipped.map(|creature| Blueprint::new(creature).expect("valid"));
     shipped.chain(EXAMPLES.iter().map(|text| Blueprint::from_json(text).expect("valid"))).collect()
