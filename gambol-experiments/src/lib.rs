@@ -11,3 +11,4 @@ pub mod benchmarks;
 pub mod compare;
 pub mod reproduce;
 pub mod tune;
+mod work;

@@ -3,6 +3,7 @@ use super::{
     plan::{Job, PlanError, folder_name},
     result::RunResult,
 };
+use crate::work::is_free;
 use gambol_runs::training::TrainError;
 use ne_core::archive::{self, ArchiveError, Layout};
 use std::{
@@ -133,7 +134,7 @@ impl ComparisonFolder {
                 Some(what) => Err(CompareError::Other { path: path.into(), what }),
             };
         }
-        if !is_free(path)? {
+        if !is_free(path).map_err(|source| ArchiveError::Read { path: path.into(), source })? {
             return Err(CompareError::Exists { path: path.into() });
         }
         archive::make_folder(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
@@ -228,16 +229,6 @@ impl ComparisonFolder {
 
     fn plan_file(&self) -> PathBuf {
         self.path.join("comparison.json")
-    }
-}
-
-/// Whether there is nothing at this path but what a killed writer may have left there.
-fn is_free(path: &Path) -> Result<bool, CompareError> {
-    match path.read_dir() {
-        Ok(mut entries) => Ok(entries.all(|entry| entry.is_ok_and(|entry| archive::is_temporary(&entry.file_name())))),
-        Err(_) if !path.exists() => Ok(true),
-        Err(_) if !path.is_dir() => Ok(false),
-        Err(source) => Err(ArchiveError::Read { path: path.into(), source }.into()),
     }
 }
 

@@ -25,11 +25,12 @@ pub mod table;
 pub(crate) mod testing;
 mod work;
 
+pub use crate::work::{Part, Progress, WorkOptions};
 pub use analysis::{Analysis, analyse};
 pub use folder::{CompareError, ComparisonFolder};
 pub use merge::merge;
 pub use outcome::write_outcome;
-pub use plan::{Cell, Job, Method, Part, Plan, PlanError, PlanRequest};
+pub use plan::{Cell, Job, Method, Plan, PlanError, PlanRequest};
 pub use provenance::Provenance;
 pub use result::{Point, RunResult};
-pub use work::{Progress, WorkOptions, work};
+pub use work::work;

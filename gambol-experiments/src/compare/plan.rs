@@ -7,7 +7,7 @@ use gambol_runs::{
 };
 use ne_core::StopConditions;
 use serde::{Deserialize, Serialize};
-use std::{collections::BTreeSet, fmt, path::PathBuf, str::FromStr};
+use std::{collections::BTreeSet, path::PathBuf};
 
 /// Everything needed to repeat a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -296,41 +296,6 @@ impl Method {
         known.extend(registry.presets.entries().map(|preset| preset.name));
         let hint = "; or give it a name and a configuration file, NAME=FILE";
         Err(PlanError::Method(suggest::unknown("strategy or preset", text, &known) + hint))
-    }
-}
-
-/// One of several machines' share of the runs: `3/20` does every twentieth run, from the third on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Part {
-    number: usize,
-    of: usize,
-}
-
-impl Part {
-    /// The whole.
-    pub const ALL: Self = Self { number: 1, of: 1 };
-
-    /// Whether it has the run with this place among the [jobs](Plan::jobs), from 0.
-    pub fn has(self, index: usize) -> bool {
-        index % self.of == self.number - 1
-    }
-}
-
-impl FromStr for Part {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
-        match numbers {
-            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
-            _ => Err("must be a number and how many parts there are, such as 3/20".into()),
-        }
-    }
-}
-
-impl fmt::Display for Part {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}/{}", self.number, self.of)
     }
 }
 

@@ -2,7 +2,6 @@ use super::{
     Cell, ReproduceError, WorkOptions,
     plan::settings_digest,
     result::{ClockResult, Judged, Mark},
-    work::train_options,
 };
 use gambol_runs::{
     run_folder::FolderError,
@@ -17,7 +16,7 @@ pub(super) fn time(
     cell: &Cell,
     path: &Path,
     minutes: &[f64],
-    options: &WorkOptions<'_>,
+    options: &WorkOptions<'_, Judged>,
 ) -> Result<Option<ClockResult>, ReproduceError> {
     let name = || format!("{}, timed", cell.name());
     let config = cell.config(1, StopConditions::default(), &options.registry)?;
@@ -59,9 +58,9 @@ fn leg(
     path: &Path,
     stop: StopConditions,
     first: bool,
-    options: &WorkOptions<'_>,
+    options: &WorkOptions<'_, Judged>,
 ) -> Result<Result<Outcome, TrainError>, ReproduceError> {
     let mut unseen = |_: &GenerationReport| {};
-    let how = train_options(options, &mut unseen);
+    let how = options.training(&mut unseen);
     Ok(if first { train(&cell.config(1, stop, &options.registry)?, path, how) } else { resume(path, Some(stop), how) })
 }

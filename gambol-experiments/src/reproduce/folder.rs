@@ -3,6 +3,7 @@ use super::{
     plan::settings_digest,
     result::{ClockResult, RunResult},
 };
+use crate::work::is_free;
 use gambol_runs::{Registry, run_folder::FolderError, training::TrainError};
 use ne_core::{
     StopConditions,
@@ -149,7 +150,7 @@ impl ReproductionFolder {
                 return Ok(folder);
             }
             terms.generations = found.generations;
-        } else if !is_free(path)? {
+        } else if !is_free(path).map_err(|source| ReproduceError::Read { path: path.into(), source })? {
             return Err(ReproduceError::Exists { path: path.into() });
         }
         make(path)?;
@@ -291,16 +292,6 @@ fn leaf(job: &Job) -> String {
 
 fn make(path: &Path) -> Result<(), ReproduceError> {
     archive::make_folder(path).map_err(|source| ReproduceError::Write { path: path.into(), source })
-}
-
-/// Whether there is nothing at this path but what a killed writer may have left there.
-fn is_free(path: &Path) -> Result<bool, ReproduceError> {
-    match path.read_dir() {
-        Ok(mut entries) => Ok(entries.all(|entry| entry.is_ok_and(|entry| archive::is_temporary(&entry.file_name())))),
-        Err(_) if !path.exists() => Ok(true),
-        Err(_) if !path.is_dir() => Ok(false),
-        Err(source) => Err(ReproduceError::Read { path: path.into(), source }),
-    }
 }
 
 #[cfg(test)]

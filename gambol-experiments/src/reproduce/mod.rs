@@ -20,9 +20,9 @@ mod result;
 pub mod thesis;
 mod work;
 
-pub use crate::compare::Part;
+pub use crate::work::{Part, Progress, WorkOptions};
 pub use folder::{ReproduceError, ReproductionFolder};
 pub use outcome::{CellOutcome, Outcome, write_outcome};
 pub use plan::{Cell, Job, Plan, Request, RequestError};
 pub use result::{ClockResult, Judged, Mark, RunResult};
-pub use work::{Progress, WorkOptions, work};
+pub use work::work;

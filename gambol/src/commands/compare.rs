@@ -100,7 +100,7 @@ impl Compare {
         let signal = StopSignal::default();
         super::interrupt::stop_on_interrupt(&signal)?;
         let began = Instant::now();
-        let show = |progress: &Progress| {
+        let show = |progress: &Progress<f64>| {
             if !self.quiet {
                 let Progress { run, best, done, all } = progress;
                 let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));

@@ -2,7 +2,7 @@ use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry,
     reproduce::{
-        Part, Progress, ReproductionFolder, Request,
+        Judged, Part, Progress, ReproductionFolder, Request,
         thesis::{CLOCK_MINUTES, GENERATIONS, RUNS},
         work, write_outcome,
     },
@@ -101,9 +101,9 @@ impl Thesis {
         let signal = StopSignal::default();
         super::interrupt::stop_on_interrupt(&signal)?;
         let began = Instant::now();
-        let show = |progress: &Progress| {
+        let show = |progress: &Progress<Judged>| {
             if !self.quiet {
-                let Progress { run, champion, done, all } = progress;
+                let Progress { run, best: champion, done, all } = progress;
                 let verdict = match champion {
                     None => "every evaluation failed".into(),
                     Some(champion) => {

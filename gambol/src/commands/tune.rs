@@ -80,7 +80,7 @@ impl Tune {
         let folder = ComparisonFolder::create(&self.out.join("comparison"), &plan)?;
         let signal = StopSignal::default();
         super::interrupt::stop_on_interrupt(&signal)?;
-        let show = |Progress { run, best, done, all }: &Progress| {
+        let show = |Progress { run, best, done, all }: &Progress<f64>| {
             if !self.quiet {
                 let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));
                 tell!("{done}/{all}: {run}: {best}");

@@ -1,0 +1,234 @@
+//! Doing the runs of an experiment: some at the same time, in parts, and on from where they were interrupted.
+
+use gambol_runs::{
+    Registry,
+    config::RunConfig,
+    run_folder::{FolderError, RunFolder},
+    training::{TrainError, TrainOptions, resume, train},
+};
+use ne_core::{GenerationReport, StopReason, StopSignal, archive};
+use std::{
+    fmt, io,
+    num::NonZero,
+    path::Path,
+    str::FromStr,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+    thread,
+};
+
+/// One of several machines' share of the runs: `3/20` does every twentieth run, from the third on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Part {
+    number: usize,
+    of: usize,
+}
+
+/// How runs are to be done; none of it changes what they find, but for timed ones.
+pub struct WorkOptions<'a, R> {
+    /// Which runs.
+    pub part: Part,
+    /// How many runs at the same time; 0: one for each core. Timed runs are done one by one, after all others.
+    pub at_once: usize,
+    /// Threads of each run; 0: one for each core.
+    pub threads: usize,
+    /// What configurations can name.
+    pub registry: Registry,
+    /// Ends the work after the generations under way.
+    pub signal: StopSignal,
+    /// Called after each run.
+    pub on_run: &'a (dyn Fn(&Progress<R>) + Sync),
+}
+
+/// How far the work is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Progress<R> {
+    /// The name of the run that has just ended.
+    pub run: String,
+    /// What it found; `None` if every evaluation failed.
+    pub best: Option<R>,
+    /// Runs of this part that have ended, earlier ones included.
+    pub done: usize,
+    /// Runs of this part.
+    pub all: usize,
+}
+
+/// How a run ended.
+pub(crate) enum Ended<R> {
+    /// Its result is there.
+    Done(Option<R>),
+    /// It was interrupted, or another process is at work on it.
+    NotYet,
+}
+
+impl Part {
+    /// The whole.
+    pub const ALL: Self = Self { number: 1, of: 1 };
+
+    /// Whether it has the run with this place among all, from 0.
+    pub fn has(self, index: usize) -> bool {
+        index % self.of == self.number - 1
+    }
+
+    /// Those of all jobs that it has.
+    pub(crate) fn of<J>(self, jobs: impl Iterator<Item = J>) -> Vec<J> {
+        jobs.enumerate().filter(|(index, _)| self.has(*index)).map(|(_, job)| job).collect()
+    }
+}
+
+impl<R> WorkOptions<'_, R> {
+    /// How a run is trained.
+    pub(crate) fn training<'b>(&self, unseen: &'b mut dyn FnMut(&GenerationReport)) -> TrainOptions<'b> {
+        TrainOptions {
+            threads: self.threads,
+            registry: self.registry.clone(),
+            signal: self.signal.clone(),
+            on_generation: unseen,
+        }
+    }
+
+    /// The folder of a run that has ended: trains it, or goes on with it. `None`: it was interrupted, or another process is at
+    /// work on it.
+    pub(crate) fn run(&self, config: &RunConfig, path: &Path) -> Result<Option<RunFolder>, TrainError> {
+        let mut unseen = |_: &GenerationReport| {};
+        let how = self.training(&mut unseen);
+        let reason = if RunFolder::at(path).is_begun() {
+            match resume(path, None, how) {
+                Err(TrainError::Over { reason, .. }) => Ok(reason),
+                ended => ended.map(|outcome| outcome.reason),
+            }
+        } else if RunFolder::set_aside(path)? {
+            train(config, path, how).map(|outcome| outcome.reason)
+        } else {
+            return Ok(None);
+        };
+        match reason {
+            Ok(StopReason::Interrupted) => Ok(None),
+            // Exists: another process was faster.
+            Err(TrainError::Folder(FolderError::Busy { .. } | FolderError::Exists { .. })) => Ok(None),
+            Err(error) => Err(error),
+            Ok(_) => Ok(Some(RunFolder::open(path)?)),
+        }
+    }
+
+    fn at_once(&self) -> usize {
+        match self.at_once {
+            0 => thread::available_parallelism().map_or(1, NonZero::get),
+            at_once => at_once,
+        }
+    }
+}
+
+/// The runs of a part while they are done.
+pub(crate) struct Work<'a, R> {
+    options: &'a WorkOptions<'a, R>,
+    all: usize,
+    done: AtomicUsize,
+}
+
+impl<'a, R> Work<'a, R> {
+    /// Work on so many runs.
+    pub(crate) fn new(options: &'a WorkOptions<'a, R>, all: usize) -> Self {
+        Self { options, all, done: AtomicUsize::new(0) }
+    }
+
+    /// Does some of them at the same time, as many as the options say.
+    ///
+    /// # Errors
+    /// The first error; what is under way is finished first.
+    pub(crate) fn side_by_side<J: Sync, E: Send>(
+        &self,
+        jobs: &[J],
+        name: impl Fn(&J) -> String + Sync,
+        how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
+    ) -> Result<(), E> {
+        self.at_once(self.options.at_once(), jobs, name, how)
+    }
+
+    /// Does some of them one by one.
+    ///
+    /// # Errors
+    /// The first error.
+    pub(crate) fn one_by_one<J: Sync, E: Send>(
+        &self,
+        jobs: &[J],
+        name: impl Fn(&J) -> String + Sync,
+        how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
+    ) -> Result<(), E> {
+        self.at_once(1, jobs, name, how)
+    }
+
+    /// How many have not ended.
+    pub(crate) fn left(self) -> usize {
+        self.all - self.done.into_inner()
+    }
+
+    fn at_once<J: Sync, E: Send>(
+        &self,
+        threads: usize,
+        jobs: &[J],
+        name: impl Fn(&J) -> String + Sync,
+        how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
+    ) -> Result<(), E> {
+        let next = AtomicUsize::new(0);
+        let failure = Mutex::new(None);
+        let worker = || {
+            while let Some(job) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) {
+                if self.options.signal.is_set() || failure.lock().is_ok_and(|failure| failure.is_some()) {
+                    return;
+                }
+                match how(job) {
+                    Ok(Ended::NotYet) => {}
+                    Ok(Ended::Done(best)) => {
+                        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+                        (self.options.on_run)(&Progress { run: name(job), best, done, all: self.all });
+                    }
+                    Err(error) => {
+                        if let Ok(mut failure) = failure.lock() {
+                            failure.get_or_insert(error);
+                        }
+                    }
+                }
+            }
+        };
+        thread::scope(|scope| {
+            for _ in 0..threads.min(jobs.len()) {
+                scope.spawn(worker);
+            }
+        });
+        match failure.into_inner() {
+            Ok(Some(error)) => Err(error),
+            _ => Ok(()),
+        }
+    }
+}
+
+/// Whether there is nothing at this path but what a killed writer may have left there.
+pub(crate) fn is_free(path: &Path) -> io::Result<bool> {
+    match path.read_dir() {
+        Ok(mut entries) => Ok(entries.all(|entry| entry.is_ok_and(|entry| archive::is_temporary(&entry.file_name())))),
+        Err(_) if !path.exists() => Ok(true),
+        Err(_) if !path.is_dir() => Ok(false),
+        Err(source) => Err(source),
+    }
+}
+
+impl FromStr for Part {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let numbers = text.split_once('/').and_then(|(number, of)| Some((number.parse().ok()?, of.parse().ok()?)));
+        match numbers {
+            Some((number, of)) if (1..=of).contains(&number) => Ok(Self { number, of }),
+            _ => Err("must be a number and how many parts there are, such as 3/20".into()),
+        }
+    }
+}
+
+impl fmt::Display for Part {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.number, self.of)
+    }
+}
