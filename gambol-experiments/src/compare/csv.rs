@@ -1,6 +1,10 @@
 //! The raw data as CSV.
 
-use super::{Analysis, Plan, Provenance, RunResult};
+use super::{
+    Analysis, Plan, Provenance, RunResult,
+    analysis::Estimate,
+    figures::{decimals, number},
+};
 use gambol_runs::texts::csv_cell;
 use std::fmt::Write;
 
@@ -22,6 +26,31 @@ pub(super) fn scores(analysis: &Analysis) -> String {
         let _ = writeln!(text, "{name},{},{scores},{fitness},{evaluations},{steps},{seconds}", run.seed);
     }
     text
+}
+
+/// A row for each scenario, with the median score of each method, and one for the interquartile means over all scenarios.
+pub(super) fn medians(analysis: &Analysis) -> String {
+    let names = analysis.methods.iter().map(|method| csv_cell(&method.name));
+    let mut rows = vec![std::iter::once("scenario".into()).chain(names).collect::<Vec<String>>()];
+    let standings = analysis.primary_standings();
+    for (facts, scenario) in analysis.scenarios.iter().zip(&standings.scenarios) {
+        let places = decimals(scenario.worst.into_iter().chain(scenario.best));
+        let median = |median: Option<f64>| median.map_or_else(String::new, |median| number(median, places));
+        let medians = scenario.methods.iter().map(|scores| median(scores.summary.map(|summary| summary.median)));
+        let name = csv_cell(&format!("{}, {}", facts.name, facts.unit));
+        rows.push(std::iter::once(name).chain(medians).collect());
+    }
+    if let Some(overall) = &standings.overall {
+        let mean = |mean: &Estimate| match mean.interval {
+            Some([low, high]) => {
+                let [value, low, high] = [mean.value, low, high].map(|value| number(value, 2));
+                format!("{value} ({low} to {high})")
+            }
+            None => number(mean.value, 2),
+        };
+        rows.push(std::iter::once("interquartile mean".into()).chain(overall.methods.iter().map(mean)).collect());
+    }
+    rows.iter().map(|row| row.join(",") + "\n").collect()
 }
 
 /// A row for each field of each method on each scenario: `method,scenario,field,value,from`.
@@ -62,8 +91,22 @@ mod tests {
     use super::*;
     use crate::compare::{
         analyse,
-        testing::{plan, run},
+        testing::{comparison, plan, run},
     };
+
+    #[test]
+    fn medians_are_those_of_each_method_and_scenario() {
+        let (plan, results) = comparison(&["a", "b"], &["s", "t"], 6, |method, scenario, seed| {
+            (10 * scenario + method) as f64 + seed as f64 / 10.0
+        });
+        let text = medians(&analyse(&plan, &results));
+        let rows: Vec<&str> = text.lines().collect();
+        assert_eq!((rows.len(), rows[0]), (4, "scenario,a,b"));
+        let cells = |row: &str| row.rsplitn(3, ',').map(str::to_owned).collect::<Vec<_>>();
+        assert_eq!(cells(rows[1])[..2], ["1.35", "0.35"], "seeds from 1 to 6: {text}");
+        assert_eq!(cells(rows[2])[..2], ["11.35", "10.35"]);
+        assert!(rows[3].starts_with("interquartile mean,0.") && rows[3].contains(" to "), "{}", rows[3]);
+    }
 
     #[test]
     fn raw_data_has_no_substitutes_and_is_csv_cell() {

@@ -23,6 +23,7 @@ const VERSION: u32 = 2;
 /// | `runs/METHOD/SCENARIO/seed-N/` | the folder of a run |
 /// | `results/METHOD/SCENARIO/seed-N.json` | what is kept of a run that has ended |
 /// | `comparison.html` | to look at |
+/// | `medians.csv` | the medians of each strategy on each scenario, and its interquartile mean |
 /// | `scores.csv`, `curves.csv` | the raw data |
 /// | `settings.csv` | what each method had, and from where |
 #[derive(Clone, Debug, PartialEq, Eq)]

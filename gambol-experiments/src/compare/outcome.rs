@@ -1,8 +1,8 @@
 use super::{Analysis, CompareError, ComparisonFolder, analyse, csv, page};
 use ne_core::archive;
 
-/// Analyses a comparison whose runs have all ended, and writes `comparison.html`, `scores.csv`, `curves.csv` and
-/// `settings.csv` into its folder.
+/// Analyses a comparison whose runs have all ended, and writes `comparison.html`, `medians.csv`, `scores.csv`, `curves.csv`
+/// and `settings.csv` into its folder.
 ///
 /// # Errors
 /// If a run is missing, or a file cannot be read or written.
@@ -12,6 +12,7 @@ pub fn write_outcome(folder: &ComparisonFolder) -> Result<Analysis, CompareError
     let analysis = analyse(&plan, &results);
     let files = [
         (folder.page(), page::render(&analysis)),
+        (folder.path().join("medians.csv"), csv::medians(&analysis)),
         (folder.path().join("scores.csv"), csv::scores(&analysis)),
         (folder.path().join("curves.csv"), csv::curves(&results)),
         (folder.path().join("settings.csv"), csv::settings(&plan)),
@@ -44,6 +45,7 @@ mod tests {
             text.lines().count()
         };
         assert_eq!([lines("scores.csv"), lines("curves.csv")], [1 + 32, 1 + 3 * 32]);
+        assert_eq!(lines("medians.csv"), 1 + plan.scenarios.len() + 1);
         assert!(lines("comparison.html") > 100);
     }
 }

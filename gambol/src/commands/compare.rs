@@ -25,7 +25,7 @@ together:
   gambol merge part-* --out whole
 
 Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html,
-scores.csv, curves.csv and settings.csv.")]
+medians.csv, scores.csv, curves.csv and settings.csv.")]
 pub(crate) struct Compare {
     /// What is compared: strategies (see: gambol strategies), presets, or NAME=CONFIG-FILE
     #[arg(long, value_delimiter = ',', required = true, value_name = "NAMES")]
