@@ -96,7 +96,7 @@ pub(super) const VARIANTS: &[Variant] = &[
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },
     Variant { name: "CoSyNE", change: |config| search_with(config, "cosyne") },
-    Variant { name: "NEAT (its own nets)", change: |config| search_with(config, "neat") },
+    Variant { name: "NEAT", change: |config| search_with(config, "neat") },
 ];
 
 fn keep_sensors(config: &mut RunConfig, keep: fn(&Sensor) -> bool) {

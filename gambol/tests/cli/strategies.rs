@@ -227,7 +227,7 @@ fn neat_finds_one_net_for_all_limbs() -> Outcome {
     // Every leg has as many weights: copies of one net.
     let shape = json(&path("whole").join("champion.json"))["content"]["network"]["shape"].clone();
     let neurons = shape["neurons"].as_array().map_or(0, Vec::len);
-    assert!(neurons >= 8 && neurons % 4 == 0, "{neurons} neurons");
+    assert!(neurons >= 8 && neurons.is_multiple_of(4), "{neurons} neurons");
     // What it knows is of use to a body with more legs, whose parts have other names.
     let hexapod = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/creatures/hexapod.json");
     succeed(train("hexapod", hexapod, "2").arg("--allow-loss").arg("--from").arg(path("whole")));
