@@ -113,7 +113,7 @@ impl<R> WorkOptions<'_, R> {
         }
     }
 
-    fn at_once(&self) -> usize {
+    fn workers(&self) -> usize {
         match self.at_once {
             0 => thread::available_parallelism().map_or(1, NonZero::get),
             at_once => at_once,
@@ -144,7 +144,7 @@ impl<'a, R> Work<'a, R> {
         name: impl Fn(&J) -> String + Sync,
         how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
     ) -> Result<(), E> {
-        self.at_once(self.options.at_once(), jobs, name, how)
+        self.with_workers(self.options.workers(), jobs, name, how)
     }
 
     /// Does some of them one by one.
@@ -157,7 +157,7 @@ impl<'a, R> Work<'a, R> {
         name: impl Fn(&J) -> String + Sync,
         how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
     ) -> Result<(), E> {
-        self.at_once(1, jobs, name, how)
+        self.with_workers(1, jobs, name, how)
     }
 
     /// How many have not ended.
@@ -165,9 +165,9 @@ impl<'a, R> Work<'a, R> {
         self.all - self.done.into_inner()
     }
 
-    fn at_once<J: Sync, E: Send>(
+    fn with_workers<J: Sync, E: Send>(
         &self,
-        threads: usize,
+        workers: usize,
         jobs: &[J],
         name: impl Fn(&J) -> String + Sync,
         how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
@@ -194,7 +194,7 @@ impl<'a, R> Work<'a, R> {
             }
         };
         thread::scope(|scope| {
-            for _ in 0..threads.min(jobs.len()) {
+            for _ in 0..workers.min(jobs.len()) {
                 scope.spawn(worker);
             }
         });

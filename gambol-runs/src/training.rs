@@ -212,6 +212,9 @@ fn resume_checked(
     if !checkpoint.strategy.has_settings(&config.strategy) {
         return Err(foreign("the strategy's settings").into());
     }
+    if !checkpoint.strategy.fits(&setup.topology) {
+        return Err(foreign("the body that its nets are for").into());
+    }
     if let Some(champion) = &checkpoint.champion
         && setup.episode.check_shape(&champion.genome.express()).is_err()
     {

@@ -50,7 +50,9 @@ impl Crossover {
         let pick = if happens(self.averaging, stream) { Pick::Mean } else { Pick::Either };
         if fitness == Ordering::Equal {
             self.inherit_from_both(fitter, other, pick, child, stream);
-            if child.layout().recurrent || !is_cyclic(child) {
+            // The hidden neurons of both may be too many.
+            let fits = child.nodes().len() <= child.most_neurons();
+            if fits && (child.layout().recurrent || !is_cyclic(child)) {
                 return;
             }
         }

@@ -69,6 +69,11 @@ impl Neat {
         next.start = grown.collect::<Option<_>>().ok_or_else(too_many)?;
         if let Some(copies) = &copies {
             next.start.iter_mut().for_each(|genome| genome.set_copies(copies));
+            let most = copies.most_neurons();
+            if let Some(found) = next.start.iter().map(|genome| genome.nodes().len()).find(|&found| found > most) {
+                let allowed = format!("at most {most} with {} copies of the net", copies.copies.len());
+                return Err(SettingError::new("copies", format!("{found} neurons"), allowed));
+            }
         }
         next.next_species = self.next_species;
         Ok(next)

@@ -5,7 +5,7 @@ use crate::{
     speciation::{Species, assign, breeders, offspring},
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, SpeciesReport, Statistic, Strategy};
-use ne_net::{Copies, GraphShape};
+use ne_net::Copies;
 use std::sync::Arc;
 
 const FIRST_GENERATION: Purpose = Purpose::new("neat first generation");
@@ -98,7 +98,7 @@ impl Neat {
     pub fn of_copies(settings: NeatSettings, copies: Arc<Copies>) -> Result<Self, SettingError> {
         copies.validate().map_err(|error| error.within("copies"))?;
         let search = Self::new(settings, copies.small_inputs(), copies.small_outputs())?;
-        let most = GraphShape::MAX_NEURONS / copies.copies.len();
+        let most = copies.most_neurons();
         let neurons = search.settings.start.hidden() + search.layout.outputs;
         if neurons > most {
             let allowed = format!("at most {most} neurons with {} copies of the net", copies.copies.len());

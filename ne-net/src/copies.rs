@@ -1,7 +1,7 @@
 use crate::{GraphNet, GraphNeuron, GraphShape};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
-use std::{fmt, sync::Arc};
+use std::{collections::BTreeSet, fmt, sync::Arc};
 
 /// Copies of one small net that make up a whole one: one a limb, say.
 ///
@@ -39,7 +39,8 @@ pub struct NetCopy {
     /// What each input of the small net is in this copy.
     pub senses: Vec<CopySense>,
     /// −1 for a mirror image, whose outputs have the other sign, or 1. The sums of its output neurons change their sign, and
-    /// so the outputs do if the activation is odd, as [`Tanh`](crate::Activation::Tanh) is.
+    /// so the outputs do if the activation is odd, as [`Tanh`](crate::Activation::Tanh) is. With another activation neurons that
+    /// hear such an output hear something else, too.
     pub sign: f32,
 }
 
@@ -92,12 +93,15 @@ impl Copies {
                 if let Some(wrong) = factors.chain([sense.constant]).find(|factor| !factor.is_finite()) {
                     return Err(SettingError::new(field(format!("senses[{place}]")), wrong, "finite"));
                 }
-                if let Some(&(wrong, _)) = sense.sources.iter().find(|&&(input, _)| input >= self.inputs) {
-                    let allowed = format!("an input below {}", self.inputs);
+                let mut seen = BTreeSet::new();
+                let is_wrong = |&&(input, _): &&(usize, f32)| input >= self.inputs || !seen.insert(input);
+                if let Some(&(wrong, _)) = sense.sources.iter().find(is_wrong) {
+                    let allowed = format!("an input below {}, listed once", self.inputs);
                     return Err(SettingError::new(field(format!("senses[{place}].sources")), wrong, allowed));
                 }
             }
         }
+        let mut seen = BTreeSet::new();
         for (index, &(copy, output)) in self.outputs.iter().enumerate() {
             let wrong = |allowed: String| {
                 Err(SettingError::new(format!("outputs[{index}]"), format!("{output} of copy {copy}"), allowed))
@@ -108,14 +112,20 @@ impl Copies {
             if output >= GraphShape::MAX_WIDTH {
                 return wrong(format!("below {}", GraphShape::MAX_WIDTH));
             }
-            if self.outputs[..index].contains(&(copy, output)) {
+            if !seen.insert((copy, output)) {
                 return wrong("listed once".into());
             }
         }
         Ok(())
     }
 
+    /// The most neurons that a small net may have, so that the whole is a net.
+    pub fn most_neurons(&self) -> usize {
+        GraphShape::MAX_NEURONS / self.copies.len().max(1)
+    }
+
     /// The whole net: a copy after the other, each with the neurons that lead to outputs of the whole, in the small net's order.
+    /// The copies are valid.
     ///
     /// # Panics
     /// If the small net has other numbers of inputs or outputs than these copies.
@@ -243,6 +253,25 @@ impl CopiedShape {
             if found != expected {
                 return Err(SettingError::new(field, found, format!("{expected}, as the copies have it")));
             }
+        }
+        let (found, most) = (self.small.neurons.len(), self.copies.most_neurons());
+        if found > most {
+            let allowed = format!("at most {most} with {} copies", self.copies.copies.len());
+            return Err(SettingError::new("small.neurons", format!("{found} neurons"), allowed));
+        }
+        // An input of the small net may be several of the whole.
+        let longest = |input: usize| {
+            let lengths = self.copies.copies.iter().map(|copy| copy.senses[input].sources.len());
+            lengths.max().unwrap_or(0).max(1)
+        };
+        let lengths: Vec<usize> = (0..self.small.inputs).map(longest).collect();
+        let weights_of = |neuron: &GraphNeuron| {
+            1 + neuron.sources.iter().map(|&source| lengths.get(source).copied().unwrap_or(1)).sum::<usize>()
+        };
+        let weights = self.small.neurons.iter().map(weights_of).sum::<usize>().saturating_mul(self.copies.copies.len());
+        if weights > GraphShape::MAX_WEIGHTS {
+            let (found, most) = (format!("{weights} weights in all copies"), GraphShape::MAX_WEIGHTS);
+            return Err(SettingError::new("small", found, format!("at most {most}")));
         }
         Ok(())
     }

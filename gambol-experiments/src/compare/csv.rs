@@ -1,4 +1,4 @@
-//! The raw data as CSV.
+//! The raw data as CSV, and the table in short, for documents.
 
 use super::{
     Analysis, Plan, Provenance, RunResult,

@@ -227,7 +227,9 @@ pub(super) fn terrain(terrain: &Terrain, physics: &PhysicsSettings) -> String {
 
 /// What is settled about the net before the run.
 fn topology(config: &RunConfig, registry: &Registry) -> Fact {
-    let finds_topology = registry.strategies.of(&config.strategy).is_ok_and(StrategyEntry::finds_topology);
+    let entry = registry.strategies.of(&config.strategy).ok();
+    let finds_topology = entry.is_some_and(StrategyEntry::finds_topology);
+    let is_copied = entry.is_some_and(StrategyEntry::finds_copied) && config.controller.modular.is_some();
     match &config.topology {
         _ if finds_topology => {
             let kind = match config.strategy.settings().get("recurrent").and_then(Value::as_bool) {
@@ -235,7 +237,7 @@ fn topology(config: &RunConfig, registry: &Registry) -> Fact {
                 Some(false) => ", feed-forward",
                 None => "",
             };
-            let copied = if config.controller.modular.is_some() { ", copied for each limb" } else { "" };
+            let copied = if is_copied { ", copied for each limb" } else { "" };
             Fact::new("Topology", format!("evolves{kind}{copied}"))
         }
         Some(frozen) => Fact::new("Topology", format!("frozen: {}", frozen.net)),

@@ -92,7 +92,7 @@ impl Setup {
         let topology = match &config.topology {
             None => match config.controller.modular {
                 None => shape.into(),
-                Some(phases) if entry.finds_topology() => {
+                Some(phases) if entry.finds_copied() => {
                     let environment = episode.environment();
                     let LimbCopies { topology, inputs, outputs } = limbs::copies(
                         environment.blueprint(),

@@ -1,8 +1,9 @@
 //! From what was learned to a new search: on another task, with more senses, by another strategy.
 
 use super::source::{ChampionNet, Kind, Source, names_of, read_checkpoint};
-use crate::Registry;
 use crate::{
+    Registry,
+    champion::ChannelRecord,
     config::{FrozenTopology, Origin, RunConfig, StrategySettings, Transferred},
     episode_parts::SetupError,
     run_folder::FolderError,
@@ -158,9 +159,13 @@ impl PreparedTransfer {
     pub(crate) fn search(&self, strategies: &StrategyCatalogue) -> Result<AnyStrategy, TransferError> {
         let (settings, topology) = (&self.config.strategy, &self.setup.topology);
         let begun = match (self.transferred, &self.source.kind) {
-            (Transferred::Population, Kind::Run { folder, strategy, .. }) => {
+            (Transferred::Population, Kind::Run { folder, strategy, setup, .. }) => {
                 let (genes, inputs, outputs) = (&self.genes, &self.inputs, &self.outputs);
                 let search = read_checkpoint(strategy, folder)?.strategy;
+                if !search.fits(&setup.topology) {
+                    let what = "the body that its nets are for";
+                    return Err(FolderError::Foreign { path: folder.checkpoint(), what }.into());
+                }
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
             (Transferred::Nothing, _) => strategies.build(settings, topology),
@@ -179,20 +184,19 @@ impl PreparedTransfer {
         let counted = |count: usize| if counts_weights { count } else { 0 };
         let before = self.source.channels();
         let after = [self.setup.inputs(), self.setup.outputs()];
-        let new = |which: usize| {
-            let is_old = |channel: &&Channel| before[which].iter().any(|old| old.name == channel.name);
-            after[which].iter().filter(|channel| !is_old(channel)).map(|channel| channel.name.clone()).collect()
+        // A population goes on with the inputs and outputs of the nets that are searched for.
+        let (old, new) = match (&self.source.kind, self.transferred) {
+            (Kind::Run { setup, .. }, Transferred::Population) => (setup.searched.clone(), self.setup.searched.clone()),
+            _ => (before.each_ref().map(|channels| names_of(channels)), after.map(channel_names)),
         };
-        let (mut lost, mut rescaled) = (Vec::new(), Vec::new());
-        for (before, after) in before.iter().zip(after) {
-            for old in before {
-                match after.iter().find(|channel| channel.name == old.name) {
-                    None => lost.push(old.name.clone()),
-                    Some(channel) if channel.range != old.range => rescaled.push(old.name.clone()),
-                    Some(_) => {}
-                }
-            }
-        }
+        let lost = (0..2).flat_map(|which| missing(&old[which], &new[which])).collect();
+        let rescaled = before.iter().zip(after).flat_map(|(before, after)| {
+            let is_rescaled = |old: &&ChannelRecord| {
+                after.iter().any(|channel| channel.name == old.name && channel.range != old.range)
+            };
+            before.iter().filter(is_rescaled).map(|old| old.name.clone()).collect::<Vec<_>>()
+        });
+        let rescaled = rescaled.collect();
         Ok(Origin {
             source: self.source.name.clone(),
             transferred: self.transferred,
@@ -201,8 +205,8 @@ impl PreparedTransfer {
             weights_kept: counted(self.genes.weight_count() - self.genes.gained()),
             weights_new: counted(self.genes.gained()),
             weights_lost: counted(self.genes.lost().len()),
-            new_inputs: new(0),
-            new_outputs: new(1),
+            new_inputs: missing(&new[0], &old[0]),
+            new_outputs: missing(&new[1], &old[1]),
             lost,
             rescaled,
         })
@@ -235,16 +239,19 @@ pub(super) fn check_planned(
     let to = strategies.of(to_settings).map_err(SetupError::from)?;
     let transferred = how.transferred.unwrap_or_else(|| usual(from, to));
     check_possible("the stage before", Some(from), transferred, to)?;
-    let channels = [(before.inputs(), after.inputs()), (before.outputs(), after.outputs())];
+    let (old, new) = match transferred {
+        Transferred::Population => (before.searched.clone(), after.searched.clone()),
+        _ => (
+            [before.inputs(), before.outputs()].map(channel_names),
+            [after.inputs(), after.outputs()].map(channel_names),
+        ),
+    };
     let genes = TopologyMap::by_name(&before.weight_names, &after.weight_names);
     // The genomes of a strategy that finds topologies, and the net of a champion that is taken as it is, are not the planned one.
     let matters = transferred != Transferred::Topology && !from.finds_topology();
     if !how.allow_loss && transferred != Transferred::Nothing {
-        let mut what = Vec::new();
-        for (before, after) in channels {
-            let is_lost = |channel: &&Channel| !after.iter().any(|other| other.name == channel.name);
-            what.extend(before.iter().filter(is_lost).map(|channel| format!("\"{}\"", channel.name)));
-        }
+        let lost = (0..2).flat_map(|which| missing(&old[which], &new[which]));
+        let mut what: Vec<String> = lost.map(|name| format!("\"{name}\"")).collect();
         let lost = genes.lost().len();
         if what.is_empty() && lost > 0 && matters {
             what.push(format!("{lost} of {} weights", genes.old_weight_count()));
@@ -256,12 +263,21 @@ pub(super) fn check_planned(
     if transferred != Transferred::Population {
         return Ok(());
     }
-    let [inputs, outputs] = [0, 1].map(|which| TopologyMap::by_name(&before.searched[which], &after.searched[which]));
+    let [inputs, outputs] = [0, 1].map(|which| TopologyMap::by_name(&old[which], &new[which]));
     let transfer = Transfer { topology: &after.topology, genes: &genes, inputs: &inputs, outputs: &outputs };
     // A search that has not begun shows whether it could go on with the other nets.
     let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;
     search.transfer(from_settings, &transfer)?;
     Ok(())
+}
+
+fn channel_names(channels: &[Channel]) -> Vec<String> {
+    channels.iter().map(|channel| channel.name.clone()).collect()
+}
+
+/// Those of the names that are not among the others.
+fn missing(names: &[String], others: &[String]) -> Vec<String> {
+    names.iter().filter(|name| !others.contains(name)).cloned().collect()
 }
 
 /// What is transferred from a run by default.

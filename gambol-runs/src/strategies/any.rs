@@ -35,6 +35,11 @@ impl AnyStrategy {
         self.0.transfer(settings, to)
     }
 
+    /// As [`NetStrategy::fits`].
+    pub fn fits(&self, topology: &Topology) -> bool {
+        self.0.fits(topology)
+    }
+
     /// As [`NetStrategy::has_begun_anew`].
     pub fn has_begun_anew(&self) -> bool {
         self.0.has_begun_anew()
@@ -75,6 +80,7 @@ trait Erased: erased_serde::Serialize + Send {
     fn front(&self) -> Option<&[Compromise]>;
     fn has_settings(&self, settings: &StrategySettings) -> bool;
     fn transfer(self: Box<Self>, settings: &StrategySettings, to: &Transfer<'_>) -> Result<AnyStrategy, SettingError>;
+    fn fits(&self, topology: &Topology) -> bool;
     fn has_begun_anew(&self) -> bool;
     fn has_nothing_to_transfer(&self) -> bool;
 }
@@ -156,6 +162,10 @@ impl<S: NetStrategy> Erased for Held<S> {
         let settings = of_its_kind
             .ok_or_else(|| SettingError::new("strategy", settings.name(), format!("{} with its settings", S::NAME)))?;
         Ok(AnyStrategy::new(self.strategy.transfer(&settings, to)?))
+    }
+
+    fn fits(&self, topology: &Topology) -> bool {
+        self.strategy.fits(topology)
     }
 
     fn has_begun_anew(&self) -> bool {

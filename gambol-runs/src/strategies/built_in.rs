@@ -93,6 +93,7 @@ weight_search!(
 impl NetStrategy for Neat {
     const NAME: &'static str = "neat";
     const FINDS_TOPOLOGY: bool = true;
+    const FINDS_COPIED: bool = true;
 
     type Settings = NeatSettings;
 
@@ -119,6 +120,16 @@ impl NetStrategy for Neat {
             return Err(SettingError::new("controller.modular", found, allowed));
         }
         Self::remapped(self, settings.clone(), copies, to.inputs, to.outputs)
+    }
+
+    fn fits(&self, topology: &Topology) -> bool {
+        match topology {
+            Topology::Copied(copied) => self.copies() == Some(&copied.copies),
+            whole => {
+                let layout = self.layout();
+                self.copies().is_none() && (layout.inputs, layout.outputs) == (whole.inputs(), whole.outputs())
+            }
+        }
     }
 
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {

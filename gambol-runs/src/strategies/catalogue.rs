@@ -161,6 +161,11 @@ impl StrategyEntry {
         self.kind.finds_topology()
     }
 
+    /// As [`NetStrategy::FINDS_COPIED`].
+    pub fn finds_copied(&self) -> bool {
+        self.kind.finds_copied()
+    }
+
     /// Its default settings.
     pub fn settings(&self) -> StrategySettings {
         self.kind.settings()
@@ -184,6 +189,7 @@ impl fmt::Debug for StrategyEntry {
 /// What can be asked of a strategy that is not built yet.
 trait Kind: Send + Sync {
     fn finds_topology(&self) -> bool;
+    fn finds_copied(&self) -> bool;
     fn settings(&self) -> StrategySettings;
     fn check(&self, settings: &StrategySettings) -> Result<(), StrategyError>;
     fn build(&self, settings: &StrategySettings, topology: &Topology) -> Result<AnyStrategy, StrategyError>;
@@ -212,6 +218,10 @@ impl<S: NetStrategy> KindOf<S> {
 impl<S: NetStrategy> Kind for KindOf<S> {
     fn finds_topology(&self) -> bool {
         S::FINDS_TOPOLOGY
+    }
+
+    fn finds_copied(&self) -> bool {
+        S::FINDS_COPIED
     }
 
     fn settings(&self) -> StrategySettings {

@@ -29,8 +29,11 @@ pub trait NetStrategy:
     const NAME: &'static str;
 
     /// Whether it finds the topology of its nets itself, and so takes from a given one nothing but the numbers of inputs and
-    /// outputs. Where limbs share a net it is given a [copied](Topology::Copied) topology, and finds the net that is copied.
+    /// outputs.
     const FINDS_TOPOLOGY: bool = false;
+
+    /// Whether it finds, where limbs share a net, the net that is copied: it is given a [copied](Topology::Copied) topology there.
+    const FINDS_COPIED: bool = false;
 
     /// What a configuration says of it; the default is what it has if the configuration says nothing.
     type Settings: Clone + Default + PartialEq + Serialize + DeserializeOwned + 'static;
@@ -62,6 +65,12 @@ pub trait NetStrategy:
     fn transfer(self, settings: &Self::Settings, to: &Transfer<'_>) -> Result<Self, SettingError> {
         let _ = (settings, to);
         Err(SettingError::new("strategy", Self::NAME, "one whose population can go on with other nets"))
+    }
+
+    /// Whether its nets are of this topology, as far as it is given: a file may be of another body.
+    fn fits(&self, topology: &Topology) -> bool {
+        let _ = topology;
+        true
     }
 
     /// Whether it has left what it had found, to look elsewhere: the champion then knows more than the search.

@@ -166,7 +166,7 @@ fn finish(folder: &ComparisonFolder, quiet: bool) -> Outcome {
     if !quiet {
         say!("{}", table::render(&analysis))?;
         say!("page      {}", folder.page().display())?;
-        say!("raw data  {0}/scores.csv, {0}/curves.csv, {0}/settings.csv", folder.path().display())?;
+        say!("raw data  {0}/medians.csv, {0}/scores.csv, {0}/curves.csv, {0}/settings.csv", folder.path().display())?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -5,8 +5,7 @@ use crate::{
     folder::{assert_same_run, read},
     program::{assert_says, fail, gambol, succeed, text},
 };
-use std::path::Path;
-use std::process::Command;
+use std::{fs, path::Path, process::Command};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -233,10 +232,12 @@ fn neat_finds_one_net_for_all_limbs() -> Outcome {
     succeed(train("hexapod", hexapod, "2").arg("--allow-loss").arg("--from").arg(path("whole")));
     let legs = json(&path("hexapod").join("champion.json"))["content"]["outputs"].as_array().map_or(0, Vec::len);
     assert!(legs > 8, "{legs} motors");
-    let report = std::fs::read_to_string(path("hexapod").join("report.html"))?;
+    let report = fs::read_to_string(path("hexapod").join("report.html"))?;
     assert_says(&report, &["evolves, feed-forward, copied for each limb"]);
     let message = fail(
-        train("one-net", "tetrapod-2", "2").args(["--set", "controller.modular=null", "--from"]).arg(path("whole")),
+        train("one-net", "tetrapod-2", "2")
+            .args(["--set", "controller.modular=null", "--allow-loss", "--from"])
+            .arg(path("whole")),
     );
     assert_says(
         &message,
@@ -245,6 +246,18 @@ fn neat_finds_one_net_for_all_limbs() -> Outcome {
         ],
     );
     assert!(!path("one-net").exists());
+    // What legs that act together hear besides would be lost.
+    stop(train("together", "tetrapod-2", "2").args(["--set", "controller.modular=together"]));
+    let message = fail(
+        train("alternating", "tetrapod-2", "2")
+            .args(["--set", "controller.modular=alternating", "--from"])
+            .arg(path("together")),
+    );
+    assert_says(&message, &[", by place\"", "what was learned with it would be lost"]);
+    // A checkpoint of another body is none of this run.
+    fs::copy(path("hexapod").join("checkpoint"), path("whole").join("checkpoint"))?;
+    let message = fail(gambol("resume").arg(path("whole")).args(["--generations", "20", "--no-report"]));
+    assert_says(&message, &["the body that its nets are for"]);
     Ok(())
 }
 

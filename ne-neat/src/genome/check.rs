@@ -78,6 +78,9 @@ pub enum GenomeError {
     /// Connections form a cycle where none may be.
     #[error("connections: form a cycle, which a layout that is not recurrent does not allow")]
     Cycle,
+    /// The copies are out of range.
+    #[error("copies.{0}")]
+    CopySettings(SettingError),
     /// The copies are not copies of this net.
     #[error("copies: of a net of {expected} {what}, the layout has {found}")]
     Copies {
@@ -102,6 +105,7 @@ impl NeatGenome {
 
     fn check_copies(&self) -> Result<(), GenomeError> {
         let Some(copies) = &self.copies else { return Ok(()) };
+        copies.validate().map_err(GenomeError::CopySettings)?;
         for (what, expected, found) in [
             ("inputs", copies.small_inputs(), self.layout.inputs),
             ("outputs", copies.small_outputs(), self.layout.outputs),

@@ -87,7 +87,7 @@ impl NeatGenome {
 
     /// The most neurons that it may have.
     pub(crate) fn most_neurons(&self) -> usize {
-        GraphShape::MAX_NEURONS / self.copies.as_ref().map_or(1, |copies| copies.copies.len())
+        self.copies.as_ref().map_or(GraphShape::MAX_NEURONS, |copies| copies.most_neurons())
     }
 
     /// The genes of the neurons, in order of their numbers.

@@ -113,7 +113,7 @@ fn weights_of_any_finite_genes_are_finite() {
 #[test]
 fn errors_name_the_field() {
     type Change = fn(&mut Copies);
-    let changes: [(Change, &str); 10] = [
+    let changes: [(Change, &str); 11] = [
         (|c| c.inputs = 0, "inputs = 0 inputs: must be from 1 to 4096 inputs"),
         (|c| c.outputs.clear(), "outputs = 0 outputs: must be from 1 to 4096 outputs"),
         (|c| c.copies.clear(), "copies = 0 copies: must be from 1 to 4096 copies"),
@@ -123,7 +123,14 @@ fn errors_name_the_field() {
         ),
         (|c| c.copies[2].sign = 0.5, "copies[2].sign = 0.5: must be -1 or 1"),
         (|c| c.copies[0].senses[2].constant = f32::NAN, "copies[0].senses[2] = NaN: must be finite"),
-        (|c| c.copies[0].senses[1].sources[0].0 = 3, "copies[0].senses[1].sources = 3: must be an input below 3"),
+        (
+            |c| c.copies[0].senses[1].sources[0].0 = 3,
+            "copies[0].senses[1].sources = 3: must be an input below 3, listed once",
+        ),
+        (
+            |c| c.copies[0].senses[1].sources[0].0 = 0,
+            "copies[0].senses[1].sources = 0: must be an input below 3, listed once",
+        ),
         (|c| c.outputs[0].0 = 3, "outputs[0] = 0 of copy 3: must be of a copy below 3"),
         (|c| c.outputs[0].1 = 4096, "outputs[0] = 4096 of copy 1: must be below 4096"),
         (|c| c.outputs[1] = c.outputs[0], "outputs[1] = 0 of copy 1: must be listed once"),
@@ -133,4 +140,25 @@ fn errors_name_the_field() {
         change(&mut copies);
         assert_eq!(copies.validate().expect_err("not allowed").to_string(), message);
     }
+}
+
+#[test]
+fn a_whole_that_would_be_no_net_is_refused() {
+    let neuron = GraphNeuron { activation: Activation::Tanh, bias: true, sources: vec![0, 1, 2] };
+    let small = |neurons: usize| GraphShape {
+        inputs: 3,
+        recurrent: false,
+        neurons: vec![neuron.clone(); neurons],
+        outputs: vec![3, 4],
+    };
+    let error = |neurons, copies: Copies| {
+        let shape = CopiedShape { small: small(neurons).into(), copies: copies.into() };
+        shape.validate().expect_err("too large").to_string()
+    };
+    assert_eq!(error(21_846, body()), "small.neurons = 21846 neurons: must be at most 21845 with 3 copies");
+    // A sense of 4,096 inputs.
+    let mut wide = Copies { inputs: 4096, ..body() };
+    wide.copies[0].senses[0].sources = (0..4096).map(|input| (input, 1.0)).collect();
+    let found = 2000 * (1 + 4096 + 2 + 1) * 3;
+    assert_eq!(error(2000, wide), format!("small = {found} weights in all copies: must be at most 16777216"));
 }

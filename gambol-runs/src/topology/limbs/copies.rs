@@ -91,34 +91,47 @@ fn places(limbs: &[Limb]) -> usize {
 /// What a limb senses, by name.
 fn senses_of(limb: &Limb, sights: &Sights, places: usize) -> Vec<(String, CopySense)> {
     let from = |sources: &[(usize, f32)]| CopySense { constant: 0.0, sources: sources.to_vec() };
-    let mut sensed: Vec<(String, CopySense)> = Vec::new();
+    let mut sensed = Sensed(Vec::new());
     if places > 1 {
-        sensed.push(("place".into(), CopySense { constant: limb.place, sources: Vec::new() }));
+        sensed.add("place", CopySense { constant: limb.place, sources: Vec::new() });
     }
     for &(input, sight, slot) in &sights.seen {
         let name = &sights.slots[slot];
         match sight {
             Sight::ClockSine | Sight::ClockCosine => {
                 let is_sine = sight == Sight::ClockSine;
-                sensed.push((name.clone(), turned(input, is_sine, limb.phase)));
+                sensed.add(name, turned(input, is_sine, limb.phase));
                 for (wave, half_turns) in WAVES.iter().filter(|_| places >= PLACES_OF_A_WAVE) {
                     let phase = limb.phase + half_turns * PI * limb.place;
-                    sensed.push((format!("{name}, {wave}"), turned(input, is_sine, phase)));
+                    sensed.add(&format!("{name}, {wave}"), turned(input, is_sine, phase));
                 }
             }
-            Sight::Whole | Sight::Foot => sensed.push((name.clone(), from(&[(input, 1.0)]))),
+            Sight::Whole | Sight::Foot => sensed.add(name, from(&[(input, 1.0)])),
             Sight::Tilt => {
-                sensed.push((name.clone(), from(&[(input, 1.0)])));
-                sensed.push((sights.slots[slot + 1].clone(), from(&[(input, limb.place)])));
+                sensed.add(name, from(&[(input, 1.0)]));
+                sensed.add(&sights.slots[slot + 1], from(&[(input, limb.place)]));
             }
-            Sight::Joint => sensed.push((name.clone(), from(&[(input, limb.sign)]))),
-            Sight::Feet(share) => match sensed.iter_mut().find(|(known, _)| known == name) {
+            Sight::Joint => sensed.add(name, from(&[(input, limb.sign)])),
+            Sight::Feet(share) => match sensed.0.iter_mut().find(|(known, _)| known == name) {
                 Some((_, sense)) => sense.sources.push((input, share)),
-                None => sensed.push((name.clone(), from(&[(input, share)]))),
+                None => sensed.add(name, from(&[(input, share)])),
             },
         }
     }
-    sensed
+    sensed.0
+}
+
+/// Senses by name.
+struct Sensed(Vec<(String, CopySense)>);
+
+impl Sensed {
+    /// Adds one. Of several with one name, as sensors of one kind may be, all but the first are numbered.
+    fn add(&mut self, name: &str, sense: CopySense) {
+        let is_new = |name: &String| !self.0.iter().any(|(known, _)| known == name);
+        let numbered = (2..).map(|number| format!("{name} ({number})"));
+        let name = std::iter::once(name.to_owned()).chain(numbered).find(is_new);
+        self.0.extend(name.map(|name| (name, sense)));
+    }
 }
 
 /// A clock's sine or cosine, put forward by `phase`; `input` is that of the same before. The cosine follows the sine.

@@ -99,3 +99,15 @@ fn a_wave_runs_along_bodies_with_many_limbs() {
         }
     }
 }
+
+#[test]
+fn sensors_of_one_name_are_all_heard() {
+    let blueprint = Blueprint::new(creatures::find("tetrapod-1").expect("shipped")).expect("valid");
+    let (_, motors, controller) = body(&blueprint);
+    let gaps = [5.0, 6.0].map(|length| Sensor::NextGap { length });
+    let senses = Senses::new(&blueprint, &gaps, 1.0).expect("sensors");
+    let made = copies(&blueprint, &senses, &motors, &controller, LimbPhases::Alternating);
+    let heard = made.topology.copies.copies[0].senses.iter().flat_map(|sense| &sense.sources).map(|&(input, _)| input);
+    let heard: std::collections::BTreeSet<usize> = heard.collect();
+    assert_eq!(heard.len(), senses.len(), "{:?}", made.inputs);
+}
