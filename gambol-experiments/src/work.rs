@@ -113,7 +113,8 @@ impl<R> WorkOptions<'_, R> {
         }
     }
 
-    fn workers(&self) -> usize {
+    /// How many runs at the same time.
+    pub(crate) fn workers(&self) -> usize {
         match self.at_once {
             0 => thread::available_parallelism().map_or(1, NonZero::get),
             at_once => at_once,
@@ -134,38 +135,16 @@ impl<'a, R> Work<'a, R> {
         Self { options, all, done: AtomicUsize::new(0) }
     }
 
-    /// Does some of them at the same time, as many as the options say.
-    ///
-    /// # Errors
-    /// The first error; what is under way is finished first.
-    pub(crate) fn side_by_side<J: Sync, E: Send>(
-        &self,
-        jobs: &[J],
-        name: impl Fn(&J) -> String + Sync,
-        how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
-    ) -> Result<(), E> {
-        self.with_workers(self.options.workers(), jobs, name, how)
-    }
-
-    /// Does some of them one by one.
-    ///
-    /// # Errors
-    /// The first error.
-    pub(crate) fn one_by_one<J: Sync, E: Send>(
-        &self,
-        jobs: &[J],
-        name: impl Fn(&J) -> String + Sync,
-        how: impl Fn(&J) -> Result<Ended<R>, E> + Sync,
-    ) -> Result<(), E> {
-        self.with_workers(1, jobs, name, how)
-    }
-
     /// How many have not ended.
     pub(crate) fn left(self) -> usize {
         self.all - self.done.into_inner()
     }
 
-    fn with_workers<J: Sync, E: Send>(
+    /// Does some of the runs, at most `workers` at the same time.
+    ///
+    /// # Errors
+    /// The first error; runs under way are finished first.
+    pub(crate) fn side_by_side<J: Sync, E: Send>(
         &self,
         workers: usize,
         jobs: &[J],

@@ -12,6 +12,7 @@
 //! | part of NEAT | where |
 //! |---|---|
 //! | genes, and the net they build | `genome` |
+//! | one net for all limbs of a body | [`Neat::of_copies`], [`Copies`](ne_net::Copies) |
 //! | historical markings | `innovation.rs` |
 //! | distance between genomes | [`Compatibility`], `compatibility.rs` |
 //! | species, fitness sharing, stagnation | [`SpeciationSettings`], `speciation` |

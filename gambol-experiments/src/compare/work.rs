@@ -2,16 +2,16 @@ use super::{CompareError, ComparisonFolder, Plan, plan::Job, result::RunResult};
 use crate::work::{Ended, Work, WorkOptions};
 use gambol_runs::training::TrainError;
 
-/// Does the runs of a part that have not been done yet, and goes on with those that were interrupted; what is told of each is
-/// its best fitness. Gives the number of runs of the part that have not ended: none, unless the signal was given or other
-/// processes are at work on them.
+/// Does the runs of a part that are not done, and goes on with interrupted ones. [`Progress::best`](crate::compare::Progress) is the
+/// best fitness of a run. Returns how many runs of the part have not ended: 0, unless the signal was given or other processes
+/// work on them.
 ///
 /// # Errors
 /// If a run cannot be done or a file cannot be written; runs under way are finished first.
 pub fn work(folder: &ComparisonFolder, plan: &Plan, options: &WorkOptions<'_, f64>) -> Result<usize, CompareError> {
     let mine = options.part.of(plan.jobs());
     let work = Work::new(options, mine.len());
-    work.side_by_side(&mine, Job::name, |job| run(folder, job, options))?;
+    work.side_by_side(options.workers(), &mine, Job::name, |job| run(folder, job, options))?;
     Ok(work.left())
 }
 

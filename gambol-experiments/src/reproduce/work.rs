@@ -7,9 +7,9 @@ use crate::work::{Ended, Work, WorkOptions};
 use gambol_runs::run_folder::RunFolder;
 use ne_core::StopConditions;
 
-/// Does the runs of a part that have not been done yet, and goes on with those that were interrupted; a timed run that was
-/// begins anew. What is told of each is its champion. Gives the number of runs of the part that have not ended: none, unless
-/// the signal was given or other processes are at work on them.
+/// Does the runs of a part that are not done, and goes on with interrupted ones; an interrupted timed run begins anew.
+/// [`Progress::best`](crate::reproduce::Progress) is the champion of a run. Returns how many runs of the part have not ended: 0,
+/// unless the signal was given or other processes work on them.
 ///
 /// # Errors
 /// If a run cannot be done or a file cannot be written; runs under way are finished first.
@@ -21,9 +21,9 @@ pub fn work(
     let mine = options.part.of(plan.jobs());
     let work = Work::new(options, mine.len());
     let (timed, runs): (Vec<Job>, Vec<Job>) = mine.iter().partition(|job| matches!(job, Job::Clock { .. }));
-    work.side_by_side(&runs, Job::name, |job| run(folder, plan, job, options))?;
+    work.side_by_side(options.workers(), &runs, Job::name, |job| run(folder, plan, job, options))?;
     let minutes = plan.clock_minutes.as_deref().unwrap_or_default();
-    work.one_by_one(&timed, Job::name, |job| time(folder, job, minutes, options))?;
+    work.side_by_side(1, &timed, Job::name, |job| time(folder, job, minutes, options))?;
     Ok(work.left())
 }
 
