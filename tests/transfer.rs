@@ -49,7 +49,7 @@ fn transfer(creature: &str, movement: &str, seed: u64) -> Result<[(f64, bool); 2
             Ok(setup.task.evaluate(&mut champion.network.clone(), Seed::of_run(seed)))
         };
         let fitness = evaluate(&reference)?.fitness().map_or(f64::NEG_INFINITY, f64::from);
-        let falls = evaluate(&fallen)?.measurements.get("fall-ends").is_some_and(|&falls| falls > 0.0);
+        let falls = evaluate(&fallen)?.measurements.get("fall-ends").is_some_and(|falls| falls > 0.0);
         Ok((fitness, falls))
     };
     Ok([worth(EngineChoice::Lanes)?, worth(EngineChoice::Rapier)?])

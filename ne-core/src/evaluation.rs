@@ -1,6 +1,5 @@
-use crate::Fitness;
+use crate::{Fitness, Measurements};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// The result of evaluating one phenotype on a [`Task`](crate::Task).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -14,15 +13,15 @@ pub struct Evaluation {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub objectives: Vec<f64>,
     /// Named measurements, for reports; the task documents names and units.
-    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
-    pub measurements: BTreeMap<String, f64>,
+    #[serde(default, skip_serializing_if = "Measurements::is_empty")]
+    pub measurements: Measurements,
 }
 
 impl Evaluation {
     /// An evaluation with this fitness and no recorded work; NaN and infinities become [`Failure::NonFinite`].
     pub fn new(fitness: f64) -> Self {
         let outcome = Fitness::new(fitness).map_err(|_| Failure::NonFinite { what: "fitness".into() });
-        Self { outcome, steps: 0, objectives: Vec::new(), measurements: BTreeMap::new() }
+        Self { outcome, steps: 0, objectives: Vec::new(), measurements: Measurements::default() }
     }
 
     /// An evaluation that failed.
@@ -125,7 +124,7 @@ mod tests {
     #[test]
     fn survives_serialisation() {
         let mut evaluation = Evaluation::new(0.1).with_steps(2000);
-        evaluation.measurements.insert("energy_j".into(), 3.5);
+        evaluation.measurements.insert("energy_j", 3.5);
         for evaluation in [evaluation, Evaluation::failed(Failure::Unstable { what: "speed".into() })] {
             let text = serde_json::to_string(&evaluation).expect("serialises");
             assert_eq!(serde_json::from_str::<Evaluation>(&text).expect("deserialises"), evaluation);

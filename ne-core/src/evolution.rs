@@ -7,7 +7,11 @@ use crate::{
     checkpoint,
     promotion::{Decision, Promotion, StageState},
 };
-use std::{fmt, path::Path, time::Instant};
+use std::{
+    fmt,
+    path::Path,
+    time::{Duration, Instant},
+};
 
 /// The loop: asks the strategy, has its genomes evaluated, tells it the results, keeps the best, until it is time to
 /// stop.
@@ -127,7 +131,8 @@ impl<S: Strategy> Evolution<S> {
         evaluator: &impl Evaluator,
         observers: &mut [Box<dyn Observer<S> + '_>],
     ) -> Result<StopReason, EvolutionError> {
-        let start = Instant::now();
+        // The clock is not read without need: not everywhere is there one.
+        let start = self.stop.minutes.map(|_| Instant::now());
         loop {
             match self.decision {
                 Decision::Stay => {}
@@ -135,7 +140,9 @@ impl<S: Strategy> Evolution<S> {
                 Decision::Demote => return Ok(StopReason::Demoted),
             }
             let best = self.champion.as_ref().map(Champion::standing);
-            if let Some(reason) = self.stop.reached(&self.progress, best, start.elapsed()) {
+            if let Some(reason) =
+                self.stop.reached(&self.progress, best, start.map_or(Duration::ZERO, |start| start.elapsed()))
+            {
                 return Ok(reason);
             }
             if self.signal.is_set() {

@@ -1,12 +1,13 @@
 use ne_core::{Genome, SettingError};
 use ne_net::{Network, NetworkError, Topology, TopologyMap};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// The weights of a net of fixed topology, as a string of genes.
 ///
 /// The genes stand in the order the shape documents ([`DenseShape`](ne_net::DenseShape),
 /// [`GraphShape`](ne_net::GraphShape)), so that neighbours in the string lead to the same neuron. The topology is shared
-/// between individuals.
+/// between individuals, and the weights between copies of an individual until one of them changes.
 ///
 /// In JSON: `{"topology": …, "weights": […], "mutation_deviation": 0.1}`. Reading checks the topology, the number of
 /// weights and that they are finite.
@@ -14,7 +15,7 @@ use serde::{Deserialize, Serialize};
 #[serde(try_from = "UncheckedWeightVector")]
 pub struct WeightVector {
     topology: Topology,
-    weights: Vec<f32>,
+    weights: Arc<[f32]>,
     mutation_deviation: f32,
 }
 
@@ -45,12 +46,12 @@ impl WeightVector {
         topology.validate().map_err(|error| error.within("topology"))?;
         topology.check_weights(&weights)?;
         SettingError::check_range("mutation_deviation", mutation_deviation.into(), 0.0, f64::INFINITY)?;
-        Ok(Self { topology, weights, mutation_deviation })
+        Ok(Self::checked(topology, weights, mutation_deviation))
     }
 
     /// As [`new`](Self::new), of what has been checked.
     pub(crate) fn checked(topology: Topology, weights: Vec<f32>, mutation_deviation: f32) -> Self {
-        Self { topology, weights, mutation_deviation }
+        Self { topology, weights: weights.into(), mutation_deviation }
     }
 
     /// The genome of zeros, for a valid topology.
@@ -62,7 +63,7 @@ impl WeightVector {
     /// The same individual in a net that has grown: what is new begins at 0.
     pub(crate) fn remapped(&self, topology: &Topology, growth: &TopologyMap) -> Self {
         let weights = growth.transfer(&self.weights, 0.0);
-        Self { topology: topology.clone(), weights, mutation_deviation: self.mutation_deviation }
+        Self::checked(topology.clone(), weights, self.mutation_deviation)
     }
 
     /// The net without its weights.
@@ -83,12 +84,15 @@ impl WeightVector {
 
     /// The genes and the deviation, to be changed.
     pub(crate) fn genes_mut(&mut self) -> (&mut [f32], &mut f32) {
-        (&mut self.weights, &mut self.mutation_deviation)
+        (Arc::make_mut(&mut self.weights), &mut self.mutation_deviation)
     }
 
-    /// Becomes a copy of an individual of the same topology, without allocating.
+    /// Becomes a copy of an individual of the same topology, in its own memory unless that is shared.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.weights.copy_from_slice(&other.weights);
+        match Arc::get_mut(&mut self.weights) {
+            Some(own) => own.copy_from_slice(&other.weights),
+            None => self.weights = Arc::clone(&other.weights),
+        }
         self.mutation_deviation = other.mutation_deviation;
     }
 }

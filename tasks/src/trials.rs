@@ -1,7 +1,6 @@
 use crate::Movement;
-use ne_core::{Evaluation, Failure, SettingError};
+use ne_core::{Evaluation, Failure, Measurements, SettingError};
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeMap;
 
 /// How many trials make an evaluation, and what their values become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -58,13 +57,14 @@ pub struct Trial {
     outcome: Outcome,
     value: f64,
     objectives: Vec<f64>,
-    measurements: Vec<(String, f64)>,
+    measurements: Measurements,
 }
 
 impl Trial {
     /// A trial that ended so, watched by this movement.
     pub fn new(outcome: Outcome, movement: &dyn Movement) -> Self {
-        let mut trial = Self { outcome, value: f64::NAN, objectives: Vec::new(), measurements: Vec::new() };
+        let mut trial =
+            Self { outcome, value: f64::NAN, objectives: Vec::new(), measurements: Measurements::default() };
         trial.note(movement);
         trial
     }
@@ -78,22 +78,17 @@ impl Trial {
     fn note(&mut self, movement: &dyn Movement) {
         self.value = if self.failed() { f64::NAN } else { movement.value() };
         self.objectives.clear();
-        let mut count = 0;
         if self.value.is_finite() {
-            let Self { objectives, measurements, .. } = self;
+            let Self { outcome, objectives, measurements, .. } = self;
             movement.objectives(&mut |objective| objectives.push(objective));
-            movement.measurements(&mut |name, value| {
-                match measurements.get_mut(count) {
-                    Some((known, old)) if known == name => *old = value,
-                    _ => {
-                        measurements.truncate(count);
-                        measurements.push((name.to_owned(), value));
-                    }
-                }
-                count += 1;
+            let duration = f64::from(outcome.steps) * f64::from(outcome.time_step);
+            measurements.retell(|tell| {
+                movement.measurements(tell);
+                tell("duration", duration);
             });
+        } else {
+            self.measurements = Measurements::default();
         }
-        self.measurements.truncate(count);
     }
 
     /// Whether it failed, which ends its evaluation.
@@ -111,13 +106,13 @@ pub struct Tally {
     sum: f64,
     worst: f64,
     objectives: Vec<f64>,
-    measurements: BTreeMap<String, f64>,
+    measurements: Measurements,
 }
 
 impl Tally {
     /// Of no trials yet.
     pub fn new(trials: Trials) -> Self {
-        let (objectives, measurements) = (Vec::new(), BTreeMap::new());
+        let (objectives, measurements) = (Vec::new(), Measurements::default());
         Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, objectives, measurements }
     }
 
@@ -152,14 +147,7 @@ impl Tally {
             let failure = Failure::NonFinite { what: format!("objective {index}") };
             return Some(Evaluation::failed(failure).with_steps(self.steps));
         }
-        let duration = f64::from(outcome.steps) * f64::from(outcome.time_step);
-        let measured = measurements.iter().map(|(name, value)| (name.as_str(), *value));
-        for (name, value) in measured.chain([("duration", duration)]) {
-            match self.measurements.get_mut(name) {
-                Some(mean) => *mean += value / count,
-                None => drop(self.measurements.insert(name.to_owned(), value / count)),
-            }
-        }
+        self.measurements.add_share(measurements, count);
         if self.done < self.trials.count {
             return None;
         }

@@ -241,7 +241,7 @@ fn a_controller_of_another_shape_fails() {
 fn measurements_have_the_names_of_the_terms() {
     let movement = Sum::of(Running::default()).plus(-0.5, Energy::default());
     let evaluation = episode(PointMass::new(), movement, 16, ONE).evaluate(&mut Constant(1.0), SEED);
-    let names: Vec<&str> = evaluation.measurements.keys().map(String::as_str).collect();
+    let names: Vec<&str> = evaluation.measurements.iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["duration", "energy", "running"]);
     assert_eq!(evaluation.measurements["running"], way(16));
     assert_eq!(evaluation.measurements["duration"], 1.0);

@@ -50,9 +50,7 @@ impl SeveralBodies {
             for (mean, objective) in all.objectives.iter_mut().zip(&evaluation.objectives) {
                 *mean += objective / count;
             }
-            for (name, value) in &evaluation.measurements {
-                *all.measurements.entry(name.clone()).or_default() += value / count;
-            }
+            all.measurements.add_share(&evaluation.measurements, count);
         }
         all
     }

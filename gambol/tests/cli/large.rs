@@ -72,16 +72,20 @@ fn most_memory(command: &mut std::process::Command) -> u64 {
     most
 }
 
-/// Measured: 1.97 GB, most of it genomes, their copies in the loop, and evaluations with their measurements.
+/// Measured: 1.1 GB in the first generation and 1.8 GB from the second on, which has its parents beside it: of 1.8 kB an
+/// individual 1.2 are its 146 weights and those of its parent, the rest the evaluation and what holds all of it together.
 #[cfg(target_os = "linux")]
 #[test]
 #[ignore = "a million individuals: cargo test --release -p gambol --test cli large -- --ignored"]
-fn a_population_of_a_million_takes_little_more_than_two_gigabytes() -> Outcome {
+fn a_population_of_a_million_takes_less_than_two_gigabytes() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let mut train = gambol("train");
-    train.args(["apod", "running", "--preset", "thesis", "--population", "1000000", "--generations", "1"]);
-    train.args(["--set", "movement.steps=2", "--set", "record.populations_at=[1]", "--quiet", "--no-report", "--out"]);
-    let most = most_memory(train.arg(folder.path().join("run")));
-    assert!(most <= 2_200_000, "{most} kB");
+    for (generations, limit) in [(1, 1_300_000), (3, 1_950_000)] {
+        let mut train = gambol("train");
+        train.args(["apod", "running", "--preset", "thesis", "--strategy", "ga", "--population", "1000000"]);
+        train.args(["--set", "movement.steps=2", "--set", "record.populations_at=[1]", "--quiet", "--no-report"]);
+        train.args(["--generations", &generations.to_string(), "--out"]);
+        let most = most_memory(train.arg(folder.path().join(generations.to_string())));
+        assert!(most <= limit, "{most} kB in {generations} generations");
+    }
     Ok(())
 }

@@ -62,6 +62,8 @@ impl Evaluator for Parallel {
                 self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
             evaluate_phenotypes(task, &mut phenotypes, seed, self)
         };
-        genomes.chunks(AT_ONCE).flat_map(evaluate).collect()
+        let mut evaluations = Vec::with_capacity(genomes.len());
+        genomes.chunks(AT_ONCE).for_each(|some| evaluations.extend(evaluate(some)));
+        evaluations
     }
 }

@@ -152,8 +152,7 @@ fn validate_all(field: &str, rules: &[PromotionRule]) -> Result<(), SettingError
 impl MeasurementBound {
     fn is_met(&self, state: &StageState<'_>) -> bool {
         let found = state.evaluations.iter().filter(|evaluation| evaluation.outcome.is_ok());
-        let values: Vec<f64> =
-            found.filter_map(|evaluation| evaluation.measurements.get(&self.name).copied()).collect();
+        let values: Vec<f64> = found.filter_map(|evaluation| evaluation.measurements.get(&self.name)).collect();
         if values.is_empty() {
             return false;
         }

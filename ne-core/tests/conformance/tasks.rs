@@ -90,7 +90,7 @@ impl Task for Flawed {
         }
         let mut evaluation = Evaluation::new(sum).with_steps(10);
         if self.is(Flaw::MeasuresNan) {
-            evaluation.measurements.insert("speed".into(), f64::NAN);
+            evaluation.measurements.insert("speed", f64::NAN);
         }
         evaluation
     }

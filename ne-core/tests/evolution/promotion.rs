@@ -14,7 +14,7 @@ use ne_core::{
 fn is_met(rule: &PromotionRule) -> bool {
     let measured = |fitness: f64, duration: f64| {
         let mut evaluation = Evaluation::new(fitness).with_steps(10);
-        evaluation.measurements.insert("duration".into(), duration);
+        evaluation.measurements.insert("duration", duration);
         evaluation
     };
     let failed = Evaluation::failed(Failure::Unstable { what: "speed".into() });

@@ -66,7 +66,7 @@ impl Task for Gene {
             Some(fitness) => Evaluation::new(fitness),
             None => Evaluation::failed(Failure::Other { what: format!("no gene {}", self.0) }),
         };
-        evaluation.measurements.insert("task".into(), self.0 as f64);
+        evaluation.measurements.insert("task", self.0 as f64);
         evaluation.with_steps(self.steps())
     }
 

@@ -189,6 +189,6 @@ impl TryFrom<UncheckedGenome> for NeatGenome {
 
     fn try_from(unchecked: UncheckedGenome) -> Result<Self, GenomeError> {
         let UncheckedGenome { layout, nodes, connections, copies } = unchecked;
-        Self { layout, nodes, connections, copies }.checked()
+        Self::unchecked(layout, nodes, connections, copies).checked()
     }
 }

@@ -52,7 +52,7 @@ pub(crate) fn computation_order(genome: &NeatGenome) -> Vec<usize> {
 
 fn graph(genome: &NeatGenome, is_part: impl Fn(&ConnectionGene) -> bool) -> NeuronGraph {
     let mut graph = NeuronGraph::with_capacity(genome.nodes.len(), genome.connections.len());
-    for _ in &genome.nodes {
+    for _ in genome.nodes() {
         graph.add_node(());
     }
     for gene in genome.connections.iter().filter(|gene| is_part(gene)) {
@@ -108,10 +108,10 @@ fn sources_first(graph: &NeuronGraph, is_needed: &[bool]) -> Option<Vec<usize>> 
 /// The graph of the connections that close no cycle with older ones.
 fn forward_connections(genome: &NeatGenome) -> NeuronGraph {
     let mut forward = Acyclic::<NeuronGraph>::new();
-    for _ in &genome.nodes {
+    for _ in genome.nodes() {
         forward.add_node(());
     }
-    for gene in &genome.connections {
+    for gene in genome.connections() {
         if let Some((from, to)) = ends(genome, gene) {
             // Refused if it closes a cycle.
             let _ = forward.try_add_edge(from, to, ());

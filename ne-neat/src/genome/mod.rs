@@ -25,6 +25,8 @@ use std::sync::Arc;
 /// from which no way leads to an output. With [copies](Self::copies) the net that evolves is a small one, of one limb, say,
 /// and what is built is the whole.
 ///
+/// Copies of an individual share their genes until one of them changes.
+///
 /// In JSON: `{"layout": {"inputs": 2, "outputs": 1, "bias": "input-node", "recurrent": false}, "nodes": [{"id": 3,
 /// "activation": "tanh", "bias": 0}], "connections": [{"innovation": 0, "from": 0, "to": 3, "weight": 0.5, "enabled":
 /// true}]}`, and `"copies": {…}` if there are any. Reading checks all of the above.
@@ -32,8 +34,8 @@ use std::sync::Arc;
 #[serde(try_from = "UncheckedGenome")]
 pub struct NeatGenome {
     layout: Layout,
-    nodes: Vec<NodeGene>,
-    connections: Vec<ConnectionGene>,
+    nodes: Arc<Vec<NodeGene>>,
+    connections: Arc<Vec<ConnectionGene>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     copies: Option<Arc<Copies>>,
 }
@@ -44,7 +46,7 @@ impl NeatGenome {
     /// # Errors
     /// If it is not as described above; the error names the gene.
     pub fn new(layout: Layout, nodes: Vec<NodeGene>, connections: Vec<ConnectionGene>) -> Result<Self, GenomeError> {
-        Self { layout, nodes, connections, copies: None }.checked()
+        Self::unchecked(layout, nodes, connections, None).checked()
     }
 
     /// The same genes for the small net of these copies.
@@ -62,13 +64,22 @@ impl NeatGenome {
 
     /// A genome without genes, which is not yet a valid one: memory to write one into.
     pub(crate) fn blank(layout: Layout, copies: Option<Arc<Copies>>) -> Self {
-        Self { layout, nodes: Vec::new(), connections: Vec::new(), copies }
+        Self::unchecked(layout, Vec::new(), Vec::new(), copies)
     }
 
-    /// Becomes a copy of an individual of the same run, in its own memory.
+    fn unchecked(
+        layout: Layout,
+        nodes: Vec<NodeGene>,
+        connections: Vec<ConnectionGene>,
+        copies: Option<Arc<Copies>>,
+    ) -> Self {
+        Self { layout, nodes: Arc::new(nodes), connections: Arc::new(connections), copies }
+    }
+
+    /// Becomes a copy of an individual of the same run, in its own memory unless that is shared.
     pub(crate) fn copy_from(&mut self, other: &Self) {
-        self.nodes.clone_from(&other.nodes);
-        self.connections.clone_from(&other.connections);
+        copy_genes(&mut self.nodes, &other.nodes);
+        copy_genes(&mut self.connections, &other.connections);
     }
 
     /// The inputs and outputs, and what kind of nets these are.
@@ -125,18 +136,34 @@ impl NeatGenome {
 
     /// Both kinds of genes, to be changed.
     pub(crate) fn genes_mut(&mut self) -> (&mut Vec<NodeGene>, &mut Vec<ConnectionGene>) {
-        (&mut self.nodes, &mut self.connections)
+        (Arc::make_mut(&mut self.nodes), Arc::make_mut(&mut self.connections))
     }
 
     /// Adds a connection that the genome does not have yet.
     pub(crate) fn insert_connection(&mut self, gene: ConnectionGene) {
         let place = self.connections.partition_point(|other| other.innovation < gene.innovation);
-        self.connections.insert(place, gene);
+        insert_gene(&mut self.connections, place, gene);
     }
 
     /// Adds a neuron that the genome does not have yet.
     pub(crate) fn insert_node(&mut self, gene: NodeGene) {
         let place = self.nodes.partition_point(|other| other.id < gene.id);
-        self.nodes.insert(place, gene);
+        insert_gene(&mut self.nodes, place, gene);
     }
+}
+
+fn copy_genes<T: Clone>(to: &mut Arc<Vec<T>>, from: &Arc<Vec<T>>) {
+    match Arc::get_mut(to) {
+        Some(own) => own.clone_from(from),
+        None => *to = Arc::clone(from),
+    }
+}
+
+/// Large populations have no room for genes that may come one day: the memory grows by a few at a time.
+fn insert_gene<T: Clone>(genes: &mut Arc<Vec<T>>, place: usize, gene: T) {
+    let genes = Arc::make_mut(genes);
+    if genes.len() == genes.capacity() {
+        genes.reserve_exact(4);
+    }
+    genes.insert(place, gene);
 }

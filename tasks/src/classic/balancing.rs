@@ -114,14 +114,14 @@ impl Balanced {
             Some(failure) => return Evaluation::failed(failure).with_steps(self.decisions.into()),
             None => Evaluation::new(fitness).with_steps(self.decisions.into()),
         };
-        evaluation.measurements.insert(HELD.into(), self.held.into());
+        evaluation.measurements.insert(HELD, self.held.into());
         evaluation
     }
 }
 
 /// Whether an evaluation succeeded and tells of so many decisions held.
 pub(super) fn has_held(evaluation: &Evaluation, decisions: u32) -> bool {
-    evaluation.outcome.is_ok() && evaluation.measurements.get(HELD) == Some(&decisions.into())
+    evaluation.outcome.is_ok() && evaluation.measurements.get(HELD) == Some(decisions.into())
 }
 
 /// Checks a start angle against the failure angle, both in degrees. Upright is refused: doing nothing would hold it.

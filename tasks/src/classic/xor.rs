@@ -82,8 +82,8 @@ impl Task for Xor {
             }
         }
         let mut evaluation = Evaluation::new((4.0 - error) * (4.0 - error)).with_steps(PATTERNS.len() as u64);
-        evaluation.measurements.insert("error".into(), error);
-        evaluation.measurements.insert(RIGHT.into(), right.into());
+        evaluation.measurements.insert("error", error);
+        evaluation.measurements.insert(RIGHT, right.into());
         evaluation
     }
 }
@@ -94,6 +94,6 @@ impl Benchmark for Xor {
     }
 
     fn is_candidate(&self, evaluation: &Evaluation) -> bool {
-        evaluation.outcome.is_ok() && evaluation.measurements.get(RIGHT) == Some(&4.0)
+        evaluation.outcome.is_ok() && evaluation.measurements.get(RIGHT) == Some(4.0)
     }
 }

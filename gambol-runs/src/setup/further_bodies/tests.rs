@@ -52,9 +52,9 @@ fn combined(evaluations: &[Evaluation], combine: Combine) -> Evaluation {
     let mean = (fitnesses[0] + fitnesses[1] + fitnesses[2]) / count;
     let mut all = Evaluation::new(if combine == Combine::Mean { mean } else { worst });
     all.steps = evaluations[0].steps + evaluations[1].steps + evaluations[2].steps;
-    for name in evaluations[0].measurements.keys() {
+    for (name, _) in evaluations[0].measurements.iter() {
         let [a, b, c] = [0, 1, 2].map(|body: usize| evaluations[body].measurements[name] / count);
-        all.measurements.insert(name.clone(), a + b + c);
+        all.measurements.insert(name, a + b + c);
     }
     for index in 0..evaluations[0].objectives.len() {
         let [a, b, c] = [0, 1, 2].map(|body: usize| evaluations[body].objectives[index] / count);
