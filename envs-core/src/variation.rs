@@ -49,9 +49,9 @@ pub struct Variation {
     /// The highest of the [bumps](crate::bumps()) on flat ground, m, for as far as 20 body lengths; the lowest are a tenth
     /// as high. A terrain that is not flat has none, nor has water. 0, or from 0.01 to 0.1; default 0, none.
     pub bumps: f32,
-    /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; default `false`:
-    /// all have that of the terrain's own seed.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; `true` in
+    /// [`light`](Self::light), [`bumpy`](Self::bumpy) and [`strong`](Self::strong), default `false`: all have that of the terrain's
+    /// own seed.
     pub terrain: bool,
     /// Whether the first of several trials is in a [near](Self::near) world, so that the world of the settings is
     /// never out of sight; bumps and terrain it shares with the others; default `false`. With one trial alone it has no effect.
@@ -134,6 +134,7 @@ impl Variation {
     pub const fn light() -> Self {
         Self {
             near_first: true,
+            terrain: true,
             friction: 0.3,
             mass: 0.1,
             torque: 0.1,
@@ -325,7 +326,7 @@ impl Variation {
     }
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
-    pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
+    pub fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
         if self.bumps == 0.0 || self.is_near(seed) {
             return Vec::new();
         }

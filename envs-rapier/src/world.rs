@@ -6,6 +6,9 @@ use tasks::PartState;
 /// rapier's own index of a collider, small and dense in a world where nothing is ever removed.
 type ColliderIndex = usize;
 
+/// The bit by which rapier marks a contact that has just begun, in what is else the index of a point.
+const NEW_CONTACT: u32 = 1 << 31;
+
 /// A rapier world with ground and one creature in it.
 pub struct RapierWorld {
     /// rapier's sets and settings.
@@ -143,11 +146,17 @@ impl RapierWorld {
     fn touching(&self, ground: ColliderHandle) -> impl Iterator<Item = usize> + '_ {
         self.physics.narrow_phase.contact_pairs_with(ground).filter_map(move |pair| {
             let other = if pair.collider1 == ground { pair.collider2 } else { pair.collider1 };
-            let presses =
-                || pair.solver_manifolds().iter().any(|m| m.points.iter().any(|point| point.data.impulse > 0.0));
-            self.part_of.get(index_of(other)).copied().flatten().filter(|_| presses())
+            self.part_of.get(index_of(other)).copied().flatten().filter(|_| pair.solver_manifolds().iter().any(presses))
         })
     }
+}
+
+/// Whether a point of contact was solved in the last step and pressed. One that was left out, as it is too far away by now, still has
+/// the impulse of an earlier step.
+fn presses(manifold: &ContactManifold) -> bool {
+    let mut solved = manifold.data.solver_contacts.iter().flat_map(|contact| contact.contact_id);
+    let point = |id| manifold.points.get((id & !NEW_CONTACT) as usize);
+    solved.any(|id| point(id).is_some_and(|point| point.data.impulse > 0.0))
 }
 
 impl Engine for RapierWorld {

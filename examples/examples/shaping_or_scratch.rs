@@ -1,9 +1,9 @@
 //! The experiment behind shaping: does it help to run on the flat before leaping gaps? `thrift.rs` has the one on thrift.
 //!
-//! Without arguments it is a matter of seconds and proves nothing; ten paired seeds, as docs/shaping.md has them:
+//! Without arguments it is a matter of seconds and proves nothing; thirty paired seeds:
 //!
 //! ```text
-//! cargo run --release -p gambol-examples --example shaping_or_scratch -- 10 8000000 runs/shaping
+//! cargo run --release -p gambol-examples --example shaping_or_scratch -- 30 8000000 runs/shaping
 //! ```
 //!
 //! Arguments: seeds, physics steps of each run, a folder for the runs.

@@ -1,8 +1,8 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::judge::Judge;
-use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
-use ne_core::{Purpose, Seed};
+use envs_core::{Conditions, Ground, GroundShape, Landscape, Variation, bumps};
+use ne_core::{Purpose, RandomStream, Seed};
 use rand::RngExt;
 use serde::Serialize;
 use tasks::Environment;
@@ -25,7 +25,8 @@ const FARTHEST: f32 = 500.0;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
-    /// Mounds on the ground; a terrain that is not flat is laid out anew instead. In water nothing changes.
+    /// Mounds on the ground. A terrain that is not flat has none, and is laid out anew, as in the worlds of all causes. In water
+    /// nothing changes.
     Bumps,
     /// [Pushes](Variation::pushed) against the torso.
     Pushes,
@@ -35,10 +36,12 @@ pub enum Cause {
     Physics,
     /// All of it.
     Together,
+    /// What a given variation draws, in place of the others.
+    Variation,
 }
 
 impl Cause {
-    /// All causes, in the order in which worlds take turns.
+    /// The causes that take turns, in this order.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Pushes, Self::Friction, Self::Physics, Self::Together];
 
     /// Its name, as in files.
@@ -49,6 +52,7 @@ impl Cause {
             Self::Friction => "friction",
             Self::Physics => "physics",
             Self::Together => "together",
+            Self::Variation => "variation",
         }
     }
 
@@ -56,12 +60,12 @@ impl Cause {
         matches!(self, Self::Bumps | Self::Together)
     }
 
-    /// How its worlds vary, but for bumps.
+    /// How its worlds vary, but for bumps; a given variation is no cause's.
     fn variation(self) -> Variation {
         let body =
             Variation { friction: FRICTION, mass: MASS, torque: TORQUE, start_pose: 0.05, ..Variation::default() };
         match self {
-            Self::Bumps => Variation::default(),
+            Self::Bumps | Self::Variation => Variation::default(),
             Self::Pushes => Variation::pushed(),
             Self::Friction => body,
             Self::Physics => Variation::physics(),
@@ -99,28 +103,59 @@ impl World {
         reach: f32,
         change: impl Fn(Variation) -> Variation,
     ) -> Self {
-        let environment = judge.environment();
         let seed = seed.trial(index);
         let cause = Cause::ALL[index as usize % Cause::ALL.len()];
-        let conditions = change(cause.variation()).draw(seed, environment.outputs());
-        let time_step = environment.settings().time_step * conditions.time_step;
-        let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
-        let mut stream = seed.stream(PERTURBATION);
-        let unchanged = !cause.has_bumps() || environment.settings().water.is_some();
-        let (landscape, bumps) = if unchanged {
-            (environment.landscape().clone(), 0)
-        } else if !terrain.is_flat() {
-            (Landscape::new(terrain, stream.random(), blueprint), 0)
-        } else {
-            let [left, _, right, _] = blueprint.bounding_box();
-            let bumps = bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST));
-            let count = bumps.len();
-            let mut ground = Ground::flat();
-            ground.shapes.extend(bumps);
-            (ground.into(), count)
+        let mounds = |stream: &mut RandomStream| {
+            let [left, _, right, _] = judge.environment().blueprint().bounding_box();
+            bumps(stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST))
         };
+        let mut stream = seed.stream(PERTURBATION);
+        let (landscape, bumps) = match another_terrain(judge, &mut stream) {
+            Some(landscape) => (landscape, 0),
+            None if cause.has_bumps() => with_bumps(judge, mounds(&mut stream)),
+            None => with_bumps(judge, Vec::new()),
+        };
+        Self::new(cause, change(cause.variation()).draw(seed, judge.environment().outputs()), landscape, bumps, judge)
+    }
+
+    /// The world of this index of a variation. It has no near trials, and a terrain that is not flat is laid out anew in each.
+    pub(crate) fn draw_of(variation: Variation, seed: Seed, index: u32, judge: &Judge) -> Self {
+        let seed = seed.trial(index);
+        let variation = Variation { near_first: false, ..variation };
+        let blueprint = judge.environment().blueprint();
+        let (landscape, bumps) = match another_terrain(judge, &mut seed.stream(PERTURBATION)) {
+            Some(landscape) => (landscape, 0),
+            None => {
+                let [left, _, right, _] = blueprint.bounding_box();
+                with_bumps(judge, variation.draw_bumps(seed, [left, right], blueprint.body_length()))
+            }
+        };
+        let conditions = variation.draw(seed, judge.environment().outputs());
+        Self::new(Cause::Variation, conditions, landscape, bumps, judge)
+    }
+
+    fn new(cause: Cause, conditions: Conditions, landscape: Landscape, bumps: usize, judge: &Judge) -> Self {
+        let time_step = judge.environment().settings().time_step * conditions.time_step;
         Self { cause, conditions, landscape, bumps, time_step }
     }
+}
+
+/// The judge's terrain laid out anew, if it is not flat.
+fn another_terrain(judge: &Judge, stream: &mut RandomStream) -> Option<Landscape> {
+    let (terrain, blueprint) = (judge.environment().terrain(), judge.environment().blueprint());
+    (!terrain.is_flat() && judge.environment().settings().water.is_none())
+        .then(|| Landscape::new(terrain, stream.random(), blueprint))
+}
+
+/// The judge's ground with these bumps, and how many they are; in water there are none.
+fn with_bumps(judge: &Judge, bumps: Vec<GroundShape>) -> (Landscape, usize) {
+    if bumps.is_empty() || judge.environment().settings().water.is_some() {
+        return (judge.environment().landscape().clone(), 0);
+    }
+    let count = bumps.len();
+    let mut ground = Ground::flat();
+    ground.shapes.extend(bumps);
+    (ground.into(), count)
 }
 
 #[cfg(test)]
@@ -128,12 +163,16 @@ pub(crate) mod tests {
     use super::*;
     use crate::Registry;
     use crate::episode_parts::EpisodeParts;
-    use creatures::{Actuation, DEFAULT_INPUT_RANGE, Terrain};
+    use creatures::{Actuation, DEFAULT_INPUT_RANGE, Obstacles, Terrain};
     use envs_core::GroundShape;
     use envs_rapier::{PhysicsSettings, Variation};
     use tasks::{MovementSpec, Trials};
 
     pub(crate) fn judge(creature: &str, movement: &str) -> Judge {
+        judge_on(creature, movement, &Terrain::default())
+    }
+
+    fn judge_on(creature: &str, movement: &str, terrain: &Terrain) -> Judge {
         let parts = EpisodeParts {
             creature: &creatures::find(creature).expect("shipped"),
             sensors: None,
@@ -142,7 +181,7 @@ pub(crate) mod tests {
             trials: Trials::default(),
             variation: Variation::default(),
             physics: PhysicsSettings::default(),
-            terrain: &Terrain::default(),
+            terrain,
             actuation: Actuation::default(),
         };
         Judge::new(parts, &Registry::default()).expect("builds")
@@ -190,5 +229,33 @@ pub(crate) mod tests {
         assert!((6.0..8.0).contains(&farthest(8.0)), "{}", farthest(8.0));
         assert!((42.0..48.0).contains(&farthest(45.0)), "{}", farthest(45.0));
         assert!(farthest(1e9) <= FARTHEST);
+    }
+
+    #[test]
+    fn a_terrain_is_laid_out_anew_in_every_world() {
+        let terrain = Terrain::of(vec![Obstacles::Gaps { width: None, spacing: None }]);
+        let judge = judge_on("tetrapod-2", "running", &terrain);
+        let mut layouts: Vec<Landscape> = (0..10)
+            .map(|index| World::draw(Seed::of_run(3), index, &judge, 10.0))
+            .chain((0..10).map(|index| World::draw_of(Variation::light(), Seed::of_run(4), index, &judge)))
+            .inspect(|world| assert_eq!(world.bumps, 0))
+            .map(|world| world.landscape)
+            .collect();
+        layouts.push(judge.environment().landscape().clone());
+        for (index, layout) in layouts.iter().enumerate() {
+            assert!(!layouts[..index].contains(layout), "{index}");
+        }
+    }
+
+    #[test]
+    fn the_worlds_of_a_variation_are_as_it_draws_them() {
+        let judge = judge("biped-1", "running");
+        for index in 0..20 {
+            let world = World::draw_of(Variation::bumpy(), Seed::of_run(3), index, &judge);
+            assert_eq!((world.cause, world.bumps > 0), (Cause::Variation, true));
+            assert!(world.conditions.solver_iterations.is_some() && !world.conditions.pushes.is_empty());
+            let bare = World::draw_of(Variation::default(), Seed::of_run(3), index, &judge);
+            assert_eq!((bare.bumps, bare.conditions.friction, bare.landscape.ground.shapes.len()), (0, 1.0, 1));
+        }
     }
 }

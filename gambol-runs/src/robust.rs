@@ -14,7 +14,7 @@ use crate::{
     },
     perturbation::World,
 };
-use envs_core::Conditions;
+use envs_core::{Conditions, Variation};
 use envs_lanes::LANES;
 use ne_core::{Seed, SettingError};
 use rayon::prelude::*;
@@ -37,7 +37,7 @@ pub struct Robustness {
     pub judged_as: String,
     /// How they look at them.
     pub view: View,
-    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world, nor has water.
+    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world. Nor has water.
     #[serde(skip)]
     pub bumpy: bool,
     /// Whether it is usable without perturbation, and in near worlds.
@@ -47,7 +47,7 @@ pub struct Robustness {
     pub progress_unperturbed: f64,
     /// Share of the perturbed worlds in which its gait is usable, 0 to 1.
     pub usable_share: f64,
-    /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`]; causes without a world are left
+    /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`], or of the given variation's worlds alone; causes without a world are left
     /// out.
     pub causes: Vec<CauseShare>,
     /// The median of progress in a perturbed world over that without perturbation; `None` if there was none without.
@@ -139,18 +139,39 @@ pub enum RobustnessError {
     },
 }
 
-/// Replays a champion in so many perturbed worlds (1 to 100 000), on the threads of the current pool. What comes out is a
-/// function of champion, number and seed, whatever the threads.
+/// The worlds a champion is replayed in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Perturbations {
+    /// How many, from 1 to 100,000.
+    pub count: u32,
+    /// What they are drawn from.
+    pub seed: u64,
+    /// Draws the worlds as those of training, in place of the causes; `near_first` has no effect.
+    pub variation: Option<Variation>,
+}
+
+impl Default for Perturbations {
+    /// 100 worlds of seed 1, in which causes take turns.
+    fn default() -> Self {
+        Self { count: 100, seed: 1, variation: None }
+    }
+}
+
+/// Replays a champion in perturbed worlds, on the threads of the current pool. What comes out is a function of champion and
+/// perturbations, whatever the threads.
 ///
 /// # Errors
-/// If the number is out of range, a field of the champion is, or its movement is unknown or not judged.
+/// If the number of worlds or a field of the variation or the champion is out of range, or its movement is unknown or not judged.
 pub fn robustness(
     champion: &Champion,
     registry: &Registry,
-    perturbations: u32,
-    seed: u64,
+    perturbations: &Perturbations,
 ) -> Result<Robustness, RobustnessError> {
-    SettingError::check_range("perturbations", perturbations.into(), 1.0, MOST.into())?;
+    let &Perturbations { count, seed, variation } = perturbations;
+    SettingError::check_range("perturbations", count.into(), 1.0, MOST.into())?;
+    if let Some(variation) = variation {
+        variation.validate().map_err(|error| error.within("variation"))?;
+    }
     let judge = Judge::new(champion.episode_parts(), registry)?;
     let rules = judge.rules().ok_or_else(|| RobustnessError::NotJudged {
         movement: champion.movement.name.clone(),
@@ -159,11 +180,14 @@ pub fn robustness(
     let unperturbed = judge.judge(&champion.network);
     let progress_unperturbed = unperturbed.as_ref().map_or(0.0, GaitReport::progress);
     let reach = progress_unperturbed.abs() as f32 + BEYOND;
-    let indices: Vec<u32> = (0..perturbations).collect();
+    let indices: Vec<u32> = (0..count).collect();
     let trials: Vec<PerturbedTrial> = indices
         .par_chunks(LANES)
         .flat_map_iter(|indices| {
-            let draw = |&index: &u32| World::draw(Seed::of_run(seed), index, &judge, reach);
+            let draw = |&index: &u32| match variation {
+                Some(variation) => World::draw_of(variation, Seed::of_run(seed), index, &judge),
+                None => World::draw(Seed::of_run(seed), index, &judge, reach),
+            };
             let worlds: Vec<World> = indices.iter().map(draw).collect();
             let places: Vec<_> =
                 worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
@@ -171,7 +195,7 @@ pub fn robustness(
             worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, report))
         })
         .collect();
-    let share = |count: usize| count as f64 / f64::from(perturbations);
+    let share = |trials: usize| trials as f64 / f64::from(count);
     Ok(Robustness {
         judged_as: rules.name().to_owned(),
         view: rules.view(),
@@ -198,7 +222,7 @@ fn causes(trials: &[PerturbedTrial]) -> Vec<CauseShare> {
         let worlds = worlds.count();
         (worlds > 0).then(|| CauseShare { cause, worlds, usable_share: usable as f64 / worlds as f64 })
     };
-    Cause::ALL.into_iter().filter_map(share).collect()
+    Cause::ALL.into_iter().chain([Cause::Variation]).filter_map(share).collect()
 }
 
 /// How many trials each reason speaks against, the most first.

@@ -9,7 +9,7 @@ use crate::{
     gait,
     judge::USABLE,
     request::Request,
-    robust::robustness,
+    robust::{Perturbations, robustness},
     texts::csv_cell,
     training::{TrainOptions, train},
 };
@@ -303,7 +303,7 @@ impl Gaits {
             (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
         }
         if self.robust && report.verdict.is_some() {
-            run.robust = Some(robustness(champion, registry, 100, 1)?.usable_share);
+            run.robust = Some(robustness(champion, registry, &Perturbations::default())?.usable_share);
         }
         Ok(())
     }

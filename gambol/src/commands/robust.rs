@@ -2,7 +2,7 @@ use super::{Outcome, gait::champion_file};
 use crate::{
     Registry,
     champion::Champion,
-    robust::{Cause, Robustness, robustness},
+    robust::{Cause, Perturbations, Robustness, robustness},
 };
 use clap::Args;
 use std::{io, path::PathBuf, process::ExitCode};
@@ -13,14 +13,16 @@ use tasks::gait::Goal;
 Examples:
   gambol robust runs/biped-1-running
   gambol robust champion.json --perturbations 1000 --seed 7 --json
+  gambol robust runs/over-gaps --variation light
 
 Worlds take turns in what is changed:
-  bumps      mounds on the ground, up to 2 cm high; a terrain is laid out anew in their place
+  bumps      mounds on the ground, up to 2 cm high; a terrain has none, and is laid out anew in every world
   pushes     against the torso, up to 0.3 m/s of the whole body, every 2 to 4 s
   friction   friction ± 30 %, mass and motor torque ± 10 %, the start pose by up to 3 degrees
   physics    what engines differ in: 1 to 8 solver iterations, joints of 30 Hz to 1 kHz, contacts of half to 4 times the
              frequency and half to twice the damping, motor gain times 0.5 to 50, gravity ± 5 %, steps of 1/240 to 1/40 s
   together   all of it
+or, with --variation, all are as that draws them for training.
 In each the champion is replayed and judged as gambol gait does,
 but for near worlds. Same seed, same worlds, on any number of threads.")]
 pub(crate) struct Robust {
@@ -34,6 +36,9 @@ pub(crate) struct Robust {
     /// The seed of the worlds
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Worlds as this variation draws them for training, in place of the causes: a name (see: gambol variations)
+    #[arg(long, value_name = "NAME")]
+    variation: Option<String>,
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
     #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
@@ -47,12 +52,14 @@ impl Robust {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let path = champion_file(&self.champion)?;
         let champion = Champion::read(&path)?;
+        let variation = self.variation.as_deref().map(|name| registry.variations.find(name).cloned()).transpose()?;
+        let perturbations = Perturbations { count: self.perturbations, seed: self.seed, variation };
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(self.threads)
             .build()
             .map_err(|error| format!("cannot start {} threads: {error}", self.threads))?;
         let robustness = pool
-            .install(|| robustness(&champion, registry, self.perturbations, self.seed))
+            .install(|| robustness(&champion, registry, &perturbations))
             .map_err(|error| format!("{}: {error}", path.display()))?;
         if self.json {
             say!("{}", serde_json::to_string(&robustness)?)?;
@@ -83,6 +90,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
         let cause = match share.cause {
             Cause::Bumps if robustness.view.in_water => "in water",
             Cause::Bumps if !robustness.bumpy => "another terrain",
+            Cause::Variation => "as varied",
             cause => cause.name(),
         };
         say!("  {cause:<15}  {} of {}", percent(share.usable_share), share.worlds)?;

@@ -45,6 +45,22 @@ fn worlds_come_from_the_seed_and_not_from_the_threads() -> Outcome {
 }
 
 #[test]
+fn worlds_can_be_those_of_a_variation() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let champion = trained(folder.path(), "jumping");
+    let result: Value = serde_json::from_str(&robust(&champion, "3", &["--variation", "bumpy"]))?;
+    for trial in result["trials"].as_array().expect("a list") {
+        assert_eq!(trial["cause"], "variation");
+        assert!(trial["bumps"].as_u64() > Some(0) && trial["pushes"].as_u64() > Some(0), "{trial}");
+    }
+    assert_eq!(result["causes"][0]["worlds"], 3);
+    let told = succeed(gambol("robust").arg(&champion).args(["--perturbations", "3", "--variation", "light"]));
+    assert!(told.contains("as varied        0 % of 3"), "{told}");
+    assert_says(&fail(gambol("robust").arg(&champion).args(["--variation", "lihgt"])), &["lihgt", "light"]);
+    Ok(())
+}
+
+#[test]
 fn a_champion_that_stands_still_is_usable_nowhere() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (movement, reason) in [("running", "slow"), ("jumping", "never-aloft")] {

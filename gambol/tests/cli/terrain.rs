@@ -48,7 +48,7 @@ fn on_flat_ground_nothing_is_said_of_terrains() -> Outcome {
     succeed(small_run_of("biped-1", "running", &flat, 2).args(["--terrain", "flat:0.7"]));
     for file in ["config.json", "champion.json", "log.jsonl"] {
         let text = fs::read_to_string(plain.join(file))?;
-        assert!(!text.contains("terrain"), "{file}");
+        assert!(!text.contains("obstacles"), "{file}");
         assert_eq!(text, fs::read_to_string(flat.join(file))?, "{file}");
     }
     assert!(!run(gambol("gait").arg(&plain)).stdout.contains("crossed"));
