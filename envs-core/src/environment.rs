@@ -265,7 +265,12 @@ impl<E: Engine> CreatureEnvironment<E> {
 
     /// What the creature moves on in the trial with this seed.
     pub fn landscape_of(&self, seed: Seed) -> Cow<'_, Landscape> {
-        let Plan { blueprint, settings, variation, landscape, terrain, .. } = &*self.plan;
+        self.landscape_under(&self.plan.variation, seed)
+    }
+
+    /// The same if the world differed from trial to trial as this variation has it.
+    pub fn landscape_under(&self, variation: &Variation, seed: Seed) -> Cow<'_, Landscape> {
+        let Plan { blueprint, settings, landscape, terrain, .. } = &*self.plan;
         if settings.water.is_some() {
             return Cow::Borrowed(landscape);
         }

@@ -326,7 +326,7 @@ impl Variation {
     }
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
-    pub fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
+    pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
         if self.bumps == 0.0 || self.is_near(seed) {
             return Vec::new();
         }

@@ -1,8 +1,8 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::judge::Judge;
-use envs_core::{Conditions, Ground, GroundShape, Landscape, Variation, bumps};
-use ne_core::{Purpose, RandomStream, Seed};
+use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
+use ne_core::{Purpose, Seed};
 use rand::RngExt;
 use serde::Serialize;
 use tasks::Environment;
@@ -103,59 +103,42 @@ impl World {
         reach: f32,
         change: impl Fn(Variation) -> Variation,
     ) -> Self {
+        let environment = judge.environment();
         let seed = seed.trial(index);
         let cause = Cause::ALL[index as usize % Cause::ALL.len()];
-        let mounds = |stream: &mut RandomStream| {
-            let [left, _, right, _] = judge.environment().blueprint().bounding_box();
-            bumps(stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST))
-        };
+        let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
         let mut stream = seed.stream(PERTURBATION);
-        let (landscape, bumps) = match another_terrain(judge, &mut stream) {
-            Some(landscape) => (landscape, 0),
-            None if cause.has_bumps() => with_bumps(judge, mounds(&mut stream)),
-            None => with_bumps(judge, Vec::new()),
+        let landscape = if environment.settings().water.is_some() {
+            environment.landscape().clone()
+        } else if !terrain.is_flat() {
+            Landscape::new(terrain, stream.random(), blueprint)
+        } else if cause.has_bumps() {
+            let [left, _, right, _] = blueprint.bounding_box();
+            let mut ground = Ground::flat();
+            ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST)));
+            ground.into()
+        } else {
+            environment.landscape().clone()
         };
-        Self::new(cause, change(cause.variation()).draw(seed, judge.environment().outputs()), landscape, bumps, judge)
+        Self::new(cause, change(cause.variation()), seed, landscape, judge)
     }
 
     /// The world of this index of a variation. It has no near trials, and a terrain that is not flat is laid out anew in each.
     pub(crate) fn draw_of(variation: Variation, seed: Seed, index: u32, judge: &Judge) -> Self {
         let seed = seed.trial(index);
-        let variation = Variation { near_first: false, ..variation };
-        let blueprint = judge.environment().blueprint();
-        let (landscape, bumps) = match another_terrain(judge, &mut seed.stream(PERTURBATION)) {
-            Some(landscape) => (landscape, 0),
-            None => {
-                let [left, _, right, _] = blueprint.bounding_box();
-                with_bumps(judge, variation.draw_bumps(seed, [left, right], blueprint.body_length()))
-            }
-        };
-        let conditions = variation.draw(seed, judge.environment().outputs());
-        Self::new(Cause::Variation, conditions, landscape, bumps, judge)
+        let variation = Variation { near_first: false, terrain: true, ..variation };
+        let landscape = judge.environment().landscape_under(&variation, seed).into_owned();
+        Self::new(Cause::Variation, variation, seed, landscape, judge)
     }
 
-    fn new(cause: Cause, conditions: Conditions, landscape: Landscape, bumps: usize, judge: &Judge) -> Self {
-        let time_step = judge.environment().settings().time_step * conditions.time_step;
+    fn new(cause: Cause, variation: Variation, seed: Seed, landscape: Landscape, judge: &Judge) -> Self {
+        let environment = judge.environment();
+        let conditions = variation.draw(seed, environment.outputs());
+        let time_step = environment.settings().time_step * conditions.time_step;
+        let flat = environment.terrain().is_flat();
+        let bumps = if flat { landscape.ground.shapes.len() - environment.landscape().ground.shapes.len() } else { 0 };
         Self { cause, conditions, landscape, bumps, time_step }
     }
-}
-
-/// The judge's terrain laid out anew, if it is not flat.
-fn another_terrain(judge: &Judge, stream: &mut RandomStream) -> Option<Landscape> {
-    let (terrain, blueprint) = (judge.environment().terrain(), judge.environment().blueprint());
-    (!terrain.is_flat() && judge.environment().settings().water.is_none())
-        .then(|| Landscape::new(terrain, stream.random(), blueprint))
-}
-
-/// The judge's ground with these bumps, and how many they are; in water there are none.
-fn with_bumps(judge: &Judge, bumps: Vec<GroundShape>) -> (Landscape, usize) {
-    if bumps.is_empty() || judge.environment().settings().water.is_some() {
-        return (judge.environment().landscape().clone(), 0);
-    }
-    let count = bumps.len();
-    let mut ground = Ground::flat();
-    ground.shapes.extend(bumps);
-    (ground.into(), count)
 }
 
 #[cfg(test)]

@@ -47,8 +47,8 @@ pub struct Robustness {
     pub progress_unperturbed: f64,
     /// Share of the perturbed worlds in which its gait is usable, 0 to 1.
     pub usable_share: f64,
-    /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`], or of the given variation's worlds alone; causes without a world are left
-    /// out.
+    /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`], or of the given variation's worlds alone;
+    /// causes without a world are left out.
     pub causes: Vec<CauseShare>,
     /// The median of progress in a perturbed world over that without perturbation; `None` if there was none without.
     pub fitness_kept: Option<f64>,
