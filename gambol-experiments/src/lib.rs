@@ -5,10 +5,12 @@
 //! | [`compare`] | strategies against each other, with the same seeds and statistics |
 //! | [`tune`] | the settings of a strategy, by random search on seeds of its own |
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
+//! | [`gaits`] | how many gaits are usable, how soon and how robust; what each piece of the default preset is worth |
 //! | [`benchmarks`] | the strategies on classic tasks, beside published numbers |
 
 pub mod benchmarks;
 pub mod compare;
+pub mod gaits;
 pub mod reproduce;
 pub mod tune;
 mod work;

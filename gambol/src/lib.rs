@@ -6,7 +6,7 @@
 //! | crate | modules |
 //! |---|---|
 //! | `gambol-runs`: one run | [`config`], [`strategies`], [`defaults`], [`presets`], [`Registry`], [`setup`], [`training`], [`shaping`], [`champion`], [`gait`], [`robust`], [`run_folder`] and others |
-//! | `gambol-experiments`: many runs | [`compare`], [`tune`], [`reproduce`], [`benchmarks`] |
+//! | `gambol-experiments`: many runs | [`compare`], [`tune`], [`reproduce`], [`gaits`], [`benchmarks`] |
 //! | `gambol-reports`: pages and pictures | [`report`], [`sheet`], [`dot`] |
 //!
 //! [`complete_run`] trains, reports and verifies in one call.
@@ -15,6 +15,6 @@ mod commands;
 pub mod complete_run;
 
 pub use commands::program;
-pub use gambol_experiments::{benchmarks, compare, reproduce, tune};
+pub use gambol_experiments::{benchmarks, compare, gaits, reproduce, tune};
 pub use gambol_reports::{dot, drawing, film, report, sheet};
 pub use gambol_runs::*;

@@ -56,8 +56,8 @@ impl WeightVector {
 
     /// The genome of zeros, for a valid topology.
     pub(crate) fn zero(topology: Topology) -> Self {
-        let weights = vec![0.0; topology.weight_count()];
-        Self::checked(topology, weights, 0.0)
+        let weights = std::iter::repeat_n(0.0, topology.weight_count()).collect();
+        Self { topology, weights, mutation_deviation: 0.0 }
     }
 
     /// The same individual in a net that has grown: what is new begins at 0.
@@ -85,6 +85,11 @@ impl WeightVector {
     /// The genes and the deviation, to be changed.
     pub(crate) fn genes_mut(&mut self) -> (&mut [f32], &mut f32) {
         (Arc::make_mut(&mut self.weights), &mut self.mutation_deviation)
+    }
+
+    /// Has no weights from now on, and is no individual any more.
+    pub(crate) fn drop_weights(&mut self) {
+        self.weights = Arc::default();
     }
 
     /// Becomes a copy of an individual of the same topology, in its own memory unless that is shared.

@@ -99,18 +99,22 @@ pub(crate) fn check_growth(growth: &TopologyMap, old: &Topology, new: &Topology)
 pub(crate) struct Parents {
     /// The first generation, best first, if it is not drawn; empty after it.
     pub(crate) start: Vec<WeightVector>,
-    /// The generation last told. Empty before the first.
+    /// The generation last told. Empty before the first, and where it is dropped once its children are bred.
     pub(crate) nets: Vec<WeightVector>,
     /// What came of it.
     pub(crate) scores: Vec<Option<Fitness>>,
 }
 
 impl Parents {
-    /// What a search on another task begins with, best first, in nets that have grown.
-    pub(crate) fn remapped(&self, topology: &Topology, growth: &TopologyMap) -> Self {
-        let best: Vec<&WeightVector> = match self.nets.is_empty() {
-            true => self.start.iter().collect(),
-            false => best_first(&self.scores).into_iter().map(|index| &self.nets[index]).collect(),
+    /// What a search on another task begins with, best first, in nets that have grown: the parents; their children, if they have
+    /// them and are gone; or what the first generation begins with.
+    pub(crate) fn remapped(&self, nets: &Nets, topology: &Topology, growth: &TopologyMap) -> Self {
+        let best: Vec<&WeightVector> = if !self.nets.is_empty() {
+            best_first(&self.scores).into_iter().map(|index| &self.nets[index]).collect()
+        } else if self.start.is_empty() {
+            nets.waiting().iter().collect()
+        } else {
+            self.start.iter().collect()
         };
         let start = best.into_iter().map(|net| net.remapped(topology, growth)).collect();
         Self { start, ..Self::default() }

@@ -10,7 +10,7 @@ use ne_fixed::{
     Arithmetic, ConventionalNe, ConventionalNeSettings, CrossoverChoice, GaussianMutation, MutationChoice, OnePoint,
     SelfAdaptiveMutation, Setting, StagnationBoost, TwoPoint, UniformMutation, WeightVector,
 };
-use ne_net::DenseShape;
+use ne_net::{DenseShape, TopologyMap};
 use proptest::prelude::*;
 use serde::{Deserialize, Serialize};
 
@@ -104,6 +104,22 @@ fn state_survives_serialisation_to_the_bit() {
             let next = Seed::of_run(1).generation(number + 1);
             assert_eq!(copy.ask(next), strategy.clone().ask(next), "saved before generation {number} was told");
         }
+    }
+}
+
+/// Parents are dropped once their children are bred: what can be asked of a strategy then comes from the children.
+#[test]
+fn between_ask_and_tell_the_children_count() {
+    let settings = ConventionalNeSettings { elites: 2, ..Default::default() };
+    let mut strategy = new(settings.clone());
+    for number in 1..4 {
+        let seed = Seed::of_run(1).generation(number);
+        let asked = strategy.ask(seed).to_vec();
+        assert_eq!(strategy.ask(seed.generation(9)), asked, "asked again before it was told");
+        let same = TopologyMap::none(asked[0].weights().len());
+        let mut next = strategy.clone().remapped(settings.clone(), shape(), &same).expect("goes on");
+        assert_eq!(next.ask(Seed::of_run(2).generation(1)), asked, "goes on with generation {number}");
+        strategy.tell(&score(&asked), seed);
     }
 }
 

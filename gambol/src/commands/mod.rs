@@ -4,7 +4,6 @@
 #[macro_use]
 mod terminal;
 
-mod ablation;
 mod balance;
 mod bench;
 mod bench_gaits;

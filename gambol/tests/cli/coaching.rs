@@ -124,6 +124,12 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&["--set", "training_steps=0"], "training_steps = 0: must be from 1 to 1000000"),
         (&["--steps", "0"], "stop.steps = 0: must be at least 1"),
         (&["--ablate", "the tern"], "no variant has \"the tern\" in its name"),
+        (
+            &["--at-once", "2"],
+            "runs that count seconds are done one by one; to have --at-once, count steps: --steps 3000000",
+        ),
+        (&["--keep", "."], ". is no regular file; name another"),
+        (&["--keep", "no/runs.jsonl"], "no/runs.jsonl: No such file or directory"),
     ] {
         let ended = bench(flags);
         assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
@@ -188,6 +194,17 @@ fn bench_gaits_tells_every_run() -> Outcome {
     again.arg("gaits").args(arguments).args(flags);
     assert_says(&fail(&mut again), &["table.csv exists; say --force to overwrite it"]);
     assert_eq!(std::fs::read_to_string(&file)?, table);
+    // Runs that are kept are not done again: their seconds are those of the first time. Two at once find the same.
+    let kept = folder.path().join("runs.jsonl");
+    let keep = ["--json", "--at-once", "2", "--keep", kept.to_str().expect("UTF-8")];
+    let all = bench(&keep);
+    assert_eq!(std::fs::read_to_string(&kept)?.lines().count(), 2);
+    assert_eq!(all, bench(&keep));
+    let steps = |text: &str| -> Vec<Value> {
+        let runs = text.lines().map(|line| serde_json::from_str(line).expect("JSON"));
+        runs.map(|run: Value| run["steps"].clone()).collect()
+    };
+    assert_eq!(steps(&all), first.iter().map(|run| run["steps"].clone()).collect::<Vec<_>>());
     Ok(())
 }
 

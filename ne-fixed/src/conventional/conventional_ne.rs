@@ -47,8 +47,6 @@ pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice
     /// Generations since `best` was beaten.
     pub(super) stagnation: u64,
     pub(super) distinct_parents: usize,
-    /// The indices of the selected parents, two for each child; memory to be used again.
-    pub(super) chosen: Vec<usize>,
 }
 
 impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
@@ -65,7 +63,6 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
             best: None,
             stagnation: 0,
             distinct_parents: 0,
-            chosen: Vec::new(),
         })
     }
 
@@ -94,7 +91,8 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
-    /// generation, best first, and what is new in its nets begins with weights of 0.
+    /// generation, best first, and what is new in its nets begins with weights of 0. Of a generation that is asked and not told
+    /// yet, its elites come first.
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
@@ -106,7 +104,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check_growth(growth, &self.nets.topology, &next.nets.topology)?;
-        Ok(Self { parents: self.parents.remapped(&next.nets.topology, growth), ..next })
+        Ok(Self { parents: self.parents.remapped(&self.nets, &next.nets.topology, growth), ..next })
     }
 
     /// What mutations are multiplied by now: 1 unless the population stagnates.
@@ -122,43 +120,58 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
     }
 
-    /// Copies the best parents.
-    fn copy_elites(&self, elites: &mut [WeightVector]) {
-        if elites.is_empty() {
-            return;
+    /// The best parents, best first.
+    fn elites(&self) -> Vec<WeightVector> {
+        let count = self.settings.elites;
+        if count == 0 {
+            return Vec::new();
         }
         let mut order: Vec<usize> = (0..self.parents.nets.len()).collect();
         let rank = |&index: &usize| (Reverse(self.parents.scores[index]), index);
-        order.select_nth_unstable_by_key(elites.len() - 1, rank);
-        order.truncate(elites.len());
+        order.select_nth_unstable_by_key(count - 1, rank);
+        order.truncate(count);
         order.sort_unstable_by_key(rank);
-        elites.iter_mut().zip(order).for_each(|(elite, index)| elite.copy_from(&self.parents.nets[index]));
+        order.into_iter().map(|index| self.parents.nets[index].clone()).collect()
     }
 
-    /// Selects two parents for each of `children`.
-    fn select_parents(&mut self, children: usize, seed: Seed) {
-        self.chosen.clear();
+    /// Children of parents that are selected two for each. A parent's weights are dropped once its last child is bred: two whole
+    /// generations of a large population are more than its evaluation needs.
+    fn children(&mut self, count: usize, seed: Seed, mut add: impl FnMut(WeightVector)) {
+        let mut chosen = Vec::with_capacity(2 * count);
         let mut stream = seed.stream(PARENTS);
-        self.settings.selection.select(&self.parents.scores, 2 * children, &mut stream, &mut self.chosen);
-        assert_eq!(self.chosen.len(), 2 * children, "number of parents the selector chose");
-        let mut breeds = vec![false; self.parents.nets.len()];
-        self.chosen.iter().for_each(|&parent| breeds[parent] = true);
-        self.distinct_parents = breeds.into_iter().filter(|&breeds| breeds).count();
+        self.settings.selection.select(&self.parents.scores, 2 * count, &mut stream, &mut chosen);
+        assert_eq!(chosen.len(), 2 * count, "number of parents the selector chose");
+        let mut uses = vec![0_u32; self.parents.nets.len()];
+        chosen.iter().for_each(|&parent| uses[parent] += 1);
+        self.distinct_parents = uses.iter().filter(|&&uses| uses > 0).count();
+        let others = self.parents.nets.iter_mut().zip(&uses).filter(|&(_, &uses)| uses == 0);
+        others.for_each(|(other, _)| other.drop_weights());
+        let strength = self.mutation_strength() as f32;
+        for (index, parents) in (self.settings.elites..).zip(chosen.chunks_exact(2)) {
+            add(self.breed(parents, strength, seed.individual(index as u64)));
+            for &parent in parents {
+                uses[parent] -= 1;
+                if uses[parent] == 0 {
+                    self.parents.nets[parent].drop_weights();
+                }
+            }
+        }
     }
 
-    /// Writes the child of two parents.
-    fn breed(&self, child: &mut WeightVector, parents: &[usize], strength: f32, seed: Seed) {
+    /// The child of two parents.
+    fn breed(&self, parents: &[usize], strength: f32, seed: Seed) -> WeightVector {
         let (first, second) = (&self.parents.nets[parents[0]], &self.parents.nets[parents[1]]);
         let mut stream = seed.stream(REPRODUCTION);
+        let mut child = first.clone();
         if stream.random::<f64>() < self.settings.crossover_rate {
+            child = WeightVector::zero(self.nets.topology.clone());
             let (weights, deviation) = child.genes_mut();
             self.settings.crossover.cross(first.weights(), second.weights(), weights, &mut stream);
             *deviation = 0.5 * (first.mutation_deviation() + second.mutation_deviation());
-        } else {
-            child.copy_from(first);
         }
         let (weights, deviation) = child.genes_mut();
         self.settings.mutation.mutate(weights, deviation, strength, &mut stream);
+        child
     }
 }
 
@@ -169,31 +182,35 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
         "conventional"
     }
 
+    /// Its parents are gone once a generation is bred. So a generation that is asked again before it was told is the same,
+    /// whatever the seed.
+    ///
     /// # Panics
     /// If a selector of your own does not choose as many parents as it is asked for.
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
+        if self.nets.asked {
+            return &self.nets.population;
+        }
         let ConventionalNeSettings { population: size, elites, immigrants, .. } = self.settings;
-        let mut population = self.nets.make_room(size);
         let is_first = self.parents.nets.is_empty();
-        let place = |index: usize| seed.individual(index as u64);
-        let first_drawn = if is_first { 0 } else { size - immigrants };
+        let mut population = Vec::with_capacity(size);
         if !is_first {
-            self.copy_elites(&mut population[..elites]);
-            self.select_parents(first_drawn - elites, seed);
-            let strength = self.mutation_strength() as f32;
-            for (index, parents) in (elites..first_drawn).zip(self.chosen.chunks_exact(2)) {
-                self.breed(&mut population[index], parents, strength, place(index));
-            }
+            population.extend(self.elites());
+            self.children(size - elites - immigrants, seed, |child| population.push(child));
+            self.parents.nets = Vec::new();
         }
         // In later generations these are immigrants, which are drawn.
         let start = if is_first { self.parents.start.as_slice() } else { &[] };
-        for (index, individual) in population.iter_mut().enumerate().skip(first_drawn) {
-            let draw = |individual: &mut WeightVector| self.draw(individual, place(index));
+        for index in population.len()..size {
+            let place = seed.individual(index as u64);
+            let draw = |individual: &mut WeightVector| self.draw(individual, place);
             let mutate = |individual: &mut WeightVector| {
                 let (weights, deviation) = individual.genes_mut();
-                self.settings.mutation.mutate(weights, deviation, 1.0, &mut place(index).stream(REPRODUCTION));
+                self.settings.mutation.mutate(weights, deviation, 1.0, &mut place.stream(REPRODUCTION));
             };
-            begin(start, index, individual, draw, mutate);
+            let mut individual = WeightVector::zero(self.nets.topology.clone());
+            begin(start, index, &mut individual, draw, mutate);
+            population.push(individual);
         }
         self.nets.ask(population)
     }

@@ -20,7 +20,7 @@ pub(super) struct State<S, C, M> {
     /// The first generation, if it is not drawn; empty after it.
     #[serde(default)]
     start: Vec<Genes>,
-    /// The generation last told; empty before the first.
+    /// The generation last told; empty before the first, and once its children are asked.
     parents: Vec<Parent>,
     /// The generation asked and not told yet; empty between generations.
     asked: Vec<Genes>,

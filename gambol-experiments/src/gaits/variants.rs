@@ -1,23 +1,23 @@
 //! The pieces of the default preset, left out one by one or replaced.
 
-use crate::{
+use creatures::{Actuation, Sensor};
+use envs_rapier::Variation;
+use gambol_runs::{
     config::{LimbPhases, RunConfig, RungSettings},
     strategies::StrategyCatalogue,
 };
-use creatures::{Actuation, Sensor};
-use envs_rapier::Variation;
 use ne_net::Activation;
 
 /// A change to a configuration.
-pub(super) struct Variant {
+pub struct Variant {
     /// What is different.
-    pub(super) name: &'static str,
+    pub name: &'static str,
     /// Makes the change.
-    pub(super) change: fn(&mut RunConfig),
+    pub change: fn(&mut RunConfig),
 }
 
 /// All variants; the first changes nothing.
-pub(super) const VARIANTS: &[Variant] = &[
+pub const VARIANTS: &[Variant] = &[
     Variant { name: "the default preset", change: |_| {} },
     Variant {
         name: "one net for the whole body",
