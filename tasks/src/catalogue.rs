@@ -229,7 +229,12 @@ impl Default for MovementCatalogue {
             "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",
             Headway::new,
         );
-        catalogue.add::<NoExploits>(None, "fails the evaluation of a body that lives on the errors of its physics");
+        catalogue.add_with_settings(
+            None,
+            "fails the evaluation of a body that lives on the errors of its physics; settings: ends (false), the episode \
+             ends instead, and it is 1",
+            NoExploits::new,
+        );
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");
         catalogue
             .add::<Idleness>(None, "share of the motion expected of joints that they leave out; weigh it negatively");

@@ -58,9 +58,9 @@ pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
     Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
     GettingUpSettings, Haste, HasteSettings, Headway, HeadwaySettings, Hopping, Idleness, Jumping, Landing, Leap,
-    LongJump, Movement, MovementClone, NoExploits, Objectives, Posture, PostureSettings, Rhythm, RhythmSettings,
-    Rollovers, Running, Slip, Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright, Verdict, Vibration,
-    Walking, WalkingSettings,
+    LongJump, Movement, MovementClone, NoExploits, NoExploitsSettings, Objectives, Posture, PostureSettings, Rhythm,
+    RhythmSettings, Rollovers, Running, Slip, Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright, Verdict,
+    Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trial, Trials};

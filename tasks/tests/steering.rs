@@ -3,8 +3,8 @@
 use std::f32::consts::TAU;
 use tasks::{
     Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Idleness, Jumping, Landing, Leap, Movement,
-    MovementCatalogue, MovementSpec, NoExploits, PartState, Posture, Rhythm, RhythmSettings, Running, Slip, Snapshot,
-    Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
+    MovementCatalogue, MovementSpec, NoExploits, NoExploitsSettings, PartState, Posture, Rhythm, RhythmSettings,
+    Running, Slip, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -427,8 +427,14 @@ fn honest_fails_what_lives_on_errors_of_the_physics() {
             flaw(&mut pose, &mut flawed.parts);
             flawed
         });
-        let seen = watch(NoExploits::default(), &body, &snapshots.collect::<Vec<_>>());
+        let snapshots: Vec<_> = snapshots.collect();
+        let seen = watch(NoExploits::default(), &body, &snapshots);
         assert_eq!(seen.value, 0.0);
+        // Told to, it ends the episode at the same time in place of failing it.
+        let ending = NoExploits::new(NoExploitsSettings { ends: true }).expect("in range");
+        let ended = watch(ending, &body, &snapshots);
+        assert_eq!(ended.value, f64::from(u8::from(seen.end.is_some())));
+        assert_eq!(ended.end, seen.end.map(|(time, _)| (time, Verdict::End)));
         seen.end.map(|(time, verdict)| {
             assert!((0.99..1.05).contains(&time), "{time}");
             verdict

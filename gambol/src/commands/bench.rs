@@ -1,7 +1,7 @@
 use super::{Outcome, bench_gaits::Gaits, bench_training::Training};
 use crate::{
     Registry,
-    benchmarks::{BenchmarkTask, Counting, PUBLISHED, attempts_csv, entrants, measure, render},
+    benchmarks::{BenchmarkTask, Counting, Entrant, PUBLISHED, attempts_csv, entrants, measure, render},
     strategies::StrategyCatalogue,
     suggest,
 };
@@ -35,6 +35,7 @@ enum What {
 Examples:
   gambol bench strategies                                           every strategy, every task but the longest: some minutes
   gambol bench strategies --strategies neat --tasks xor --seeds 100
+  gambol bench strategies --tasks general-two-poles --strategies neat --settings pole_balancing
   gambol bench strategies --tasks two-poles --json
 
 Evaluations are counted up to and including that of the first solution. Where a candidate has to pass a test that is not
@@ -47,6 +48,9 @@ struct Strategies {
     /// Which tasks: xor, one-pole, two-poles, two-poles-without-velocities, general-two-poles [default: all but the last]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_task)]
     tasks: Vec<BenchmarkTask>,
+    /// Only with settings and nets whose text below the table contains this, such as pole_balancing
+    #[arg(long, value_name = "TEXT")]
+    settings: Option<String>,
     /// The first seed; settings were chosen on seeds from 1 on
     #[arg(long, default_value_t = 1001, value_name = "SEED", value_parser = super::first_seed())]
     first_seed: u64,
@@ -73,16 +77,23 @@ impl Bench {
 
 impl Strategies {
     fn run(self) -> Outcome {
-        let wanted = |strategy: &str, task: BenchmarkTask| {
-            (self.strategies.is_empty() || self.strategies.iter().any(|wanted| wanted == strategy))
-                && if self.tasks.is_empty() {
-                    task != BenchmarkTask::GeneralTwoPoles
-                } else {
-                    self.tasks.contains(&task)
-                }
+        let wanted = |one: &Entrant| {
+            let strategies = &self.strategies;
+            let task = match self.tasks.is_empty() {
+                true => one.task != BenchmarkTask::GeneralTwoPoles,
+                false => self.tasks.contains(&one.task),
+            };
+            task && (strategies.is_empty() || strategies.iter().any(|wanted| wanted == one.settings.name()))
+                && self.settings.as_ref().is_none_or(|text| one.description.contains(text))
         };
+        let entrants: Vec<Entrant> = entrants().into_iter().filter(wanted).collect();
+        if entrants.is_empty() {
+            let with =
+                self.settings.map_or_else(String::new, |text| format!(" with \"{text}\" in its settings and net"));
+            return Err(format!("none of the strategies asked for is measured{with} on a task asked for").into());
+        }
         let mut measured = Vec::new();
-        for entrant in entrants().iter().filter(|one| wanted(one.settings.name(), one.task)) {
+        for entrant in &entrants {
             if !self.json && !self.csv {
                 tell!("{} on {}", entrant.settings.name(), entrant.task.name());
             }

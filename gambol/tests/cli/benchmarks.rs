@@ -1,6 +1,6 @@
 //! The benchmarks: every strategy is measured on classic tasks, the same each time.
 
-use crate::program::{assert_says, gambol, run, succeed};
+use crate::program::{assert_says, fail, gambol, run, succeed};
 use serde_json::Value;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -70,4 +70,21 @@ fn misspelt_names_are_corrected() {
         assert_eq!(ended.code, Some(2), "{}", ended.stderr);
         assert_says(&ended.stderr, &[says]);
     }
+}
+
+#[test]
+fn settings_of_a_strategy_are_chosen_by_their_text() {
+    let general = ["--tasks", "two-poles-without-velocities", "--strategies", "neat", "--seeds", "1"];
+    let table = succeed(bench(&general).args(["--settings", "pole_balancing"]));
+    assert!(table.contains("NeatSettings::pole_balancing") && !table.contains("stanley_2002"), "{table}");
+    assert_says(
+        &fail(bench(&general).args(["--settings", "pole-balancing"])),
+        &[
+            "none of the strategies asked for is measured with \"pole-balancing\" in its settings and net on a task asked for",
+        ],
+    );
+    assert_says(
+        &fail(&mut bench(&["--strategies", "nsga2"])),
+        &["none of the strategies asked for is measured on a task asked for"],
+    );
 }

@@ -49,7 +49,7 @@ pub use {
     landing::Landing,
     leap::Leap,
     long_jump::LongJump,
-    no_exploits::NoExploits,
+    no_exploits::{NoExploits, NoExploitsSettings},
     objectives::Objectives,
     posture::{Posture, PostureSettings},
     rhythm::{Rhythm, RhythmSettings},
