@@ -17,6 +17,7 @@ use gambol::{
     episode_parts::EpisodeParts,
     obstacles::ObstaclesPassed,
     request::Request,
+    run_folder::RunFolder,
     shaping::{StageProgress, Stages, train_stages},
     training::{Outcome, TrainOptions, train},
     trajectory::Recording,
@@ -88,7 +89,10 @@ fn median(scores: &Scores) -> f64 {
 /// One run, unless it is there already. It has another name until it is complete, so that a killed one is not taken for one.
 fn run(config: &RunConfig, folder: &Path) -> Result<(), Box<dyn Error>> {
     if folder.exists() {
-        return Ok(());
+        return match RunFolder::at(folder).read_config()? == *config {
+            true => Ok(()),
+            false => Err(format!("{} is of another experiment; name another folder", folder.display()).into()),
+        };
     }
     let part = folder.with_extension("part");
     if part.exists() {

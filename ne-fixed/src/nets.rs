@@ -106,15 +106,11 @@ pub(crate) struct Parents {
 }
 
 impl Parents {
-    /// What a search on another task begins with, best first, in nets that have grown: the parents; their children, if they have
-    /// them and are gone; or what the first generation begins with.
-    pub(crate) fn remapped(&self, nets: &Nets, topology: &Topology, growth: &TopologyMap) -> Self {
-        let best: Vec<&WeightVector> = if !self.nets.is_empty() {
-            best_first(&self.scores).into_iter().map(|index| &self.nets[index]).collect()
-        } else if self.start.is_empty() {
-            nets.waiting().iter().collect()
-        } else {
-            self.start.iter().collect()
+    /// What a search on another task begins with, best first, in nets that have grown.
+    pub(crate) fn remapped(&self, topology: &Topology, growth: &TopologyMap) -> Self {
+        let best: Vec<&WeightVector> = match self.nets.is_empty() {
+            true => self.start.iter().collect(),
+            false => best_first(&self.scores).into_iter().map(|index| &self.nets[index]).collect(),
         };
         let start = best.into_iter().map(|net| net.remapped(topology, growth)).collect();
         Self { start, ..Self::default() }

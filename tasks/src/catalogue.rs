@@ -232,7 +232,7 @@ impl Default for MovementCatalogue {
         catalogue.add_with_settings(
             None,
             "fails the evaluation of a body that lives on the errors of its physics; settings: ends (false), the episode \
-             ends instead, and it is 1",
+             ends instead, and it is 1: weigh it negatively, or with 0",
             NoExploits::new,
         );
         catalogue.add::<Vibration>(None, "reversals a second of joints, beyond what is smooth; weigh it negatively");

@@ -52,6 +52,10 @@ fn wrong_settings_are_named_with_their_field() {
             "terms[1].settings.speed = -1: must be from 0 to 100",
         ),
         (
+            json!({ "name": "running", "terms": [{ "term": "no-exploits", "settings": { "ends": 1 } }] }),
+            "terms[0].settings.ends: invalid type: integer `1`, expected a boolean",
+        ),
+        (
             json!({ "name": "running", "terms": [{ "term": "headway", "settings": { "backwards": 1 } }] }),
             "terms[0].settings.backwards: invalid type: integer `1`, expected a boolean",
         ),

@@ -96,7 +96,7 @@ impl GaitRun {
     fn judge(&mut self, champion: &Champion, registry: &Registry, robust: bool) -> Result<(), GaitsError> {
         let report = gait::judge(champion, registry)?;
         let Some(verdict) = &report.verdict else {
-            self.reasons.clear();
+            self.reasons = vec!["the movement is not judged".into()];
             return Ok(());
         };
         self.usable = verdict.usable;

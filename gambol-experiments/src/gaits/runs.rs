@@ -2,15 +2,20 @@
 
 use super::{
     GaitRun,
-    kept::{Kept, KeptError},
+    kept::{Kept, digest},
 };
 use crate::work::{Ended, Part, Work, WorkOptions};
 use creatures::CreatureError;
 use gambol_runs::{
     Registry, config::RunConfig, gait::GaitOfChampionError, robust::RobustnessError, training::TrainError,
 };
-use ne_core::digest::Digest;
-use std::{collections::BTreeSet, io, path::Path, sync::Mutex};
+use ne_core::{archive::ArchiveError, digest::Digest};
+use std::{
+    collections::BTreeSet,
+    io,
+    path::Path,
+    sync::{Mutex, PoisonError},
+};
 
 /// Does runs, several at the same time, and remembers what came of them.
 pub struct GaitRuns {
@@ -24,9 +29,12 @@ pub struct GaitRuns {
 /// A run could not be done.
 #[derive(Debug, thiserror::Error)]
 pub enum GaitsError {
-    /// The file of results.
+    /// A result cannot be kept, or read again.
     #[error(transparent)]
-    Kept(#[from] KeptError),
+    Kept(#[from] ArchiveError),
+    /// A configuration cannot be told from others.
+    #[error("the configuration of a run cannot be written: {0}")]
+    Config(#[from] serde_json::Error),
     /// There is no place for a run's folder.
     #[error("no temporary folder for a run: {0}")]
     Temporary(#[source] io::Error),
@@ -56,43 +64,36 @@ impl GaitRuns {
         Self { robust, ..self }
     }
 
-    /// Keeps every result in a file, a line of JSON each, and does not do again what it has. It is made if it is not there.
-    /// The results are those of the program that wrote them: another version may find others.
+    /// Keeps every result in a folder, a file each, and does not do again what it has. The folder is made if it is not there;
+    /// several processes can share it. The results are those of the program that wrote them: empty it when code has changed
+    /// that decides what a run finds.
     ///
     /// # Errors
-    /// If the file cannot be read or written, holds something else, or another process writes it.
-    pub fn kept_in(self, path: &Path) -> Result<Self, GaitsError> {
-        Ok(Self { kept: Kept::open(path)?, ..self })
+    /// If the folder cannot be made.
+    pub fn kept_in(self, folder: &Path) -> Result<Self, GaitsError> {
+        Ok(Self { kept: Kept::open(folder)?, ..self })
     }
 
-    /// What came of each configuration, in their order. `on_run` is called after each run that had to be done.
+    /// What came of each configuration, in their order.
     ///
     /// # Errors
     /// The first error; runs under way are finished first.
-    pub fn of(
-        &mut self,
-        configs: &[RunConfig],
-        on_run: &(dyn Fn(&GaitRun) + Sync),
-    ) -> Result<Vec<GaitRun>, GaitsError> {
-        let digests: Vec<Digest> = configs.iter().map(|config| digest(config, self.robust)).collect();
+    pub fn of(&mut self, configs: &[RunConfig]) -> Result<Vec<GaitRun>, GaitsError> {
+        let digests = configs.iter().map(|config| digest(config, self.robust)).collect::<Result<Vec<Digest>, _>>()?;
         let mut seen = BTreeSet::new();
-        let jobs: Vec<(Digest, &RunConfig)> = digests
-            .iter()
-            .copied()
-            .zip(configs)
-            .filter(|(digest, _)| self.kept.get(*digest).is_none() && seen.insert(digest.value()))
-            .collect();
+        let mut jobs: Vec<(Digest, &RunConfig)> = Vec::new();
+        for (&digest, config) in digests.iter().zip(configs) {
+            if seen.insert(digest.value()) && self.kept.find(digest)?.is_none() {
+                jobs.push((digest, config));
+            }
+        }
         let options = WorkOptions {
             part: Part::ALL,
             at_once: self.at_once,
             threads: self.threads,
             registry: self.registry.clone(),
             signal: Default::default(),
-            on_run: &|progress| {
-                if let Some(run) = &progress.best {
-                    on_run(run);
-                }
-            },
+            on_run: &|_| {},
         };
         let kept = Mutex::new(&mut self.kept);
         Work::new(&options, jobs.len()).side_by_side(
@@ -101,17 +102,14 @@ impl GaitRuns {
             |(digest, _)| digest.to_string(),
             |(digest, config)| {
                 let run = GaitRun::measure(config, &options.registry, options.threads, self.robust)?;
-                // No panic leaves the lock poisoned: the results are written whole or not at all.
-                kept.lock().unwrap_or_else(|poisoned| poisoned.into_inner()).add(*digest, run.clone())?;
+                kept.lock().unwrap_or_else(PoisonError::into_inner).add(*digest, run.clone())?;
                 Ok::<_, GaitsError>(Ended::Done(Some(run)))
             },
         )?;
-        Ok(digests.iter().filter_map(|digest| self.kept.get(*digest).cloned()).collect())
+        let mut found = Vec::new();
+        for digest in digests {
+            found.extend(self.kept.find(digest)?);
+        }
+        Ok(found)
     }
-}
-
-/// The digest of all that decides what comes of a run.
-fn digest(config: &RunConfig, robust: bool) -> Digest {
-    // Plain data: serialising cannot fail; were it to, no run would be known again.
-    Digest::of_json(&serde_json::to_value((config, robust)).unwrap_or_default())
 }

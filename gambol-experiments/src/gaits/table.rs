@@ -14,13 +14,18 @@ pub const ABLATION: [&str; 5] = ["variant", "usable", "median to it", "quality",
 /// What stands in a table for what was not measured, or never happened.
 const UNKNOWN: &str = "–";
 
-/// The runs of a scenario: how many are usable, seconds until they were, speed or rise, and shares of perturbed worlds.
-pub fn scenario_row(runs: &[GaitRun], registry: &Registry) -> [String; 8] {
+/// The runs of a scenario: how many are usable, the time until they were, speed or rise, and shares of perturbed worlds. The time
+/// is in physics steps if `count_steps`, in seconds otherwise.
+pub fn scenario_row(runs: &[GaitRun], count_steps: bool, registry: &Registry) -> [String; 8] {
     let Some(GaitRun { creature, movement, .. }) = runs.first() else { return Default::default() };
     let usable = runs.iter().filter(|run| run.usable).count();
     let middle = |numbers: Vec<f64>| quantile(&numbers, 0.5);
-    let seconds: Vec<f64> = runs.iter().filter_map(|run| run.seconds_to_usable).collect();
-    let slowest = seconds.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
+    let (time_unit, time_of): (_, fn(&GaitRun) -> Option<f64>) = match count_steps {
+        true => (" M", |run| run.steps_to_usable.map(|steps| steps as f64 / 1e6)),
+        false => (" s", |run| run.seconds_to_usable),
+    };
+    let times: Vec<f64> = runs.iter().filter_map(time_of).collect();
+    let slowest = times.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
     let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| UNKNOWN.into(), |n| format!("{n:.2}{unit}"));
     let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
     let goal = registry.movements.rules(movement).map(|rules| rules.view().goal);
@@ -32,8 +37,8 @@ pub fn scenario_row(runs: &[GaitRun], registry: &Registry) -> [String; 8] {
         creature.clone(),
         movement.clone(),
         format!("{usable}/{}", runs.len()),
-        shown(middle(seconds), " s"),
-        shown(slowest, " s"),
+        shown(middle(times), time_unit),
+        shown(slowest, time_unit),
         shown(quality, unit),
         percent(middle(shares)),
         percent(least),

@@ -48,7 +48,7 @@ struct Strategies {
     /// Which tasks: xor, one-pole, two-poles, two-poles-without-velocities, general-two-poles [default: all but the last]
     #[arg(long, value_delimiter = ',', value_name = "NAMES", value_parser = known_task)]
     tasks: Vec<BenchmarkTask>,
-    /// Only with settings and nets whose text below the table contains this, such as pole_balancing
+    /// Only those whose net or named settings, as they begin the lines below a table, contain this: stanley_2002, 2-4-1
     #[arg(long, value_name = "TEXT")]
     settings: Option<String>,
     /// The first seed; settings were chosen on seeds from 1 on
@@ -89,7 +89,7 @@ impl Strategies {
         let entrants: Vec<Entrant> = entrants().into_iter().filter(wanted).collect();
         if entrants.is_empty() {
             let with =
-                self.settings.map_or_else(String::new, |text| format!(" with \"{text}\" in its settings and net"));
+                self.settings.map_or_else(String::new, |text| format!(" with \"{text}\" in its net or named settings"));
             return Err(format!("none of the strategies asked for is measured{with} on a task asked for").into());
         }
         let mut measured = Vec::new();

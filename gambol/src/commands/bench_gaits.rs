@@ -18,11 +18,12 @@ Examples:
   gambol bench gaits --whole --seconds 60 --seeds 3          how good gaits are after a minute
   gambol bench gaits --creatures biped-1 --movements running --set controller.modular=null
   gambol bench gaits --creatures examples/creatures/hopper.json --seconds 30 --robust
-  gambol bench gaits --ablate \"the term\" --steps 3000000 --whole --seeds 2 --at-once 2 --threads 1 --keep runs.jsonl
+  gambol bench gaits --ablate \"the term\" --steps 3000000 --whole --seeds 2 --at-once 2 --threads 1 --keep runs/ablation
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height.
 A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier, or when the time is up; with
---whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included.")]
+--whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included.
+With --steps, times are millions (M) of physics steps.")]
 pub(super) struct Gaits {
     /// Shipped creatures' names or creature files [default: all seven]
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
@@ -67,10 +68,10 @@ pub(super) struct Gaits {
     /// Runs at the same time, where steps are counted; 0: one for each core [default: 1]
     #[arg(long, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
     at_once: Option<usize>,
-    /// Keep every run in this file, a line of JSON each; runs that it has are not done again
-    #[arg(long, value_name = "FILE")]
+    /// Keep every run in this folder, where steps are counted; runs that it has are not done again. Empty it when code has changed
+    #[arg(long, value_name = "DIR", requires = "steps")]
     keep: Option<PathBuf>,
-    /// Threads of each run [default: one for each core]
+    /// Threads of each training [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
     #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
     threads: usize,
@@ -122,8 +123,8 @@ impl Gaits {
         let mut table = Vec::new();
         for creature in creatures {
             for movement in &self.movements {
-                let runs = runs.of(&self.configs(creature, movement, registry)?, &|_| {})?;
-                let row = scenario_row(&runs, registry);
+                let runs = runs.of(&self.configs(creature, movement, registry)?)?;
+                let row = scenario_row(&runs, self.steps.is_some(), registry);
                 for run in &runs {
                     if self.json {
                         say!("{}", json!(run))?;
@@ -149,7 +150,9 @@ impl Gaits {
         if let [_] = variants[..] {
             return Err(format!("no variant has \"{text}\" in its name").into());
         }
-        say!("{}", ablation_line(&ABLATION.map(String::from)))?;
+        if !self.json {
+            say!("{}", ablation_line(&ABLATION.map(String::from)))?;
+        }
         let mut usual: Vec<GaitRun> = Vec::new();
         let mut table = Vec::new();
         for variant in variants {
@@ -160,7 +163,7 @@ impl Gaits {
                 }
             }
             configs.iter_mut().for_each(variant.change);
-            let mine = runs.of(&configs, &|_| {})?;
+            let mine = runs.of(&configs)?;
             if usual.is_empty() {
                 usual.clone_from(&mine);
             }

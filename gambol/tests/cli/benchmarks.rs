@@ -80,7 +80,7 @@ fn settings_of_a_strategy_are_chosen_by_their_text() {
     assert_says(
         &fail(bench(&general).args(["--settings", "pole-balancing"])),
         &[
-            "none of the strategies asked for is measured with \"pole-balancing\" in its settings and net on a task asked for",
+            "none of the strategies asked for is measured with \"pole-balancing\" in its net or named settings on a task asked for",
         ],
     );
     assert_says(

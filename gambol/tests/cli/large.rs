@@ -72,8 +72,8 @@ fn most_memory(command: &mut std::process::Command) -> u64 {
     most
 }
 
-/// Measured: 1.1 GB in the first generation and 1.8 GB from the second on, which has its parents beside it: of 1.8 kB an
-/// individual 1.2 are its 146 weights and those of its parent, the rest the evaluation and what holds all of it together.
+/// Measured: 1.1 GB in the first generation and 1.2 GB from the second on, whose parents go while their children come: of 1.2 kB
+/// an individual 0.6 are its 146 weights, the rest the evaluation and what holds all of it together.
 #[cfg(target_os = "linux")]
 #[test]
 #[ignore = "a million individuals: cargo test --release -p gambol --test cli large -- --ignored"]

@@ -78,7 +78,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
 
     /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
     /// than a generation, the last are left out; if they are fewer, copies of them that have mutated fill it up. Without
-    /// effect once a generation was told.
+    /// effect once a generation was asked.
     ///
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[3]`.
@@ -91,8 +91,8 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: the population last told is the first
-    /// generation, best first, and what is new in its nets begins with weights of 0. Of a generation that is asked and not told
-    /// yet, its elites come first.
+    /// generation, best first, and what is new in its nets begins with weights of 0. Between ask and tell
+    /// it is the generation asked, in its order.
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
@@ -104,7 +104,14 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check_growth(growth, &self.nets.topology, &next.nets.topology)?;
-        Ok(Self { parents: self.parents.remapped(&self.nets, &next.nets.topology, growth), ..next })
+        let parents = match self.nets.waiting() {
+            [] => self.parents.remapped(&next.nets.topology, growth),
+            asked => Parents {
+                start: asked.iter().map(|net| net.remapped(&next.nets.topology, growth)).collect(),
+                ..Parents::default()
+            },
+        };
+        Ok(Self { parents, ..next })
     }
 
     /// What mutations are multiplied by now: 1 unless the population stagnates.

@@ -93,7 +93,7 @@ impl Cosyne {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check_growth(growth, &self.nets.topology, &next.nets.topology)?;
-        Ok(Self { parents: self.parents.remapped(&self.nets, &next.nets.topology, growth), ..next })
+        Ok(Self { parents: self.parents.remapped(&next.nets.topology, growth), ..next })
     }
 
     /// Writes a child of two of the parents, which stand in `order`, best first.
