@@ -29,7 +29,7 @@ fn run(config: &RunConfig) -> Result<Found, Box<dyn Error>> {
 
 #[test]
 fn a_run_in_lanes_is_the_run_in_rapier() -> Result<(), Box<dyn Error>> {
-    let worst_of_three = Trials { count: 3, combine: Combine::Worst };
+    let worst_of_three = Trials { count: 3, combine: Combine::Worst, lessons: false };
     for (creature, movement, variation, trials) in [
         ("biped-1", "running", Variation::default(), Trials::default()),
         ("biped-2", "jumping", Variation::light(), Trials::default()),

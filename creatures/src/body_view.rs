@@ -33,4 +33,16 @@ pub trait BodyView {
     /// it has not landed yet. What touches within 0.2 s of a landing belongs to that landing. [`Landings`](crate::Landings)
     /// keeps this account for you.
     fn time_since_landing(&self) -> f32;
+    /// The speed the body is told to move at, body lengths/s, backwards below 0. By default 0: it is told nothing.
+    fn commanded_speed(&self) -> f32 {
+        0.0
+    }
+    /// Whether the body is told to jump. By default it is not.
+    fn is_told_to_jump(&self) -> bool {
+        false
+    }
+    /// Time since the body was last told to jump after it had not been, s; infinity, the default, if it never was.
+    fn time_since_press(&self) -> f32 {
+        f32::INFINITY
+    }
 }

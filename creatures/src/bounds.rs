@@ -59,6 +59,8 @@ pub const RAY_ANGLE: Bounds = Bounds::new(-180.0, 180.0, "°");
 pub const RAY_LENGTH: Bounds = Bounds::new(0.01, 100.0, "m");
 /// Period of a clock.
 pub const CLOCK_PERIOD: Bounds = Bounds::new(0.02, 100.0, "s");
+/// The fastest a body can be told to move.
+pub const COMMANDED_TOP: Bounds = Bounds::new(0.1, 20.0, "body lengths/s");
 /// How far the sensor of the next gap looks.
 pub const GAP_SIGHT: Bounds = Bounds::new(0.01, 100.0, "m");
 /// Difficulty of a terrain.

@@ -92,7 +92,7 @@ pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::json_schema;
 pub use sense::Sense;
-pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase};
+pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase, jump_phase, stride_swing};
 pub use sensor::Sensor;
 pub use shape::Shape;
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};

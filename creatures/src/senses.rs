@@ -102,6 +102,34 @@ pub enum Source {
         /// s.
         period: f32,
     },
+    /// [`BodyView::commanded_speed`].
+    CommandedSpeed,
+    /// [`BodyView::is_told_to_jump`], as 0 or 1.
+    JumpCommand,
+    /// The sine of a clock, times the commanded speed as a share of the top one: see [`clock_phase`].
+    StrideSine {
+        /// s.
+        period: f32,
+        /// Body lengths/s.
+        top: f32,
+    },
+    /// The cosine of a clock, times the commanded speed as a share of the top one.
+    StrideCosine {
+        /// s.
+        period: f32,
+        /// Body lengths/s.
+        top: f32,
+    },
+    /// The sine of the one turn that follows a press: see [`BodyView::time_since_press`].
+    JumpSine {
+        /// s.
+        period: f32,
+    },
+    /// (1 − cosine) / 2 of the one turn that follows a press.
+    JumpSwell {
+        /// s.
+        period: f32,
+    },
     /// What a sensor of another crate tells. Only [`Senses::read`] can ask it.
     Custom {
         /// Which of these sensors.
@@ -225,6 +253,21 @@ impl Senses {
                 self.push(format!("sine of {period} s clock from landing"), "", [-1.0, 1.0], sine);
                 self.push(format!("cosine of {period} s clock from landing"), "", [-1.0, 1.0], cosine);
             }
+            Sensor::CommandedSpeed { top } => {
+                self.push("commanded speed".to_owned(), "body lengths/s", [-*top, *top], Source::CommandedSpeed);
+            }
+            Sensor::JumpCommand => self.push("jump command".to_owned(), "", [0.0, 1.0], Source::JumpCommand),
+            Sensor::StrideClock { period, top } => {
+                let (period, top) = (*period, *top);
+                let (sine, cosine) = (Source::StrideSine { period, top }, Source::StrideCosine { period, top });
+                self.push(format!("sine of {period} s stride clock"), "", [-1.0, 1.0], sine);
+                self.push(format!("cosine of {period} s stride clock"), "", [-1.0, 1.0], cosine);
+            }
+            Sensor::JumpClock { period } => {
+                let period = *period;
+                self.push(format!("sine of {period} s jump clock"), "", [-1.0, 1.0], Source::JumpSine { period });
+                self.push(format!("swell of {period} s jump clock"), "", [0.0, 1.0], Source::JumpSwell { period });
+            }
             // Added by `add_custom`.
             Sensor::Custom(_) => {}
         }
@@ -297,6 +340,16 @@ impl Source {
             Self::ClockCosine { period } => libm::cosf(clock_phase(body.time(), period)),
             Self::LandingSine { period } => libm::sinf(clock_phase(body.time_since_landing(), period)),
             Self::LandingCosine { period } => libm::cosf(clock_phase(body.time_since_landing(), period)),
+            Self::CommandedSpeed => body.commanded_speed(),
+            Self::JumpCommand => f32::from(u8::from(body.is_told_to_jump())),
+            Self::StrideSine { period, top } => {
+                stride_swing(body.commanded_speed(), top) * libm::sinf(clock_phase(body.time(), period))
+            }
+            Self::StrideCosine { period, top } => {
+                stride_swing(body.commanded_speed(), top) * libm::cosf(clock_phase(body.time(), period))
+            }
+            Self::JumpSine { period } => libm::sinf(jump_phase(body.time_since_press(), period)),
+            Self::JumpSwell { period } => 0.5 * (1.0 - libm::cosf(jump_phase(body.time_since_press(), period))),
             Self::Custom { sensor, channel } => {
                 custom[sensor].told().map_or(f32::NAN, |told| (told.read)(body, channel))
             }
@@ -308,4 +361,14 @@ impl Source {
 pub fn clock_phase(time: f32, period: f32) -> f32 {
     let turns = time / period;
     (turns - turns.floor()) * TAU
+}
+
+/// How far a stride clock swings at a commanded speed, -1 to 1; both in body lengths/s.
+pub fn stride_swing(speed: f32, top: f32) -> f32 {
+    (speed / top).clamp(-1.0, 1.0)
+}
+
+/// Phase of a jump clock of this period, so long after the press, both s; in rad, 0 to 2π, and 0 once the turn is over.
+pub fn jump_phase(since_press: f32, period: f32) -> f32 {
+    if since_press < period { since_press / period * TAU } else { 0.0 }
 }

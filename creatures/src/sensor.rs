@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 /// In a file: `"torso-rotation"`, `"joint-angles"`, `"joint-speeds"`, `"torso-velocity"`, `"torso-height"`,
 /// `"foot-contacts"`, `{"rangefinder": {"angles": [-30, 0], "length": 3}}`, `{"clock": {"period": 1}}`, `"torso-spin"`,
 /// `"height-above-ground"`, `"foot-slip"`, `{"next-gap": {"length": 4}}`, `{"landing-clock": {"period": 1}}`,
-/// `{"custom": {"name": "whiskers"}}`.
+/// `{"commanded-speed": {"top": 3}}`, `"jump-command"`, `{"stride-clock": {"period": 0.5, "top": 3}}`,
+/// `{"jump-clock": {"period": 0.5}}`, `{"custom": {"name": "whiskers"}}`.
 /// [`Senses`](crate::Senses) turns sensors into the channels of a net; the ranges below are those of the raw values.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -66,13 +67,38 @@ pub enum Sensor {
         #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
         period: f32,
     },
+    /// The speed the body is told to move at: one channel, body lengths/s, plus or minus `top`; below 0 is backwards.
+    CommandedSpeed {
+        /// The fastest it is told to move, body lengths/s, 0.1 to 20.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 20.0)))]
+        top: f32,
+    },
+    /// Whether the body is told to jump, as long as the button is held: one channel, 0 or 1.
+    JumpCommand,
+    /// A clock that swings as far as the body is told to be fast: sine and cosine of its phase, times the commanded speed over
+    /// `top`. Two channels, -1 to 1. Told to stand, a body has no rhythm; told to go backwards, the other one.
+    StrideClock {
+        /// Time of one turn, s, 0.02 to 100.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
+        period: f32,
+        /// The speed at which it swings as far as it can, body lengths/s, 0.1 to 20.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 20.0)))]
+        top: f32,
+    },
+    /// One turn of a clock, from the moment the body is told to jump: sine of its phase, and (1 - cosine) / 2. Two channels,
+    /// -1 to 1 and 0 to 1; both are 0 before the first press and after the turn.
+    JumpClock {
+        /// Time of the turn, s, 0.02 to 100.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]
+        period: f32,
+    },
     /// A sensor of another crate, which only the program that has it can read: see [`Sense`](crate::Sense).
     Custom(CustomSensor),
 }
 
 impl Sensor {
     /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 14] = [
+    pub const NAMES: [&'static str; 18] = [
         "torso-rotation",
         "joint-angles",
         "joint-speeds",
@@ -86,6 +112,10 @@ impl Sensor {
         "foot-slip",
         "next-gap",
         "landing-clock",
+        "commanded-speed",
+        "jump-command",
+        "stride-clock",
+        "jump-clock",
         "custom",
     ];
 
@@ -105,7 +135,11 @@ impl Sensor {
             Self::FootSlip => Self::NAMES[10],
             Self::NextGap { .. } => Self::NAMES[11],
             Self::LandingClock { .. } => Self::NAMES[12],
-            Self::Custom(_) => Self::NAMES[13],
+            Self::CommandedSpeed { .. } => Self::NAMES[13],
+            Self::JumpCommand => Self::NAMES[14],
+            Self::StrideClock { .. } => Self::NAMES[15],
+            Self::JumpClock { .. } => Self::NAMES[16],
+            Self::Custom(_) => Self::NAMES[17],
         }
     }
 
@@ -135,6 +169,10 @@ mod tests {
             Sensor::FootSlip,
             Sensor::NextGap { length: 4.0 },
             Sensor::LandingClock { period: 1.0 },
+            Sensor::CommandedSpeed { top: 3.0 },
+            Sensor::JumpCommand,
+            Sensor::StrideClock { period: 0.5, top: 3.0 },
+            Sensor::JumpClock { period: 0.5 },
             Sensor::Custom(CustomSensor::new("whiskers")),
         ];
         for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {

@@ -24,6 +24,7 @@ struct Body {
     gap: [f32; 2],
     distance: f32,
     time: f32,
+    told: (f32, bool, f32),
 }
 
 impl BodyView for Body {
@@ -64,6 +65,18 @@ impl BodyView for Body {
 
     fn time_since_landing(&self) -> f32 {
         self.time - 2.0
+    }
+
+    fn commanded_speed(&self) -> f32 {
+        self.told.0
+    }
+
+    fn is_told_to_jump(&self) -> bool {
+        self.told.1
+    }
+
+    fn time_since_press(&self) -> f32 {
+        self.told.2
     }
 }
 
@@ -149,6 +162,7 @@ fn ends_of_the_ranges_become_the_input_range() {
                 gap: [raw(18), raw(19)],
                 distance: raw(10),
                 time: quarter,
+                told: (0.0, false, 0.0),
             };
             let expected = if end == 0 { -range } else { range };
             let inputs = read(&senses, &body);
@@ -199,6 +213,7 @@ fn not_a_number_stays_so() {
         gap: [nan; 2],
         distance: nan,
         time: nan,
+        told: (0.0, false, 0.0),
     };
     let inputs = read(&senses, &body);
     let finite: Vec<usize> = (0..inputs.len()).filter(|&channel| !inputs[channel].is_nan()).collect();
@@ -257,6 +272,46 @@ fn a_landing_clock_begins_anew_at_every_landing() {
     let at = |senses, time| read(senses, &Body { time, ..Body::default() });
     assert_eq!(at(&landing, 2.3), at(&clock, 2.3 - 2.0));
     assert_eq!(landing.channels()[0].name, "sine of 2 s clock from landing");
+}
+
+#[test]
+fn commands_are_channels_like_any_other() {
+    let senses = senses(&[Sensor::CommandedSpeed { top: 2.0 }, Sensor::JumpCommand], 3.0);
+    let named: Vec<_> = senses.channels().iter().map(|channel| (channel.name.as_str(), channel.unit)).collect();
+    assert_eq!(named, [("commanded speed", "body lengths/s"), ("jump command", "")]);
+    let told = |speed, jump| read(&senses, &Body { told: (speed, jump, 0.0), ..Body::default() });
+    assert_eq!(told(0.0, false), [0.0, -3.0]);
+    assert_eq!(told(-1.0, true), [-1.5, 3.0]);
+    assert_eq!(told(9.0, true), [3.0, 3.0]);
+}
+
+#[test]
+fn a_stride_clock_swings_with_the_commanded_speed() {
+    let period = 2.0;
+    let [clock, stride] = [Sensor::Clock { period }, Sensor::StrideClock { period, top: 2.0 }];
+    let [clock, stride] = [senses(&[clock], 1.0), senses(&[stride], 1.0)];
+    let at = |senses, speed| read(senses, &Body { time: 0.3, told: (speed, false, 0.0), ..Body::default() });
+    let whole = at(&clock, 0.0);
+    for (speed, swing) in [(0.0, 0.0), (1.0, 0.5), (2.0, 1.0), (5.0, 1.0), (-1.0, -0.5)] {
+        let swung: Vec<f32> = whole.iter().map(|value| swing * value).collect();
+        assert_eq!(at(&stride, speed), swung, "at {speed}");
+    }
+    assert_eq!(stride.channels()[0].name, "sine of 2 s stride clock");
+}
+
+#[test]
+fn a_jump_clock_turns_once_after_a_press() {
+    let senses = senses(&[Sensor::JumpClock { period: 0.8 }], 1.0);
+    let at = |since| read(&senses, &Body { told: (0.0, false, since), ..Body::default() });
+    let near = |found: Vec<f32>, wanted: [f32; 2]| {
+        assert!(found.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-6), "{found:?}, {wanted:?}");
+    };
+    near(at(0.0), [0.0, -1.0]);
+    near(at(0.2), [1.0, 0.0]);
+    near(at(0.4), [0.0, 1.0]);
+    near(at(0.6), [-1.0, 0.0]);
+    near(at(0.8), [0.0, -1.0]);
+    near(at(f32::INFINITY), [0.0, -1.0]);
 }
 
 #[test]

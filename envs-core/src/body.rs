@@ -151,4 +151,16 @@ impl<E: Engine> BodyView for Body<'_, E> {
     fn time_since_landing(&self) -> f32 {
         self.landings.since(self.snapshot.time)
     }
+
+    fn commanded_speed(&self) -> f32 {
+        self.snapshot.command.speed
+    }
+
+    fn is_told_to_jump(&self) -> bool {
+        self.snapshot.command.jump
+    }
+
+    fn time_since_press(&self) -> f32 {
+        self.snapshot.command.since_press
+    }
 }

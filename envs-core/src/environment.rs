@@ -5,7 +5,7 @@ use crate::{
 use creatures::{Actuation, Blueprint, Landings, Motors, Senses, Sensor, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
 use std::{borrow::Cow, sync::Arc};
-use tasks::{Environment, Snapshot};
+use tasks::{CommandSchedule, Commands, Environment, Snapshot};
 
 /// A creature on its ground in a physics engine.
 #[derive(Clone)]
@@ -37,6 +37,8 @@ struct Plan<E> {
     landscape: Landscape,
     /// What the landscape was laid out from, if trials may have others; else flat.
     terrain: Terrain,
+    /// What the body is told to do, and whether trials are lessons; `None`: nothing.
+    commands: Option<(Commands, bool)>,
     /// One for each motor.
     actuated: Vec<ActuatedHinge>,
     /// The settled creature in the world without variation.
@@ -50,6 +52,7 @@ struct State<E> {
     rest: Arc<RestPose>,
     gaps: Arc<[[f32; 2]]>,
     pushes: PushSchedule,
+    commands: CommandSchedule,
     snapshot: Snapshot,
     landings: Landings,
     /// Seconds a step of this trial lasts.
@@ -159,10 +162,24 @@ impl<E: Engine> CreatureEnvironment<E> {
             variation,
             landscape,
             terrain,
+            commands: None,
             actuated,
             settled,
         };
         Ok(Self { plan: Arc::new(plan), state })
+    }
+
+    /// The same environment, in which the body is told what to do: each trial draws its commands from its own seed. `lessons`:
+    /// see [`Trials::lessons`](tasks::Trials::lessons).
+    ///
+    /// # Errors
+    /// If a number of the commands is out of range.
+    pub fn with_commands(mut self, commands: Option<Commands>, lessons: bool) -> Result<Self, EnvironmentError> {
+        if let Some(commands) = &commands {
+            commands.validate().map_err(|error| error.within("commands"))?;
+        }
+        Arc::make_mut(&mut self.plan).commands = commands.map(|commands| (commands, lessons));
+        Ok(self)
     }
 
     /// The same environment, whose controller's outputs mean something else.
@@ -263,6 +280,11 @@ impl<E: Engine> CreatureEnvironment<E> {
         self.plan.actuated.iter().map(|actuated| -self.state.engine.motor_torque(actuated.hinge))
     }
 
+    /// Where the commands of a trial come from; `None`: the body is told nothing.
+    pub fn commands(&self) -> Option<&Commands> {
+        self.plan.commands.as_ref().map(|(commands, _)| commands)
+    }
+
     /// What the creature moves on in the trial with this seed.
     pub fn landscape_of(&self, seed: Seed) -> Cow<'_, Landscape> {
         self.landscape_under(&self.plan.variation, seed)
@@ -295,6 +317,15 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// # Errors
     /// If the creature cannot come to rest in the world of this trial.
     pub fn settled(&self, seed: Seed) -> Result<Settled<E>, Failure> {
+        let settled = self.settled_untold(seed)?;
+        Ok(match &self.plan.commands {
+            Some((commands, lessons)) => settled.commanded(commands.draw(seed, *lessons)),
+            None => settled,
+        })
+    }
+
+    /// The same, without commands.
+    fn settled_untold(&self, seed: Seed) -> Result<Settled<E>, Failure> {
         let Plan { blueprint, motors, settings, variation, settled, .. } = &*self.plan;
         if variation.is_none() {
             return Ok(settled.clone());
@@ -384,7 +415,7 @@ fn pull(settings: &PhysicsSettings, blueprint: &Blueprint, mass_factor: f32) -> 
 impl<E: Engine> State<E> {
     /// The beginning of a trial.
     fn new(settled: Settled<E>, motors: usize) -> Self {
-        let Settled { engine, rest, gaps, pushes, snapshot, time_step } = settled;
+        let Settled { engine, rest, gaps, pushes, commands, snapshot, time_step } = settled;
         let still = vec![0.0; motors];
         let landings = Landings::default();
         Self {
@@ -392,6 +423,7 @@ impl<E: Engine> State<E> {
             rest,
             gaps,
             pushes,
+            commands,
             snapshot,
             landings,
             time_step,
@@ -410,6 +442,7 @@ impl<E: Engine> State<E> {
         advance(&mut self.engine, &mut self.snapshot.parts, plan.settings.unstable_speed, clock)?;
         self.steps += 1;
         self.snapshot.time = self.steps as f32 * self.time_step;
+        self.snapshot.command = self.commands.at(self.snapshot.time, &self.snapshot.command, self.time_step);
         let parts = &self.snapshot.parts;
         self.landings.observe(parts.iter().any(|part| part.touching), self.snapshot.time);
         let power = |&ActuatedHinge { hinge, parent, child }: &ActuatedHinge| {

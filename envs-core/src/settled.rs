@@ -2,7 +2,7 @@ use crate::{Conditions, Engine, Landscape, PhysicsSettings, PushSchedule, RestPo
 use creatures::Blueprint;
 use ne_core::Failure;
 use std::sync::Arc;
-use tasks::{PartState, Snapshot};
+use tasks::{CommandSchedule, PartState, Snapshot};
 
 /// A creature at rest in its start pose (but for the torso's spin, if the conditions give it one), the clock at zero: what every trial begins with.
 #[derive(Clone)]
@@ -15,6 +15,8 @@ pub struct Settled<E> {
     pub gaps: Arc<[[f32; 2]]>,
     /// When the torso is pushed in this trial.
     pub pushes: PushSchedule,
+    /// What the body is told to do in this trial.
+    pub commands: CommandSchedule,
     /// Where every part is; time and motor work are 0.
     pub snapshot: Snapshot,
     /// Seconds a step of this trial lasts.
@@ -62,7 +64,15 @@ impl<E: Engine> Settled<E> {
         }
         let gaps = landscape.gaps().collect();
         let pushes = PushSchedule::new(&conditions.pushes, blueprint);
-        Ok(Self { engine, rest, gaps, pushes, snapshot, time_step: settings.time_step })
+        let commands = CommandSchedule::default();
+        Ok(Self { engine, rest, gaps, pushes, commands, snapshot, time_step: settings.time_step })
+    }
+
+    /// The same creature, told to do this.
+    #[must_use]
+    pub(crate) fn commanded(mut self, commands: CommandSchedule) -> Self {
+        self.snapshot.command = commands.first();
+        Self { commands, ..self }
     }
 }
 

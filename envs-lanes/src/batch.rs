@@ -12,7 +12,7 @@ use envs_core::{ActuatedHinge, PushSchedule, Settled};
 use ne_core::Failure;
 use ne_net::{Network, Topology};
 use std::sync::Arc;
-use tasks::Snapshot;
+use tasks::{Command, CommandSchedule, Snapshot};
 
 /// Creatures of one body, side by side, each in a trial of its own: sensing, thinking, acting and stepping them all takes
 /// hardly longer than one.
@@ -46,6 +46,13 @@ pub(crate) struct Batch<const W: usize> {
     pushes: [PushSchedule; W],
     /// When each lane is pushed next, s from the start of its trial.
     next_push: Lanes<W>,
+    commands: [CommandSchedule; W],
+    /// What each lane is told to do; its speed and the time since its last press stand beside it for the senses.
+    command: [Command; W],
+    commanded_speed: Lanes<W>,
+    since_press: Lanes<W>,
+    /// Whether any lane is told anything.
+    commanded: bool,
     /// Of the last step: the power of all motors, W.
     power: Lanes<W>,
     /// Of the last step: the fastest part's larger velocity component, m/s; NaN where a number is not finite.
@@ -88,6 +95,11 @@ impl<const W: usize> Batch<W> {
             gaps: std::array::from_fn(|_| settled.gaps.clone()),
             pushes: std::array::from_fn(|_| settled.pushes.clone()),
             next_push: Lanes::splat(f32::INFINITY),
+            commands: std::array::from_fn(|_| CommandSchedule::default()),
+            command: [Command::default(); W],
+            commanded_speed: Lanes::ZERO,
+            since_press: Lanes::splat(f32::INFINITY),
+            commanded: false,
             power: Lanes::ZERO,
             fastest: Lanes::ZERO,
         }
@@ -108,9 +120,18 @@ impl<const W: usize> Batch<W> {
         self.gaps[lane] = settled.gaps.clone();
         self.pushes[lane] = settled.pushes.clone();
         self.next_push.0[lane] = settled.pushes.next_time();
+        self.commands[lane] = settled.commands.clone();
+        self.commanded |= !settled.commands.is_empty();
+        self.tell(lane, settled.commands.first());
         if let Some(net) = &mut self.net {
             net.forget(lane);
         }
+    }
+
+    fn tell(&mut self, lane: usize, command: Command) {
+        self.command[lane] = command;
+        self.commanded_speed.0[lane] = command.speed;
+        self.since_press.0[lane] = command.since_press;
     }
 
     /// Whether the nets think in lanes; else each thinks for itself in [`think`](Self::think).
@@ -169,6 +190,12 @@ impl<const W: usize> Batch<W> {
             self.steps[lane] += u32::from(self.unusable[lane].is_none());
             self.time.0[lane] = self.steps[lane] as f32 * self.time_step.0[lane];
         }
+        if self.commanded {
+            for lane in 0..W {
+                let (time, time_step) = (self.time.0[lane], self.time_step.0[lane]);
+                self.tell(lane, self.commands[lane].at(time, &self.command[lane], time_step));
+            }
+        }
         if let Some(landings) = &mut self.landings {
             let touching = self.world.touching();
             for (lane, landings) in landings.iter_mut().enumerate() {
@@ -217,6 +244,7 @@ impl<const W: usize> Batch<W> {
         }
         self.world.look(lane, &mut snapshot.parts);
         snapshot.time = self.time.0[lane];
+        snapshot.command = self.command[lane];
         snapshot.motor_work += f64::from(self.power.0[lane]) * f64::from(self.time_step.0[lane]);
         Ok(())
     }
@@ -229,8 +257,23 @@ impl<const W: usize> Work for Sense<'_, W> {
 
     #[inline(always)]
     fn run(self) {
-        let Batch { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, .. } = self.0;
-        senses.read(world, &Clocks { time, since_landing, rest_height, gaps }, inputs);
+        let Batch {
+            world,
+            senses,
+            net,
+            inputs,
+            outputs,
+            time,
+            since_landing,
+            rest_height,
+            gaps,
+            command,
+            commanded_speed,
+            since_press,
+            ..
+        } = self.0;
+        let clocks = Clocks { time, since_landing, rest_height, gaps, command, commanded_speed, since_press };
+        senses.read(world, &clocks, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);
         }

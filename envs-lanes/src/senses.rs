@@ -2,9 +2,10 @@ use crate::{
     lanes::{Lanes, angle_of},
     solver::LaneWorld,
 };
-use creatures::{Probe, Senses, Shape, Source, clock_phase};
+use creatures::{Probe, Senses, Shape, Source, clock_phase, jump_phase, stride_swing};
 use envs_core::{RestPose, next_gap};
 use std::sync::Arc;
+use tasks::Command;
 
 /// The senses of a creature, for all lanes at once; a lane's inputs have the bits of [`Senses::read`].
 #[derive(Clone, Debug)]
@@ -25,6 +26,11 @@ pub(crate) struct Clocks<'a, const W: usize> {
     pub(crate) rest_height: &'a Lanes<W>,
     /// The gaps of each lane's ground: from and to, m, from left to right.
     pub(crate) gaps: &'a [Arc<[[f32; 2]]>; W],
+    /// What each lane is told to do.
+    pub(crate) command: &'a [Command; W],
+    /// Of these, the speeds and the times since the last press.
+    pub(crate) commanded_speed: &'a Lanes<W>,
+    pub(crate) since_press: &'a Lanes<W>,
 }
 
 impl LaneSenses {
@@ -88,6 +94,20 @@ impl LaneSenses {
             Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
             Source::LandingSine { period } => clocks.since_landing.map(|time| libm::sinf(clock_phase(time, period))),
             Source::LandingCosine { period } => clocks.since_landing.map(|time| libm::cosf(clock_phase(time, period))),
+            Source::CommandedSpeed => *clocks.commanded_speed,
+            Source::JumpCommand => Lanes(std::array::from_fn(|lane| f32::from(u8::from(clocks.command[lane].jump)))),
+            Source::StrideSine { period, top } => {
+                let swing = clocks.commanded_speed.map(|speed| stride_swing(speed, top));
+                swing * clocks.time.map(|time| libm::sinf(clock_phase(time, period)))
+            }
+            Source::StrideCosine { period, top } => {
+                let swing = clocks.commanded_speed.map(|speed| stride_swing(speed, top));
+                swing * clocks.time.map(|time| libm::cosf(clock_phase(time, period)))
+            }
+            Source::JumpSine { period } => clocks.since_press.map(|time| libm::sinf(jump_phase(time, period))),
+            Source::JumpSwell { period } => {
+                clocks.since_press.map(|time| 0.5 * (1.0 - libm::cosf(jump_phase(time, period))))
+            }
             // Lanes have no view of one body that it could be asked with; not a number fails the evaluation.
             Source::Custom { .. } => Lanes::splat(f32::NAN),
         }

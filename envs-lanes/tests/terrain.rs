@@ -189,7 +189,7 @@ fn a_population_on_a_terrain_scores_as_in_rapier() {
     let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
     let variation = Variation { terrain: true, ..Variation::light() };
     let (rapier, lanes) = both_on(&blueprint, &crowded("mixture"), variation);
-    let trials = Trials { count: 2, combine: Combine::Mean };
+    let trials = Trials { count: 2, combine: Combine::Mean, lessons: false };
     let one_by_one = Episode::new(rapier, Box::new(Running::default()), 150, trials).expect("valid");
     let at_once = LaneEpisode::new(lanes, Box::new(Running::default()), 150, trials).expect("valid");
     let shape = DenseShape::new(one_by_one.inputs(), vec![6], one_by_one.outputs());

@@ -16,7 +16,7 @@ use ne_core::{
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
-use tasks::{Episode, MovementSpec, Trials};
+use tasks::{Commands, Episode, MovementSpec, Trials};
 
 /// The format of a champion file.
 pub const CHAMPION_FORMAT: &str = "gambol champion";
@@ -55,6 +55,9 @@ pub struct Champion {
     /// What it moves on.
     #[serde(default, skip_serializing_if = "Terrain::is_default")]
     pub terrain: Terrain,
+    /// What it is told to do; none: nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commands: Option<Commands>,
     /// The engine that gives its fitness and its trajectory, and its version.
     pub engine: Engine,
     /// The seed it was evaluated with.
@@ -171,6 +174,7 @@ impl Champion {
             variation,
             physics: config.physics,
             terrain: config.terrain.clone(),
+            commands: config.commands.clone(),
             engine: Engine::current(),
             seed,
             generation,
@@ -219,6 +223,7 @@ impl Champion {
             physics: self.physics,
             terrain: &self.terrain,
             actuation: self.actuation,
+            commands: self.commands.as_ref(),
         }
     }
 

@@ -12,7 +12,7 @@ use creatures::{Actuation, Blueprint, Creature, CreatureError, Sensor, Terrain};
 use envs_lanes::{LaneEnvironment, LaneEpisode};
 use envs_rapier::{EnvironmentError, PhysicsSettings, RapierEnvironment, Variation};
 use ne_core::SettingError;
-use tasks::{Combine, Episode, Movement, MovementSpec, MovementSpecError, Trials};
+use tasks::{Commands, Episode, Movement, MovementSpec, MovementSpecError, Trials};
 
 /// Why a configuration cannot be built. Each says which field.
 #[derive(Debug, thiserror::Error)]
@@ -113,6 +113,8 @@ pub struct EpisodeParts<'a> {
     pub terrain: &'a Terrain,
     /// What outputs mean to motors.
     pub actuation: Actuation,
+    /// What the body is told to do; `None`: nothing.
+    pub commands: Option<&'a Commands>,
 }
 
 /// Varied worlds a candidate is proved in.
@@ -130,7 +132,8 @@ impl EpisodeParts<'_> {
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
             RapierEnvironment::on_terrain(blueprint, &sensors, self.input_range, physics, variation, terrain)?
-                .with_actuation(self.actuation)?;
+                .with_actuation(self.actuation)?
+                .with_commands(self.commands.cloned(), self.trials.lessons)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
     }
 
@@ -149,6 +152,7 @@ impl EpisodeParts<'_> {
         let environment =
             LaneEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)
                 .and_then(|environment| environment.with_actuation(self.actuation))
+                .and_then(|environment| environment.with_commands(self.commands.cloned(), self.trials.lessons))
                 .map_err(SetupError::Engine)?;
         Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)
     }
@@ -172,7 +176,7 @@ impl EpisodeParts<'_> {
 
     /// The same in as many varied worlds as a champion is proved in.
     pub(crate) fn proof(self) -> Self {
-        Self { trials: Trials { count: PROOFS, combine: Combine::Mean }, ..self }
+        Self { trials: Trials { count: PROOFS, ..Trials::default() }, ..self }
     }
 
     /// Builds the task in rapier, and in the engine of training.
@@ -204,6 +208,7 @@ impl RunConfig {
             physics: self.physics,
             terrain: &self.terrain,
             actuation: self.controller.actuation,
+            commands: self.commands.as_ref(),
         }
     }
 }

@@ -166,6 +166,7 @@ pub(crate) mod tests {
             physics: PhysicsSettings::default(),
             terrain,
             actuation: Actuation::default(),
+            commands: None,
         };
         Judge::new(parts, &Registry::default()).expect("builds")
     }

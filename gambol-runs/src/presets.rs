@@ -164,6 +164,7 @@ fn bare(creature: Creature, movement: &str) -> RunConfig {
         stop: StopConditions { generations: Some(300), ..StopConditions::default() },
         physics: PhysicsSettings::default(),
         terrain: Terrain::default(),
+        commands: None,
         record: RecordSettings {
             checkpoint_every: 10,
             populations_at: vec![1, 3, 7, 20, 50, 100, 200, 300, 600, 1000, 3000, 10_000],

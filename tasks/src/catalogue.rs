@@ -1,8 +1,8 @@
-use crate::gait::{JumpingRules, Rules, RunningRules, SwimmingRules};
+use crate::gait::{JumpingRules, PlayingRules, Rules, RunningRules, SwimmingRules};
 use crate::{
     Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Hopping, Idleness,
-    Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Posture, Rhythm, Rollovers, Running, Slip,
-    Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
+    Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Playing, Posture, Rhythm, Rollovers, Running,
+    Slip, Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -195,6 +195,12 @@ impl Default for MovementCatalogue {
         catalogue.add::<Carrying>(Some(2000), carrying).judged_by(RunningRules::default());
         let backwards = "distance the torso covers, backwards";
         catalogue.add::<Backwards>(Some(2000), backwards).judged_by(RunningRules { backwards: true });
+        catalogue.add_with_settings(
+            Some(1000),
+            "time it does as it is told: a speed, standing still, a jump; settings: jump, s (3), what one is worth",
+            Playing::new,
+        );
+        catalogue.judged_by(PlayingRules);
         let swimming = "distance the centre of mass covers in water, forwards";
         catalogue.add::<Swimming>(Some(1000), swimming).in_water().judged_by(SwimmingRules);
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");

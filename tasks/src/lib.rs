@@ -37,6 +37,7 @@
 mod body;
 mod catalogue;
 pub mod classic;
+mod commands;
 pub mod conformance;
 mod environment;
 mod episode;
@@ -53,14 +54,15 @@ pub use classic::{
     Benchmark, CartPole, CartPoleSettings, DoublePole, DoublePoleSettings, Generalization, OutputRange, PoleFitness,
     Xor, XorSettings,
 };
+pub use commands::{Command, CommandChange, CommandSchedule, Commands, RandomCommands};
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
     Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
     GettingUpSettings, Haste, HasteSettings, Headway, HeadwaySettings, Hopping, Idleness, Jumping, Landing, Leap,
-    LongJump, Movement, MovementClone, NoExploits, NoExploitsSettings, Objectives, Posture, PostureSettings, Rhythm,
-    RhythmSettings, Rollovers, Running, Slip, Standing, StandingSettings, Sum, Swimming, TimeAloft, Upright, Verdict,
-    Vibration, Walking, WalkingSettings,
+    LongJump, Movement, MovementClone, NoExploits, NoExploitsSettings, Objectives, Playing, PlayingSettings, Posture,
+    PostureSettings, Rhythm, RhythmSettings, Rollovers, Running, Slip, Standing, StandingSettings, Sum, Swimming,
+    TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
 pub use trials::{Combine, Outcome, Tally, Trial, Trials};

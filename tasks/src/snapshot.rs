@@ -1,3 +1,5 @@
+use crate::Command;
+
 /// Where every part of a body is after a step, and what its motors have done.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Snapshot {
@@ -8,6 +10,8 @@ pub struct Snapshot {
     /// Work of all motors since the clock started, in J: the sum of |torque × relative speed| × time step, so that
     /// braking costs as much as driving.
     pub motor_work: f64,
+    /// What the body is told to do from this moment on; to stand, where it is told nothing.
+    pub command: Command,
 }
 
 /// One part of a body.

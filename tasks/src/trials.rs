@@ -11,6 +11,11 @@ pub struct Trials {
     pub count: u32,
     /// How the values of the trials become one fitness; default mean.
     pub combine: Combine,
+    /// Whether the trials of a body that is told [random commands](crate::RandomCommands) are lessons: of every three the first
+    /// has nothing but jumps out of standing, the second no jumps, and the third a jump in every hold, none of them standing.
+    /// Default `false`.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub lessons: bool,
 }
 
 /// How the values of several trials become one.
@@ -26,7 +31,7 @@ pub enum Combine {
 
 impl Default for Trials {
     fn default() -> Self {
-        Self { count: 1, combine: Combine::Mean }
+        Self { count: 1, combine: Combine::Mean, lessons: false }
     }
 }
 

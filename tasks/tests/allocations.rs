@@ -47,7 +47,7 @@ fn allocations(steps: u32, trials: u32) -> (u64, Evaluation) {
         .plus(-1.0, FallEnds::default());
     let objectives = Objectives::beside(Box::new(movement)).and(-1.0, Box::new(Energy::default()));
     let movement: Box<dyn Movement> = Box::new(objectives.and(1.0, Box::new(Running::default())));
-    let trials = Trials { count: trials, combine: Combine::Mean };
+    let trials = Trials { count: trials, combine: Combine::Mean, lessons: false };
     let episode = Episode::new(PointMass::new(), movement, steps, trials).expect("settings in range");
     let before = COUNT.get();
     let evaluation = episode.evaluate(&mut Constant(0.5), Seed::of_run(1));

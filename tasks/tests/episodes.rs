@@ -13,7 +13,7 @@ use tasks::{
 };
 
 const SEED: Seed = Seed::of_run(1);
-const ONE: Trials = Trials { count: 1, combine: Combine::Mean };
+const ONE: Trials = Trials { count: 1, combine: Combine::Mean, lessons: false };
 
 fn episode(
     environment: PointMass,
@@ -38,7 +38,7 @@ fn way(steps: u32) -> f64 {
 fn an_episode_passes_the_check_of_tasks() -> Result<(), Box<dyn std::error::Error>> {
     let varied = PointMass::varied(0.5, 2.0);
     let movement = Sum::of(Running::default()).plus(-0.1, Energy::default());
-    for trials in [ONE, Trials { count: 4, combine: Combine::Worst }] {
+    for trials in [ONE, Trials { count: 4, combine: Combine::Worst, lessons: false }] {
         check_task(&episode(varied.clone(), movement.clone(), 50, trials), &Puppet::sample(2, 1, 6), SEED)?;
     }
     Ok(())
@@ -87,7 +87,7 @@ fn trials_are_different_and_become_their_mean_or_their_worst() {
         .collect();
     assert!((1..5).all(|trial| starts[trial] != starts[0]), "{starts:?}");
     let evaluate = |combine| {
-        episode(varied.clone(), StartPlace::default(), 3, Trials { count: 5, combine })
+        episode(varied.clone(), StartPlace::default(), 3, Trials { count: 5, combine, lessons: false })
             .evaluate(&mut Constant(0.0), SEED)
     };
     let (mean, worst) = (evaluate(Combine::Mean), evaluate(Combine::Worst));
@@ -101,7 +101,7 @@ fn trials_are_different_and_become_their_mean_or_their_worst() {
 #[test]
 fn fewer_trials_are_the_first_ones() {
     let evaluate = |count, fewer: u32| {
-        let trials = Trials { count, combine: Combine::Worst };
+        let trials = Trials { count, combine: Combine::Worst, lessons: false };
         let whole = episode(PointMass::varied(1.0, 1e6), StartPlace::default(), 3, trials);
         whole.with_fewer_trials(fewer).evaluate(&mut Constant(0.0), SEED)
     };
@@ -257,7 +257,7 @@ fn objectives_are_weighed_means_over_the_trials_and_leave_the_rest_alone() -> Re
         // They would end the episode, and fail it; but objectives only watch.
         beside.and(3.0, Box::new(Says(Verdict::End))).and(4.0, Box::new(Says(Verdict::Fail("on purpose"))))
     };
-    for trials in [ONE, Trials { count: 4, combine: Combine::Worst }] {
+    for trials in [ONE, Trials { count: 4, combine: Combine::Worst, lessons: false }] {
         let place = PointMass::varied(0.5, 1e6);
         let task = episode(place.clone(), objectives(), 16, trials);
         check_task(&task, &Puppet::sample(2, 1, 6), SEED)?;

@@ -18,7 +18,12 @@ fn value(mut movement: impl Movement, snapshots: &[Snapshot]) -> f64 {
 
 /// Snapshots of one part, one time step apart.
 fn of_parts(parts: impl IntoIterator<Item = PartState>) -> Vec<Snapshot> {
-    let snapshot = |(step, part)| Snapshot { time: step as f32 * TIME_STEP, parts: vec![part], motor_work: 0.0 };
+    let snapshot = |(step, part)| Snapshot {
+        time: step as f32 * TIME_STEP,
+        parts: vec![part],
+        motor_work: 0.0,
+        ..Snapshot::default()
+    };
     parts.into_iter().enumerate().map(snapshot).collect()
 }
 

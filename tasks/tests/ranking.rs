@@ -69,7 +69,7 @@ impl Pose {
             touching: !self.aloft && !self.torso_touches,
             ..PartState::default()
         };
-        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: self.work }
+        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: self.work, ..Snapshot::default() }
     }
 }
 

@@ -80,7 +80,7 @@ impl Pose {
             let y = torso.y + torso.sin * hip_x + torso.cos * hip_y - 0.2 * cos + self.lifted[index];
             PartState { x, y, cos, sin, touching: self.lifted[index] == 0.0, ..PartState::default() }
         };
-        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: 0.0 }
+        Snapshot { time, parts: vec![torso, leg(0), leg(1)], motor_work: 0.0, ..Snapshot::default() }
     }
 }
 

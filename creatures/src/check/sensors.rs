@@ -1,7 +1,7 @@
 //! Settings of sensors.
 
 use super::numbers::{check as check_number, check_count};
-use crate::bounds::{CLOCK_PERIOD, GAP_SIGHT, MOST_RAYS, MOST_SENSORS, RAY_ANGLE, RAY_LENGTH};
+use crate::bounds::{CLOCK_PERIOD, COMMANDED_TOP, GAP_SIGHT, MOST_RAYS, MOST_SENSORS, RAY_ANGLE, RAY_LENGTH};
 use crate::{Problem, Sensor};
 
 /// Checks the sensors of a creature, or those a run gives it instead.
@@ -34,6 +34,16 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             Sensor::NextGap { length } => {
                 check_number(|| format!("{path}.next-gap.length"), *length, GAP_SIGHT, problems);
             }
+            Sensor::CommandedSpeed { top } => {
+                check_number(|| format!("{path}.commanded-speed.top"), *top, COMMANDED_TOP, problems);
+            }
+            Sensor::StrideClock { period, top } => {
+                check_number(|| format!("{path}.stride-clock.period"), *period, CLOCK_PERIOD, problems);
+                check_number(|| format!("{path}.stride-clock.top"), *top, COMMANDED_TOP, problems);
+            }
+            Sensor::JumpClock { period } => {
+                check_number(|| format!("{path}.jump-clock.period"), *period, CLOCK_PERIOD, problems);
+            }
             Sensor::FootContacts | Sensor::FootSlip if !has_feet => {
                 problems.push(Problem::NoFeet { path, sensor: sensor.name() });
             }
@@ -46,6 +56,7 @@ pub(crate) fn check(sensors: &[Sensor], has_feet: bool, problems: &mut Vec<Probl
             | Sensor::FootContacts
             | Sensor::HeightAboveGround
             | Sensor::FootSlip
+            | Sensor::JumpCommand
             | Sensor::Custom(_) => {}
         }
     }

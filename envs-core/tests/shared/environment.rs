@@ -1,10 +1,10 @@
 use crate::puppet::Puppet;
-use creatures::Blueprint;
+use creatures::{Blueprint, Sensor};
 use envs_core::{
     Conditions, CreatureEnvironment, EnvironmentError, Ground, GroundShape, PhysicsSettings, Push, Variation,
 };
 use ne_core::Seed;
-use tasks::{Environment, conformance::check_environment};
+use tasks::{Commands, Environment, RandomCommands, conformance::check_environment};
 
 fn blueprint(self_collision: bool) -> Blueprint {
     let mut creature = creatures::find("tetrapod-2").expect("shipped");
@@ -263,4 +263,38 @@ fn what_an_engine_cannot_simulate_is_refused_with_the_engines_name() {
         refusal(on_ground(blueprint(false), Ground { shapes: vec![] })),
         "ground.shapes = []: must be at least one shape"
     );
+}
+
+/// A body that is told what to do senses it, shows it to movements, and forgets it with the trial.
+#[test]
+fn a_trial_is_told_its_own_commands() {
+    let random = RandomCommands { still: 0.1, hold: [0.2, 0.4], jumps: 1.0, ..RandomCommands::default() };
+    let sensors = [Sensor::TorsoRotation, Sensor::CommandedSpeed { top: 2.0 }, Sensor::JumpCommand];
+    let told = |commands: Commands| {
+        let (settings, variation) = (PhysicsSettings::default(), Variation::default());
+        let puppet = CreatureEnvironment::<Puppet>::new(blueprint(false), &sensors, 3.0, settings, variation);
+        puppet.expect("builds").with_commands(Some(commands), false)
+    };
+    let mut environment = told(Commands::Random(random)).expect("in range");
+    let mut play = |seed: u64| {
+        environment.reset(Seed::of_run(seed)).expect("settles");
+        let mut sensed = Vec::new();
+        for _ in 0..200 {
+            let mut inputs = [0.0; 3];
+            environment.sense(&mut inputs);
+            let command = environment.snapshot().command;
+            assert_eq!(inputs[1], 3.0 * command.speed / 2.0);
+            assert_eq!(inputs[2] > 0.0, command.jump);
+            sensed.push(command);
+            environment.act(&[0.0; 8]);
+            environment.step().expect("steps");
+        }
+        sensed
+    };
+    let first = play(1);
+    assert!(first.iter().any(|command| command.jump) && first.iter().any(|command| command.speed > 0.0));
+    assert_ne!(play(2), first);
+    assert_eq!(play(1), first);
+    let refused = told(Commands::Given(Vec::new())).err().expect("refused").to_string();
+    assert!(refused.contains("commands.given.length"), "{refused}");
 }

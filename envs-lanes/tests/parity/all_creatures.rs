@@ -2,7 +2,7 @@
 
 use crate::{
     any_creature::{any_actuation, any_creature, any_settings, any_variation},
-    stage::{all_sensors, assert_same_evaluations, drive, try_both},
+    stage::{all_sensors, assert_same_evaluations, drive, told, try_both},
 };
 use creatures::{Actuation, Blueprint, Creature, Joint, Motor, Part, Shape};
 use envs_core::{PhysicsSettings, Variation};
@@ -26,8 +26,9 @@ fn check(creature: Creature, world: World, seed: u64, hold: u32) {
     let blueprint = Blueprint::new(creature).expect("the generator makes valid creatures");
     match try_both(&blueprint, &all_sensors(&blueprint), world.settings, world.variation) {
         (Ok(rapier), Ok(lanes)) => {
-            let mut rapier = rapier.with_actuation(world.actuation).expect("a gain in range");
-            let mut lanes = lanes.with_actuation(world.actuation).expect("a gain in range");
+            let rapier = rapier.with_actuation(world.actuation).expect("a gain in range");
+            let lanes = lanes.with_actuation(world.actuation).expect("a gain in range");
+            let (mut rapier, mut lanes) = told(rapier, lanes);
             drive(&mut rapier, &mut lanes, seed, 200, hold);
             assert_same_evaluations(rapier, lanes, seed, 40);
         }

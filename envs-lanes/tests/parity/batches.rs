@@ -14,7 +14,7 @@ fn tasks(name: &str) -> (Episode<RapierEnvironment>, LaneEpisode) {
     let sensors = blueprint.creature().sensors.clone();
     let (rapier, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), Variation::light());
     let movement = || Box::new(Sum::of(Running::default()).plus(-1.0, FallEnds::default()));
-    let trials = Trials { count: 3, combine: Combine::Worst };
+    let trials = Trials { count: 3, combine: Combine::Worst, lessons: false };
     let rapier = Episode::new(rapier, movement(), 80, trials).expect("valid");
     (rapier, LaneEpisode::new(lanes, movement(), 80, trials).expect("valid"))
 }

@@ -29,7 +29,7 @@ fn a_batch_gives_what_rapier_gives() {
     for name in SHIPPED {
         let blueprint = shipped(name);
         let sensors = all_sensors(&blueprint);
-        let trials = Trials { count: 2, combine: Combine::Mean };
+        let trials = Trials { count: 2, combine: Combine::Mean, lessons: false };
         let worlds = [Variation::default(), Variation::light(), Variation::strong()];
         for (variation, actuation) in worlds.into_iter().zip([Actuation::Speed, Actuation::angle(), Actuation::angle()])
         {
@@ -55,7 +55,7 @@ fn neither_neighbours_nor_instructions_change_a_bit() {
     let sensors = blueprint.creature().sensors.clone();
     let (_, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), Variation::light());
     let falls = || Box::new(Sum::of(Running::default()).plus(-1.0, FallEnds::default()));
-    let trials = Trials { count: 3, combine: Combine::Worst };
+    let trials = Trials { count: 3, combine: Combine::Worst, lessons: false };
     let task = LaneEpisode::new(lanes, falls(), 200, trials).expect("valid");
     let seed = Seed::of_run(8);
     let mut nets = nets(task.inputs(), task.outputs(), 70);
@@ -77,7 +77,7 @@ fn fewer_trials_and_steps_are_the_first_ones() {
     let sensors = blueprint.creature().sensors.clone();
     let (_, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), Variation::light());
     let task = |steps, count| {
-        let trials = Trials { count, combine: Combine::Worst };
+        let trials = Trials { count, combine: Combine::Worst, lessons: false };
         LaneEpisode::new(lanes.clone(), movement(), steps, trials).expect("valid")
     };
     let mut nets = nets(lanes.inputs(), lanes.outputs(), 5);

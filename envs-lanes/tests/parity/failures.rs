@@ -66,7 +66,7 @@ fn compare((rapier, lanes): &Tasks, faults: &[(u32, f32)]) -> Vec<Evaluation> {
 
 #[test]
 fn an_output_that_is_no_number_ends_the_trial_where_it_does_in_rapier() {
-    let trials = Trials { count: 2, combine: Combine::Worst };
+    let trials = Trials { count: 2, combine: Combine::Worst, lessons: false };
     for name in ["biped-1", "tetrapod-2"] {
         let tasks = tasks(name, PhysicsSettings::default(), Box::new(Running::default()), trials);
         let mut faults = Vec::new();
@@ -86,7 +86,7 @@ fn an_output_that_is_no_number_ends_the_trial_where_it_does_in_rapier() {
 fn a_part_that_is_too_fast_ends_the_trial_where_it_does_in_rapier() {
     for (name, unstable_speed) in [("biped-1", 1.0), ("tetrapod-2", 2.0), ("decapod-2", 3.0), ("apod", 1.0)] {
         let settings = PhysicsSettings { unstable_speed, ..PhysicsSettings::default() };
-        let trials = Trials { count: 3, combine: Combine::Mean };
+        let trials = Trials { count: 3, combine: Combine::Mean, lessons: false };
         let faults: Vec<(u32, f32)> = (1..40).map(|at| (at, 0.3)).collect();
         let found = compare(&tasks(name, settings, Box::new(Running::default()), trials), &faults);
         let unstable = |one: &Evaluation| matches!(one.outcome, Err(Failure::Unstable { .. }));
@@ -120,7 +120,7 @@ impl Movement for Over {
 
 #[test]
 fn a_movement_that_ends_at_once_does_so_in_lanes() {
-    let trials = Trials { count: 4, combine: Combine::Worst };
+    let trials = Trials { count: 4, combine: Combine::Worst, lessons: false };
     let faults: Vec<(u32, f32)> = (1..40).map(|at| (at % 3, f32::NAN)).collect();
     let found = compare(&tasks("biped-1", PhysicsSettings::default(), Box::new(Over), trials), &faults);
     assert!(found.iter().any(|one| one.outcome.is_ok() && one.steps == 4));
@@ -162,7 +162,7 @@ impl Movement for Disqualifies {
 
 #[test]
 fn a_movement_that_fails_a_trial_does_so_in_lanes() {
-    let trials = Trials { count: 3, combine: Combine::Mean };
+    let trials = Trials { count: 3, combine: Combine::Mean, lessons: false };
     let ducks = Err(Failure::Unstable { what: "it ducks".into() });
     for name in ["biped-1", "tetrapod-2"] {
         for by in [0.0, 0.01, 0.05] {

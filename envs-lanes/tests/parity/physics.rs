@@ -94,8 +94,10 @@ impl Movement for Fingerprint {
         self.observe(start);
     }
 
-    fn observe(&mut self, Snapshot { time, parts, motor_work }: &Snapshot) -> Verdict {
+    fn observe(&mut self, Snapshot { time, parts, motor_work, command }: &Snapshot) -> Verdict {
         self.add(u64::from(time.to_bits()));
+        self.add(u64::from(command.speed.to_bits()));
+        self.add(u64::from(command.since_press.to_bits()));
         self.add(motor_work.to_bits());
         for part in parts {
             for value in [part.x, part.y, part.cos, part.sin, part.vx, part.vy, part.spin] {
@@ -113,7 +115,7 @@ impl Movement for Fingerprint {
     }
 }
 
-const TRIALS: Trials = Trials { count: 6, combine: Combine::Mean };
+const TRIALS: Trials = Trials { count: 6, combine: Combine::Mean, lessons: false };
 
 fn batch(task: &LaneEpisode, nets: &mut [impl Phenotype], seed: Seed) -> Vec<Evaluation> {
     let mut phenotypes: Vec<&mut dyn Phenotype> = nets.iter_mut().map(|net| net as &mut dyn Phenotype).collect();

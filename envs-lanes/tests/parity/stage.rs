@@ -7,7 +7,7 @@ use envs_rapier::RapierEnvironment;
 use ne_core::{Evaluation, Failure, Phenotype, Purpose, Seed, Task};
 use ne_net::{DenseNet, DenseShape};
 use rand::RngExt;
-use tasks::{Energy, Environment, Episode, Running, Snapshot, Sum, Trials};
+use tasks::{Commands, Energy, Environment, Episode, RandomCommands, Running, Snapshot, Sum, Trials};
 
 pub(crate) const SHIPPED: [&str; 7] =
     ["apod", "biped-1", "biped-2", "tetrapod-1", "tetrapod-2", "decapod-1", "decapod-2"];
@@ -30,6 +30,10 @@ pub(crate) fn all_sensors(blueprint: &Blueprint) -> Vec<Sensor> {
         Sensor::LandingClock { period: 0.9 },
         Sensor::HeightAboveGround,
         Sensor::NextGap { length: 3.0 },
+        Sensor::CommandedSpeed { top: 1.2 },
+        Sensor::JumpCommand,
+        Sensor::StrideClock { period: 0.6, top: 1.2 },
+        Sensor::JumpClock { period: 0.5 },
     ];
     if !blueprint.feet().is_empty() {
         sensors.extend([Sensor::FootContacts, Sensor::FootSlip]);
@@ -59,6 +63,15 @@ pub(crate) fn both(
 ) -> (RapierEnvironment, LaneEnvironment) {
     let (rapier, lanes) = try_both(blueprint, sensors, settings, variation);
     (rapier.expect("rapier takes it"), lanes.expect("lanes take it"))
+}
+
+/// Both, told what to do: a speed or a jump within every second.
+pub(crate) fn told(rapier: RapierEnvironment, lanes: LaneEnvironment) -> (RapierEnvironment, LaneEnvironment) {
+    let random =
+        RandomCommands { still: 0.2, hold: [0.3, 0.6], jumps: 0.5, backwards: 0.3, ..RandomCommands::default() };
+    let commands = || Some(Commands::Random(random));
+    let (rapier, lanes) = (rapier.with_commands(commands(), false), lanes.with_commands(commands(), false));
+    (rapier.expect("in range"), lanes.expect("in range"))
 }
 
 /// Drives both with the same random outputs, each held for `hold` steps, and compares to the bit after each step: where
@@ -146,12 +159,13 @@ struct Bits {
     touching: Vec<bool>,
     time: u32,
     motor_work: u64,
+    command: (u32, bool, u32),
     inputs: Vec<u32>,
     torques: Vec<u32>,
 }
 
 fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
-    let Snapshot { time, parts, motor_work } = environment.snapshot();
+    let Snapshot { time, parts, motor_work, command } = environment.snapshot();
     let mut inputs = vec![0.0; environment.inputs()];
     environment.sense(&mut inputs);
     Bits {
@@ -162,6 +176,7 @@ fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
         touching: parts.iter().map(|part| part.touching).collect(),
         time: time.to_bits(),
         motor_work: motor_work.to_bits(),
+        command: (command.speed.to_bits(), command.jump, command.since_press.to_bits()),
         inputs: inputs.into_iter().map(f32::to_bits).collect(),
         torques: environment.motor_torques().map(f32::to_bits).collect(),
     }

@@ -16,7 +16,12 @@ fn sliding(cut: &Cut) -> Panel {
             sin: 0.0,
             ..PartState::default()
         };
-        Snapshot { time, parts: blueprint.creature().parts.iter().map(part).collect(), motor_work: 0.0 }
+        Snapshot {
+            time,
+            parts: blueprint.creature().parts.iter().map(part).collect(),
+            motor_work: 0.0,
+            ..Snapshot::default()
+        }
     };
     let poses = (0..cut.frames()).map(pose).collect();
     Panel::of_poses(Model::new(&blueprint), "A biped".into(), Ground::flat(), poses, cut)

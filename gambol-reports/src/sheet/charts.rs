@@ -1,4 +1,4 @@
-//! The charts: footfalls, pitch and height of the torso, over the episode and over its last seconds.
+//! The charts: footfalls, pitch and height of the torso, and its speed where it is told one, over the episode and over its last seconds.
 
 use super::{
     MARGIN, Subject, WIDTH,
@@ -10,6 +10,8 @@ use crate::drawing::{
     canvas::{ALARM, BAND, CARD, CONTACT, CURVE, Canvas, GRID, INK, QUIET},
     text::{Anchor, Style},
 };
+
+use tasks::Command;
 
 /// Left of the charts, for names and numbers, px.
 const LABELS: f32 = 176.0;
@@ -45,6 +47,8 @@ struct Plot {
     title: String,
     /// One for each snapshot.
     values: Vec<f64>,
+    /// What they should be, behind them; empty where they need not be anything.
+    wanted: Vec<f64>,
     /// From the bottom to the top.
     range: [f64; 2],
     /// What is marked on its axis.
@@ -64,7 +68,9 @@ pub(super) struct Charts<'a> {
 
 impl<'a> Charts<'a> {
     pub(super) fn new(subject: &'a Subject<'a>, moments: &'a Moments) -> Self {
-        let plots = vec![pitch(subject), height(subject)];
+        let told = subject.snapshots.iter().any(|snapshot| snapshot.command != Command::default());
+        let speed = told.then(|| speed(subject));
+        let plots = speed.into_iter().chain([pitch(subject), height(subject)]).collect();
         Self { subject, moments, panels: panels(subject.duration()), rows: footfalls::rows(subject), plots }
     }
 
@@ -144,9 +150,15 @@ impl<'a> Charts<'a> {
                 sheet.dashed_line(&[[panel.left, y(limit)], [panel.right(), y(limit)]], 1.5, ALARM);
             }
             let [first, last] = panel.time.map(|time| self.subject.step_at(time));
-            let points: Vec<(f32, f32)> =
-                (first..=last).map(|step| (panel.x(self.subject.time(step)), y(plot.values[step]))).collect();
-            sheet.line(&thinned(&points), 2.0, CURVE);
+            let curve = |values: &[f64]| {
+                let points: Vec<(f32, f32)> =
+                    (first..=last).map(|step| (panel.x(self.subject.time(step)), y(values[step]))).collect();
+                thinned(&points)
+            };
+            if !plot.wanted.is_empty() {
+                sheet.line(&curve(&plot.wanted), 6.0, QUIET);
+            }
+            sheet.line(&curve(&plot.values), 2.0, CURVE);
         }
     }
 
@@ -221,6 +233,7 @@ fn pitch(subject: &Subject<'_>) -> Plot {
     Plot {
         title: format!("torso pitch against the start, degrees; nose up: positive; dashed: ± {PITCH}°"),
         values,
+        wanted: Vec::new(),
         range,
         marks: marks.collect(),
         limits: vec![-PITCH, PITCH],
@@ -243,8 +256,33 @@ fn height(subject: &Subject<'_>) -> Plot {
     Plot {
         title: title.into(),
         values,
+        wanted: Vec::new(),
         range,
         marks: marks.places.iter().map(|&value| (value, format!("{}{suffix}", marks.label(value)))).collect(),
+        limits: Vec::new(),
+    }
+}
+
+/// The forward speed of the torso as a mean over half a second, and the one it is told.
+fn speed(subject: &Subject<'_>) -> Plot {
+    let length = f64::from(subject.blueprint.body_length());
+    let half = ((0.25 / subject.report.time_step).round() as usize).max(1);
+    let mean = |step: usize| {
+        let (from, to) = (step.saturating_sub(half), (step + half).min(subject.last()));
+        let way = f64::from(subject.snapshots[to].torso().x) - f64::from(subject.snapshots[from].torso().x);
+        way / ((to - from).max(1) as f64 * subject.report.time_step) / length
+    };
+    let values: Vec<f64> = (0..=subject.last()).map(mean).collect();
+    let wanted: Vec<f64> = subject.snapshots.iter().map(|snapshot| snapshot.command.speed.into()).collect();
+    let ([low, high], [least, most]) = (extent(&values), extent(&wanted));
+    let range = [low.min(least).min(0.0) - 0.1, high.max(most).max(0.5) + 0.1];
+    let marks = ticks(range, 4.0);
+    Plot {
+        title: "speed, body lengths/s; thick: as told".into(),
+        values,
+        wanted,
+        range,
+        marks: marks.places.iter().map(|&value| (value, marks.label(value))).collect(),
         limits: Vec::new(),
     }
 }

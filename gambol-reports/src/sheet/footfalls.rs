@@ -1,4 +1,4 @@
-//! When each part touches the ground: the rows of a footfall diagram after Hildebrand.
+//! When each part touches the ground: the rows of a footfall diagram after Hildebrand; and when the body is told to jump.
 
 use super::Subject;
 use envs_core::body_of;
@@ -15,8 +15,15 @@ pub(super) struct Row {
     pub(super) alarming: bool,
 }
 
-/// The rows: each leg's foot, and all other parts together if they touch. Of a legless body each part that touches.
+/// The rows of the parts, and one of presses if there are any.
 pub(super) fn rows(subject: &Subject<'_>) -> Vec<Row> {
+    let presses = spans(subject, |step| subject.snapshots[step].command.jump);
+    let told = (!presses.is_empty()).then(|| Row { name: "told to jump".into(), spans: presses, alarming: false });
+    told.into_iter().chain(parts(subject)).collect()
+}
+
+/// The rows: each leg's foot, and all other parts together if they touch. Of a legless body each part that touches.
+fn parts(subject: &Subject<'_>) -> Vec<Row> {
     let parts = subject.blueprint.parts();
     let row = |part: usize| Row {
         name: parts[part].name.clone(),

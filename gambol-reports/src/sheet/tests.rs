@@ -17,7 +17,12 @@ fn hops(blueprint: &Blueprint, seconds: u16) -> Vec<Snapshot> {
             touching: is_leg && !aloft,
             ..PartState::default()
         };
-        Snapshot { time: f32::from(step) * 0.02, parts: pose.iter().map(part).collect(), motor_work: 0.0 }
+        Snapshot {
+            time: f32::from(step) * 0.02,
+            parts: pose.iter().map(part).collect(),
+            motor_work: 0.0,
+            ..Snapshot::default()
+        }
     };
     (0..=50 * seconds).map(snapshot).collect()
 }

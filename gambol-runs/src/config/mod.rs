@@ -17,7 +17,7 @@ use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{SettingError, StopConditions, champion_selection::ReEvaluations};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
-use tasks::{MovementSpec, Trials};
+use tasks::{Commands, MovementSpec, Trials};
 
 /// The format a configuration file names.
 pub const CONFIG_FORMAT: &str = "gambol run";
@@ -65,6 +65,9 @@ pub struct RunConfig {
     /// What the creature moves on; flat by default.
     #[serde(default, skip_serializing_if = "Terrain::is_default")]
     pub terrain: Terrain,
+    /// What the body is told to do, for movements that follow commands; `null`, the default: nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub commands: Option<Commands>,
     /// What is written down, and how often.
     pub record: RecordSettings,
     /// The stages of shaping, in order; none: the run has one task.

@@ -4,6 +4,7 @@ use super::{BodyFacts, DefaultsCatalogue, MovementDefaults};
 use crate::config::{EngineChoice, RunConfig};
 use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
+use tasks::Commands;
 
 /// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
 const MOTOR_GAIN: f32 = 200.0;
@@ -26,7 +27,9 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     config.movement.terms = defaults.terms;
     config.movement.steps = defaults.steps;
     config.training_steps = defaults.training_steps;
-    config.trials.count = TRIALS;
+    config.commands.clone_from(&defaults.commands);
+    config.trials.count = defaults.trials.unwrap_or(TRIALS);
+    config.stages = defaults.stages;
     if let Some(variation) = defaults.variation {
         config.variation = variation;
     }
@@ -66,12 +69,21 @@ impl BodyFacts {
 
 /// What the creature's file asks for, if it asks for anything of its own, or else what a body feels; and a clock.
 fn sensors(own: &[Sensor], defaults: &MovementDefaults) -> Vec<Sensor> {
-    let &MovementDefaults { period, from_landing, stands, .. } = defaults;
+    let &MovementDefaults { period, from_landing, stands, ref commands, .. } = defaults;
     let mut sensors = own.to_vec();
     if sensors == Sensor::defaults() {
         sensors.insert(1, Sensor::TorsoSpin);
         if stands {
             sensors.extend([Sensor::FootContacts, Sensor::TorsoVelocity, Sensor::TorsoHeight]);
+        }
+    }
+    if let Some(commands) = commands {
+        let top = top_speed(commands);
+        if !own.iter().any(|sensor| matches!(sensor, Sensor::CommandedSpeed { .. })) {
+            sensors.push(Sensor::CommandedSpeed { top });
+        }
+        if clock(&sensors).is_none() {
+            sensors.push(Sensor::StrideClock { period, top });
         }
     }
     if clock(&sensors).is_none() {
@@ -83,7 +95,16 @@ fn sensors(own: &[Sensor], defaults: &MovementDefaults) -> Vec<Sensor> {
 /// The period of the first clock, s.
 fn clock(sensors: &[Sensor]) -> Option<f32> {
     sensors.iter().find_map(|sensor| match *sensor {
-        Sensor::Clock { period } | Sensor::LandingClock { period } => Some(period),
+        Sensor::Clock { period } | Sensor::LandingClock { period } | Sensor::StrideClock { period, .. } => Some(period),
         _ => None,
     })
+}
+
+/// The fastest that these commands tell a body to be, body lengths/s.
+fn top_speed(commands: &Commands) -> f32 {
+    let top = match commands {
+        Commands::Random(random) => random.speeds[1],
+        Commands::Given(changes) => changes.iter().map(|change| change.speed.abs()).fold(0.0, f32::max),
+    };
+    top.clamp(0.1, 20.0)
 }

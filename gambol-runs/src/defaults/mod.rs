@@ -6,6 +6,7 @@
 
 mod apply;
 mod jumping;
+mod playing;
 mod running;
 mod standing;
 mod swimming;
@@ -15,10 +16,10 @@ mod walking;
 
 pub use apply::{apply, steps};
 
-use crate::config::LimbPhases;
+use crate::config::{LimbPhases, StageSettings};
 use envs_rapier::Variation;
 use std::{collections::BTreeMap, fmt, sync::Arc};
-use tasks::TermSpec;
+use tasks::{Commands, TermSpec};
 
 /// What is known of a body before it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,8 +62,14 @@ pub struct MovementDefaults {
     pub period: f32,
     /// Whether that clock begins anew at every landing.
     pub from_landing: bool,
+    /// What the body is told to do, which it then hears, and strides by; `None`: nothing.
+    pub commands: Option<Commands>,
     /// Whether the body feels how it stands: contacts of its feet, velocity and height of its torso.
     pub stands: bool,
+    /// Trials of an evaluation in training; `None`: as many as any movement has.
+    pub trials: Option<u32>,
+    /// The stages in which it is learned; empty: it is learned in one.
+    pub stages: Vec<StageSettings>,
     /// In place of the preset's variation between trials.
     pub variation: Option<Variation>,
     /// In place of the strategy's first mutation strength, if it has a setting `step_size`.
@@ -81,7 +88,10 @@ impl MovementDefaults {
             gain: if walks { 10.0 } else { 20.0 },
             period: if walks { body.pendulum(0.5) } else { 0.5 },
             from_landing: false,
+            commands: None,
             stands: walks,
+            trials: None,
+            stages: Vec::new(),
             variation: None,
             step_size: None,
         }
@@ -110,6 +120,7 @@ impl Default for DefaultsCatalogue {
             .add("hopping", jumping::hopping)
             .add("standing", standing::standing)
             .add("getting-up", standing::getting_up)
+            .add("playing", playing::playing)
             .add("swimming", swimming::swimming);
         catalogue
     }

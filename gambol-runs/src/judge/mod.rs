@@ -12,8 +12,9 @@ use crate::{
 use envs_core::Landscape;
 use envs_lanes::LaneEnvironment;
 use envs_rapier::{RapierEnvironment, Variation};
-use ne_core::Seed;
+use ne_core::{Purpose, Seed};
 use ne_net::Network;
+use rand::Rng;
 use serde::Serialize;
 use std::sync::{Arc, OnceLock};
 use tasks::{
@@ -33,6 +34,8 @@ pub struct Judge {
     rules: Option<Arc<dyn Rules>>,
     /// The creature in the same world in lanes, which have rapier's bits; `None` if they cannot simulate it.
     lanes: Option<LaneEnvironment>,
+    /// What is drawn in the worlds here, where nothing varies: commands.
+    seed: Seed,
     /// Built when they are first needed.
     near: Arc<OnceLock<Worlds>>,
 }
@@ -40,6 +43,8 @@ pub struct Judge {
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
 /// perturbed worlds too has up to 8 more; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
+
+const TRAINING: Purpose = Purpose::new("judge of training");
 
 /// A movement that is not judged is watched for so long, s.
 const UNJUDGED_SECONDS: f64 = 20.0;
@@ -59,7 +64,17 @@ impl Judge {
         let episode = parts.build(registry)?;
         let movement = registry.movements.build(&movement)?;
         let lanes = parts.build_lanes(registry).ok().map(|episode| episode.environment().clone());
-        Ok(Self { episode, movement, rules, lanes, near: Arc::default() })
+        Ok(Self { episode, movement, rules, lanes, seed: Seed::of_run(0), near: Arc::default() })
+    }
+
+    /// The same judge, whose worlds draw from another seed than those in which a saved champion is judged: a champion is not
+    /// to be chosen by the commands it is judged by.
+    pub(crate) fn of_training(self, seed: Seed) -> Self {
+        Self { seed: Seed::of_run(seed.stream(TRAINING).next_u64()), near: Arc::default(), ..self }
+    }
+
+    pub(crate) fn seed(&self) -> Seed {
+        self.seed
     }
 
     /// The creature in this world.
@@ -93,7 +108,7 @@ impl Judge {
 
     /// What a controller does here. A body that explodes, and a controller of another shape, leave a short recording.
     pub fn record(&self, network: &Network) -> Recording {
-        record(&self.episode, network)
+        record(&self.episode, network, self.seed)
     }
 
     /// Measures what a controller does here, and judges it here and in near worlds; `None` for one that falls silent at
@@ -169,10 +184,10 @@ fn with_near_worlds(verdict: Judgement, near: Option<NearWorlds>) -> Judgement {
 }
 
 /// What a controller does in the one world of an episode.
-pub(crate) fn record(episode: &Episode<RapierEnvironment>, network: &Network) -> Recording {
+pub(crate) fn record(episode: &Episode<RapierEnvironment>, network: &Network, seed: Seed) -> Recording {
     let mut recording = Recording::default();
-    // Without variation nothing comes from the seed.
-    episode.play(&mut network.clone(), Seed::of_run(0), &mut recording);
+    // Without variation nothing but commands comes from the seed.
+    episode.play(&mut network.clone(), seed, &mut recording);
     recording
 }
 

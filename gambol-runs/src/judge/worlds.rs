@@ -21,6 +21,8 @@ pub struct Worlds {
     rules: Option<Arc<dyn Rules>>,
     /// How long gaits are played, s.
     seconds: f64,
+    /// Each world draws commands from a trial of it.
+    seed: Seed,
     /// `None`: the creature does not come to rest there.
     worlds: Vec<Option<World>>,
 }
@@ -50,7 +52,8 @@ impl Worlds {
     /// Builds worlds under these conditions and in these landscapes, on the threads of the current pool.
     pub fn new(judge: &Judge, worlds: &[(Conditions, Landscape)]) -> Self {
         let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(judge, conditions, landscape);
-        Self { rules: judge.rules().cloned(), seconds: judge.seconds(), worlds: worlds.par_iter().map(build).collect() }
+        let worlds = worlds.par_iter().map(build).collect();
+        Self { rules: judge.rules().cloned(), seconds: judge.seconds(), seed: judge.seed(), worlds }
     }
 
     /// The same worlds, in which gaits are played for at most so many seconds: enough to choose between candidates, and too
@@ -63,7 +66,12 @@ impl Worlds {
     /// The judge's own world alone, in lanes; `None` if they cannot simulate it.
     pub(crate) fn reference(judge: &Judge) -> Option<Self> {
         let world = World::InLanes(Box::new(judge.lanes()?.clone()));
-        Some(Self { rules: judge.rules().cloned(), seconds: judge.seconds(), worlds: vec![Some(world)] })
+        Some(Self {
+            rules: judge.rules().cloned(),
+            seconds: judge.seconds(),
+            seed: judge.seed(),
+            worlds: vec![Some(world)],
+        })
     }
 
     /// How many worlds there are.
@@ -106,7 +114,7 @@ impl Worlds {
         }
         let measured_in_rapier = in_rapier.into_par_iter().map(|(place, network, episode)| {
             let steps = steps_of(self.seconds, episode.environment().settings().time_step);
-            let recording = record(&episode.shortened(steps), network);
+            let recording = record(&episode.shortened(steps), network, self.seed_of(place));
             (place, measure(episode.environment(), self.rules.as_deref(), &recording.snapshots))
         });
         let measured_in_lanes = in_lanes.par_chunks(LANES).flat_map(|pairs| self.judge_in_lanes(pairs, until));
@@ -115,6 +123,11 @@ impl Worlds {
             reports[place / self.len()][place % self.len()] = gait.map(|gait| gait.report);
         }
         reports
+    }
+
+    /// What the world at this place among plays draws from.
+    fn seed_of(&self, place: usize) -> Seed {
+        self.seed.trial((place % self.len()) as u32)
     }
 
     /// In how many worlds nothing but its length speaks against the gait of a controller; fewer than `needed`, how many does
@@ -129,8 +142,8 @@ impl Worlds {
 
     fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>], until: Until) -> Vec<(usize, Option<Gait>)> {
         let Some((_, _, environment)) = pairs.first() else { return Vec::new() };
-        // Nothing varies in these worlds: nothing comes from the seed, and nothing can go wrong.
-        let starts = pairs.iter().map(|(_, _, world)| world.settled(Seed::of_run(0)).ok());
+        // Nothing varies in these worlds: nothing but commands comes from the seed, and nothing can go wrong.
+        let starts = pairs.iter().map(|&(place, _, world)| world.settled(self.seed_of(place)).ok());
         let begun: Vec<_> = pairs.iter().zip(starts).filter_map(|(pair, start)| Some((pair, start?))).collect();
         let steps = |world: &LaneEnvironment| steps_of(self.seconds, world.settings().time_step);
         let plays: Vec<Play<'_>> =

@@ -132,7 +132,7 @@ impl Setup {
             false => None,
             true => {
                 let (episode, task) = parts.reference().build_both(config.engine, registry)?;
-                let judge = Judge::new(parts, registry)?;
+                let judge = Judge::new(parts, registry)?.of_training(Seed::of_run(config.seed));
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),

@@ -61,7 +61,7 @@ enum Sight {
     ClockCosine,
     /// Something of the whole body.
     Whole,
-    /// How the body tilts, where limbs before and behind have to answer it differently: its next slot is the answer's share
+    /// How the body tilts, or that it jumps, where limbs before and behind have to answer differently: its next slot is the answer's share
     /// that goes with the place of the limb.
     Tilt,
     /// The sign of a limb's joints goes with it.
@@ -102,7 +102,8 @@ pub(crate) struct Limbs {
 /// The topology of a controller for this creature: for each limb a copy of one net.
 ///
 /// The last layer sees the hidden neurons alone, if there are any: with fewer genes, and joints that move by the same few
-/// signals, searches find gaits much sooner.
+/// signals, searches find gaits much sooner. A jump clock it sees as well: a jump is a movement of all limbs at once, beside
+/// the stride that the hidden neurons are busy with.
 pub(crate) fn topology(
     blueprint: &Blueprint,
     senses: &Senses,
@@ -129,6 +130,8 @@ pub(crate) fn topology(
         // A copy may lack a sense that another has, but slots are the same in all of them.
         let longest = sights.iter().max_by_key(|sights| sights.slots.len());
         let slots = longest.map_or(&[][..], |sights| &sights.slots);
+        let jumps = longest.map_or(&[][..], |sights| &sights.jumps);
+        let jumps: Vec<&String> = jumps.iter().map(|&input| &senses.channels()[input].name).collect();
         let own = ["threshold", "place"].into_iter().chain(slots.iter().map(String::as_str));
         let neuron = |target: &str| {
             let own = own.clone().map(|source| format!("{kind_name}, {target}: {source}"));
@@ -140,13 +143,14 @@ pub(crate) fn topology(
                 return neuron(&target);
             }
             let heard = (0..hidden).map(|index| format!("hidden {index}"));
-            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard);
+            let jumps = jumps.iter().flat_map(|name| [name.to_string(), by_place(name)]);
+            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard).chain(jumps);
             sources.map(|source| format!("{kind_name}, {target}: {source}")).collect()
         };
         let hidden_genes: Vec<usize> =
             (0..hidden).map(|index| genes.group(neuron(&format!("hidden {index}")))).collect();
         let output_genes: Vec<usize> = (0..joints).map(|joint| genes.group(hears(joint))).collect();
-        for ((limb_index, limb), Sights { seen: sights, .. }) in copies.iter().zip(&sights) {
+        for ((limb_index, limb), Sights { seen: sights, jumps, .. }) in copies.iter().zip(&sights) {
             let first_hidden_node = inputs + neurons.len();
             let turn = |gene: usize| Turn {
                 genes: [gene, gene + 1],
@@ -174,6 +178,12 @@ pub(crate) fn topology(
                     sources.push(first_hidden_node + index);
                     weights.push(SharedWeight::Sum(vec![(first + 2 + index, sign)]));
                 }
+                let jumps = if hidden_sources > 0 { &jumps[..] } else { &[] };
+                for (index, &input) in jumps.iter().enumerate() {
+                    let gene = first + 2 + hidden_sources + 2 * index;
+                    sources.push(input);
+                    weights.push(SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]));
+                }
                 neurons.push(GraphNeuron { activation, bias: true, sources });
                 inputs + neurons.len() - 1
             };
@@ -199,6 +209,12 @@ struct Sights {
     seen: Vec<(usize, Sight, usize)>,
     /// The name of each slot.
     slots: Vec<String>,
+    /// The inputs of jump clocks.
+    jumps: Vec<usize>,
+}
+
+fn by_place(name: &str) -> String {
+    format!("{name}, by place")
 }
 
 impl Sights {
@@ -244,15 +260,18 @@ fn sees(limb: &Limb, senses: &Senses, together: Option<usize>) -> Sights {
                 let slot = *slips.get_or_insert_with(|| sights.add(["slip of foot".to_owned()]));
                 limb.parts.contains(&part).then_some((Sight::Foot, slot))
             }
-            Source::ClockSine { .. } | Source::LandingSine { .. } => {
+            Source::ClockSine { .. } | Source::LandingSine { .. } | Source::StrideSine { .. } => {
                 Some((Sight::ClockSine, sights.add([channel.name.clone()])))
             }
-            Source::ClockCosine { .. } | Source::LandingCosine { .. } => {
+            Source::ClockCosine { .. } | Source::LandingCosine { .. } | Source::StrideCosine { .. } => {
                 Some((Sight::ClockCosine, sights.add([channel.name.clone()])))
             }
             Source::TorsoRotation | Source::TorsoSpin if together.is_some() => {
-                let by_place = format!("{}, by place", channel.name);
-                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place])))
+                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)])))
+            }
+            Source::JumpSine { .. } | Source::JumpSwell { .. } => {
+                sights.jumps.push(input);
+                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)])))
             }
             _ => Some((Sight::Whole, sights.add([channel.name.clone()]))),
         };

@@ -8,7 +8,7 @@ use std::{
     io::{self, Write},
 };
 use tasks::{
-    Body, PartState, Snapshot,
+    Body, Command, PartState, Snapshot,
     gait::{GaitError, Trajectory},
 };
 
@@ -20,6 +20,9 @@ const SPEEDS: [&str; 3] = ["vx_m_per_s", "vy_m_per_s", "spin_rad_per_s"];
 
 /// This one may be there if the speeds are.
 const TORQUE: &str = "motor_torque_n_m";
+
+/// The columns of what the body is told to do: of these both are there or none.
+pub const COMMAND_COLUMNS: [&str; 2] = ["commanded_body_lengths_per_s", "told_to_jump"];
 
 /// A trajectory read from CSV: places, angles and contacts, and what else the file holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,6 +36,8 @@ pub struct CsvTrajectory {
     pub speeds_known: bool,
     /// Whether it holds torques, and with them the motors' work.
     pub work_known: bool,
+    /// Whether it holds what the body was told to do; else it was told to stand.
+    pub commands_known: bool,
 }
 
 impl CsvTrajectory {
@@ -61,7 +66,8 @@ pub struct CsvError {
 
 impl Recording {
     /// Writes one row for each step and part, the start included: `step,time_s,part,x_m,y_m,angle_rad,ground_contact`, then
-    /// `vx_m_per_s,vy_m_per_s,spin_rad_per_s` and, if torques were recorded, `motor_torque_n_m`.
+    /// `vx_m_per_s,vy_m_per_s,spin_rad_per_s`, if torques were recorded `motor_torque_n_m`, and if the body was told to do anything
+    /// `commanded_body_lengths_per_s,told_to_jump`.
     ///
     /// `part` is the part's name, quoted where CSV needs it; `angle_rad` is against the world, counter-clockwise, above
     /// −π and up to π; `ground_contact` is 1 while the part presses on the ground, else 0; the torque is that of the motor of
@@ -73,7 +79,9 @@ impl Recording {
     pub fn write_csv(&self, body: &Body, out: &mut impl Write) -> io::Result<()> {
         let with_torques = self.torques.len() == self.snapshots.len();
         let torque = with_torques.then_some(TORQUE);
-        let columns: Vec<&str> = PLACES.into_iter().chain(SPEEDS).chain(torque).collect();
+        let told = self.snapshots.iter().any(|snapshot| snapshot.command != Command::default());
+        let commands = COMMAND_COLUMNS.into_iter().filter(|_| told);
+        let columns: Vec<&str> = PLACES.into_iter().chain(SPEEDS).chain(torque).chain(commands).collect();
         writeln!(out, "{}", columns.join(","))?;
         let motor_of: Vec<Option<usize>> =
             (0..body.parts.len()).map(|part| body.actuated().position(|hinge| hinge.child == part)).collect();
@@ -84,9 +92,14 @@ impl Recording {
                 write!(out, "{step},{time},{name},{},{},{angle},{contact}", part.x, part.y)?;
                 write!(out, ",{},{},{}", part.vx, part.vy, part.spin)?;
                 match motor.and_then(|motor| self.torques.get(step)?.get(motor)) {
-                    Some(torque) => writeln!(out, ",{torque}")?,
-                    None if with_torques => writeln!(out, ",")?,
-                    None => writeln!(out)?,
+                    Some(torque) => write!(out, ",{torque}")?,
+                    None if with_torques => write!(out, ",")?,
+                    None => {}
+                }
+                let Command { speed, jump, .. } = snapshot.command;
+                match told {
+                    true => writeln!(out, ",{speed},{}", u8::from(jump))?,
+                    false => writeln!(out)?,
                 }
             }
         }
@@ -95,8 +108,8 @@ impl Recording {
 }
 
 /// Reads what [`Recording::write_csv`] writes, for this body. Columns may be in any order, and there may be others; so may the
-/// parts of a step, but each must be there once. Steps count up from 0. The columns of speeds, and that of torques, may be
-/// missing. The motors' work is |torque × speed of the hinge| × time step, added up over steps and motors.
+/// parts of a step, but each must be there once. Steps count up from 0. The columns of speeds, that of torques, and those of
+/// commands may be missing. The motors' work is |torque × speed of the hinge| × time step, added up over steps and motors.
 ///
 /// # Errors
 /// Names the line and what is wrong with it: a column that is missing, what is not a number, a part the creature does not
@@ -107,6 +120,7 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
     let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", PLACES.join(","))))?;
     let places = columns(&header, PLACES)?;
     let (speeds, torque) = further_columns(&header)?;
+    let commands = all_or_none(&header, COMMAND_COLUMNS)?;
     // As they are, or as they are written where a spreadsheet would compute them.
     let written = names.iter().map(|name| literal(name)).zip(0..);
     let indices: HashMap<Cow<'_, str>, usize> =
@@ -124,11 +138,7 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
         let number = |what: &str, text: &str| number(row.line, what, text);
         let part = *indices.get(part).ok_or_else(|| wrong(row.line, crate::suggest::unknown("part", part, &names)))?;
         let angle = number("angle_rad", angle)?;
-        let touching = match contact.trim() {
-            "0" => false,
-            "1" => true,
-            other => return Err(wrong(row.line, format!("ground_contact is \"{other}\", expected 0 or 1"))),
-        };
+        let touching = flag(row.line, "ground_contact", contact)?;
         let (cos, sin) = (libm::cosf(angle), libm::sinf(angle));
         let mut state =
             PartState { x: number("x_m", x)?, y: number("y_m", y)?, cos, sin, touching, ..PartState::default() };
@@ -145,14 +155,23 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
         };
         let step =
             step.trim().parse().map_err(|_| wrong(row.line, format!("step is \"{step}\", expected a whole number")))?;
-        reader.add(row.line, step, number("time_s", time)?, part, state, torque)?;
+        let (speed, jump) = match commands {
+            Some([speed, jump]) => (
+                number(COMMAND_COLUMNS[0], &row.fields[speed])?,
+                flag(row.line, COMMAND_COLUMNS[1], &row.fields[jump])?,
+            ),
+            None => (0.0, false),
+        };
+        let moment = Moment { step, time: number("time_s", time)?, speed, jump };
+        reader.add(row.line, moment, part, state, torque)?;
     }
     let mut read = reader.finish(last_line)?;
     if torque.is_some() {
         add_work(body, &mut read.snapshots, &read.torques);
     }
     let Reader { snapshots, lines, .. } = read;
-    Ok(CsvTrajectory { snapshots, lines, speeds_known: speeds.is_some(), work_known: torque.is_some() })
+    let (speeds_known, work_known, commands_known) = (speeds.is_some(), torque.is_some(), commands.is_some());
+    Ok(CsvTrajectory { snapshots, lines, speeds_known, work_known, commands_known })
 }
 
 /// The torque on a part, N·m; 0 where no motor is to give one.
@@ -192,6 +211,14 @@ fn number(line: usize, what: &str, text: &str) -> Result<f32, CsvError> {
         .ok_or_else(|| wrong(line, format!("{what} is \"{text}\", expected a finite number")))
 }
 
+fn flag(line: usize, what: &str, text: &str) -> Result<bool, CsvError> {
+    match text.trim() {
+        "0" => Ok(false),
+        "1" => Ok(true),
+        other => Err(wrong(line, format!("{what} is \"{other}\", expected 0 or 1"))),
+    }
+}
+
 /// Where a column is, if it is there.
 fn column(header: &Row, name: &str) -> Option<usize> {
     header.fields.iter().position(|field| field.trim() == name)
@@ -208,11 +235,30 @@ fn columns<const N: usize>(header: &Row, names: [&str; N]) -> Result<[usize; N],
     Ok(places)
 }
 
+/// Where each of these columns is, if any is there.
+fn all_or_none<const N: usize>(header: &Row, names: [&str; N]) -> Result<Option<[usize; N]>, CsvError> {
+    let any = names.iter().any(|name| column(header, name).is_some());
+    any.then(|| columns(header, names)).transpose()
+}
+
 /// Where the speeds are, if they are there, and the torques. Some of the speeds are too few, and so are torques alone.
 fn further_columns(header: &Row) -> Result<(Option<[usize; 3]>, Option<usize>), CsvError> {
     let torque = column(header, TORQUE);
-    let any = torque.is_some() || SPEEDS.iter().any(|name| column(header, name).is_some());
-    Ok((any.then(|| columns(header, SPEEDS)).transpose()?, torque))
+    let speeds = match torque {
+        Some(_) => Some(columns(header, SPEEDS)?),
+        None => all_or_none(header, SPEEDS)?,
+    };
+    Ok((speeds, torque))
+}
+
+/// What is the same in all rows of a step.
+struct Moment {
+    step: usize,
+    /// s.
+    time: f32,
+    /// What the body is told: body lengths/s, and to jump.
+    speed: f32,
+    jump: bool,
 }
 
 /// Puts rows together to snapshots.
@@ -230,8 +276,7 @@ impl Reader<'_> {
     fn add(
         &mut self,
         line: usize,
-        step: usize,
-        time: f32,
+        Moment { step, time, speed, jump }: Moment,
         part: usize,
         state: PartState,
         torque: f32,
@@ -241,7 +286,11 @@ impl Reader<'_> {
             self.check_whole(line)?;
             self.seen = vec![false; self.names.len()];
             let parts = vec![PartState::default(); self.names.len()];
-            self.snapshots.push(Snapshot { time, parts, motor_work: 0.0 });
+            let command = match self.snapshots.last() {
+                Some(before) => before.command.then(speed, jump, time - before.time),
+                None => Command::default().then(speed, jump, 0.0),
+            };
+            self.snapshots.push(Snapshot { time, parts, motor_work: 0.0, command });
             self.torques.push(vec![0.0; self.names.len()]);
             self.lines.push(line);
         } else if step + 1 != steps {
@@ -258,6 +307,9 @@ impl Reader<'_> {
                 line,
                 format!("time_s is {time}, but {} in the rows before of step {step}", snapshot.time),
             ));
+        }
+        if (snapshot.command.speed, snapshot.command.jump) != (speed, jump) {
+            return Err(wrong(line, format!("another command than in the rows before of step {step}")));
         }
         snapshot.parts[part] = state;
         self.torques[step][part] = torque;

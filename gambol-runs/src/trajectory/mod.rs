@@ -4,7 +4,7 @@ mod csv;
 mod play;
 mod replay;
 
-pub use csv::{CsvError, CsvTrajectory, read_csv};
+pub use csv::{COMMAND_COLUMNS, CsvError, CsvTrajectory, read_csv};
 pub(crate) use replay::replay;
 
 use ne_core::digest::Digest;

@@ -5,7 +5,7 @@ use crate::{
     gait, judge,
     run_folder::RunFolder,
     sheet, source, suggest,
-    trajectory::{CsvTrajectory, read_csv},
+    trajectory::{COMMAND_COLUMNS, CsvTrajectory, read_csv},
 };
 use clap::Args;
 use creatures::Blueprint;
@@ -140,6 +140,15 @@ fn of_trajectory(
     let unknown = |movement| suggest::unknown("movement whose gaits are judged", movement, &judged());
     let rules =
         movement.map(|movement| registry.movements.rules(movement).ok_or_else(|| unknown(movement))).transpose()?;
+    if rules.as_ref().is_some_and(|rules| rules.needs_commands()) && !read.commands_known {
+        let columns = COMMAND_COLUMNS.join(" and ");
+        let movement = movement.unwrap_or_default();
+        return Err(format!(
+            "{}: {movement} is judged by what the body was told, in columns {columns}",
+            path.display()
+        )
+        .into());
+    }
     let report = GaitReport::of(&trajectory, rules.as_deref());
     let subject = sheet::Subject {
         blueprint: &blueprint,

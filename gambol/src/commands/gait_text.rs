@@ -184,7 +184,7 @@ mod tests {
             Body { body_length: 1.0, start_height: 1.0, parts: vec![part], legs: vec![vec![0]], ..Body::default() };
         let snapshot = |step: u16| {
             let state = PartState { y: 1.0, cos: 1.0, touching: step % 20 < 10, ..PartState::default() };
-            Snapshot { time: f32::from(step) * 0.02, parts: vec![state], motor_work: 0.0 }
+            Snapshot { time: f32::from(step) * 0.02, parts: vec![state], motor_work: 0.0, ..Snapshot::default() }
         };
         let film: Vec<Snapshot> = (0..=200).map(snapshot).collect();
         GaitReport::of(&Trajectory::new(&body, &film).expect("a script"), Some(&tasks::gait::RunningRules::default()))

@@ -28,6 +28,7 @@ mod killed;
 mod large;
 mod longer;
 mod overwriting;
+mod playing;
 mod program;
 mod repeating;
 mod replaying;

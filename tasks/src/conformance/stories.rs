@@ -114,6 +114,11 @@ impl Path {
                 touching: y <= 0.21,
             }
         };
-        Snapshot { time, parts: (0..self.parts).map(part).collect(), motor_work: (self.work)(time) }
+        Snapshot {
+            time,
+            parts: (0..self.parts).map(part).collect(),
+            motor_work: (self.work)(time),
+            ..Snapshot::default()
+        }
     }
 }

@@ -57,7 +57,7 @@ pub use flight::{Aloft, Flight};
 pub use ground::GroundProfile;
 pub use joint::JointUse;
 pub use judgement::{
-    Judgement, JumpingRules, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds, RunningRules, SwimmingRules,
+    Judgement, JumpingRules, NEAR_WORLDS, NEAR_WORLDS_REQUIRED, NearWorlds, PlayingRules, RunningRules, SwimmingRules,
 };
 pub use leg::{LegJoint, LegUse};
 pub use other_contact::OtherContact;

@@ -52,6 +52,17 @@ pub enum Reason {
     /// It neither stands again in the last second nor jumps on: degrees, m from the start height, body lengths/s; and the
     /// most of each that is allowed.
     NotStanding { tilt: f64, height: f64, speed: f64, allowed: [f64; 3] },
+    /// The mean speed over the last half of a hold is too far from the commanded one, body lengths/s; the worst of so many holds
+    /// that begin at `time`.
+    OffSpeed { time: f64, wanted: f64, speed: f64, allowed: f64, holds: usize, of: usize },
+    /// Too small a share of a change of speed is done in time; the worst of so many changes.
+    SlowAnswer { time: f64, from: f64, to: f64, share: f64, required: f64, changes: usize, of: usize },
+    /// Told to stand, it moves along, body lengths/s; the worst of so many holds.
+    Drifting { time: f64, speed: f64, allowed: f64, holds: usize, of: usize },
+    /// So many presses are not answered by a jump; what is against the first of them follows.
+    Presses { failed: usize, of: usize },
+    /// It does not leave the ground in time after a press, s.
+    NoJump { time: f64, allowed: f64 },
     /// It is usable in too few of the worlds that are almost the one it is judged in.
     Brittle { usable: usize, worlds: usize, required: usize },
     /// The audit flagged a cheat.
@@ -86,6 +97,11 @@ impl Reason {
             Self::UnevenPushOff { .. } => "uneven-push-off",
             Self::LandedOn { .. } => "landed-on",
             Self::NotStanding { .. } => "not-standing",
+            Self::OffSpeed { .. } => "off-speed",
+            Self::SlowAnswer { .. } => "slow-answer",
+            Self::Drifting { .. } => "drifting",
+            Self::Presses { .. } => "presses",
+            Self::NoJump { .. } => "no-jump",
             Self::Brittle { .. } => "brittle",
             Self::Cheat(cheat) => cheat.kind.name(),
             Self::Other { name, .. } => name,
@@ -178,6 +194,27 @@ impl fmt::Display for Reason {
                      its start height (at most {most_height:.2} m), {speed:.2} body lengths/s (at most {most_speed})"
                 )
             }
+            Self::OffSpeed { time, wanted, speed, allowed, holds, of } => write!(
+                f,
+                "told to move at {wanted:.2} body lengths/s from {time:.1} s on: {speed:.2} over the last half, at most \
+                 {allowed:.2} off allowed; too far off in {holds} of {of} holds"
+            ),
+            Self::SlowAnswer { time, from, to, share, required, changes, of } => write!(
+                f,
+                "told to go from {from:.2} to {to:.2} body lengths/s at {time:.1} s: {:.0} % of it done within 1.2 s, at least \
+                 {:.0} % required; too slow in {changes} of {of} changes",
+                100.0 * share,
+                100.0 * required
+            ),
+            Self::Drifting { time, speed, allowed, holds, of } => write!(
+                f,
+                "told to stand from {time:.1} s on: moves at {speed:.2} body lengths/s over the last half, at most {allowed} \
+                 allowed; does so in {holds} of {of} holds"
+            ),
+            Self::Presses { failed, of } => write!(f, "{failed} of {of} presses are not answered by a jump"),
+            Self::NoJump { time, allowed } => {
+                write!(f, "told to jump at {time:.1} s: does not leave the ground within {allowed} s")
+            }
             Self::Brittle { usable, worlds, required } => {
                 write!(f, "usable in {usable} of {worlds} near worlds, at least {required} required")
             }
@@ -210,6 +247,11 @@ mod tests {
             Reason::LowFlight { time: 0.0, rise: 0.0, required: 1.0 },
             Reason::NoPushOff { time: 0.0, foot: foot() },
             Reason::UnevenPushOff { time: 0.0, spread: 1.0, allowed: 0.3 },
+            Reason::OffSpeed { time: 0.0, wanted: 1.0, speed: 0.0, allowed: 0.2, holds: 1, of: 1 },
+            Reason::SlowAnswer { time: 0.0, from: 0.0, to: 1.0, share: 0.0, required: 0.7, changes: 1, of: 1 },
+            Reason::Drifting { time: 0.0, speed: 1.0, allowed: 0.1, holds: 1, of: 1 },
+            Reason::Presses { failed: 1, of: 2 },
+            Reason::NoJump { time: 0.0, allowed: 0.5 },
         ];
         for reason in reasons {
             let written = serde_json::to_value(&reason).expect("plain data");

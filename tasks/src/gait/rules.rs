@@ -44,6 +44,12 @@ pub trait Rules: fmt::Debug + Send + Sync {
         View::default()
     }
 
+    /// Whether the gait is judged by what the body is [told](crate::Command), so that a recording without commands cannot be.
+    /// Default: `false`.
+    fn needs_commands(&self) -> bool {
+        false
+    }
+
     /// Whether no gait that was ever in this place is usable. Where it only counts whether a gait is usable, one that is lost
     /// is not played to its end. Default: `false`, which is always right.
     ///

@@ -157,5 +157,6 @@ fn snapshot(step: usize, pose: &Pose) -> Snapshot {
         time: (step as f64 * TIME_STEP) as f32,
         parts: vec![state(pose.x, pose.y, pose.tilt, pose.touching[0]), leg(0, pose.gap), leg(1, 0.0)],
         motor_work: pose.work,
+        ..Snapshot::default()
     }
 }

@@ -546,8 +546,12 @@ fn trajectory() -> impl Strategy<Value = Vec<Snapshot>> {
     (snapshots, 0.001f64..0.05, any::<bool>()).prop_map(|(snapshots, time_step, constant)| {
         let first = snapshots[0].clone();
         let still = |(parts, motor_work)| if constant { first.clone() } else { (parts, motor_work) };
-        let snapshot =
-            |(step, (parts, motor_work))| Snapshot { time: (step as f64 * time_step) as f32, parts, motor_work };
+        let snapshot = |(step, (parts, motor_work))| Snapshot {
+            time: (step as f64 * time_step) as f32,
+            parts,
+            motor_work,
+            ..Snapshot::default()
+        };
         snapshots.into_iter().map(still).enumerate().map(snapshot).collect()
     })
 }

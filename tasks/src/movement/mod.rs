@@ -19,6 +19,7 @@ mod leap;
 mod long_jump;
 mod no_exploits;
 mod objectives;
+mod playing;
 mod posture;
 mod rhythm;
 mod rollovers;
@@ -51,6 +52,7 @@ pub use {
     long_jump::LongJump,
     no_exploits::{NoExploits, NoExploitsSettings},
     objectives::Objectives,
+    playing::{Playing, PlayingSettings},
     posture::{Posture, PostureSettings},
     rhythm::{Rhythm, RhythmSettings},
     rollovers::Rollovers,

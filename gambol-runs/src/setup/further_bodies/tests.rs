@@ -18,7 +18,7 @@ fn config(engine: EngineChoice, combine: Combine) -> RunConfig {
     let mut config = Registry::default().config("default", creature.clone(), "running").expect("a preset");
     config.movement.steps = Some(60);
     config.training_steps = Some(50);
-    config.trials = Trials { count: 2, combine };
+    config.trials = Trials { count: 2, combine, lessons: false };
     config.further_bodies = [0.7, 1.6].map(|times| heavier(&creature, times)).into();
     RunConfig { engine, ..config }
 }

@@ -42,7 +42,7 @@ fn recording() -> Recording {
     let snapshot = |step: u8| {
         let time = f32::from(step) * 0.02;
         let parts = vec![part(time, 0.3), part(1.0 / 3.0 + time, -3.0), part(time, 0.0)];
-        Snapshot { time, parts, motor_work: 0.0 }
+        Snapshot { time, parts, motor_work: 0.0, ..Snapshot::default() }
     };
     let torques = (0..20_u8).map(|step| vec![f32::from(step) / 3.0 - 2.0]).collect();
     Recording { snapshots: (0..20).map(snapshot).collect(), activations: Vec::new(), torques }
@@ -168,4 +168,37 @@ fn what_is_wrong_with_speeds_and_torques_is_named_too() {
             format!("line 1: the column \"{column}\" is missing; expected vx_m_per_s,vy_m_per_s,spin_rad_per_s")
         );
     }
+}
+
+#[test]
+fn commands_are_written_where_there_are_any_and_read_again() {
+    let mut told = recording();
+    let mut before = Command::default();
+    for (step, snapshot) in told.snapshots.iter_mut().enumerate() {
+        before = before.then(if step < 10 { 0.0 } else { 1.0 / 3.0 }, (5..8).contains(&step), 0.02);
+        snapshot.command = before;
+    }
+    let text = written(&told);
+    assert!(text.lines().next().is_some_and(|header| header.ends_with(",commanded_body_lengths_per_s,told_to_jump")));
+    let read = read_csv(&text, &odd()).expect("what was written");
+    assert!(read.commands_known && !read_csv(&written(&recording()), &odd()).expect("untold").commands_known);
+    for (read, was) in read.snapshots.iter().zip(&told.snapshots) {
+        assert_eq!((read.command.speed, read.command.jump), (was.command.speed, was.command.jump));
+        let (read, was) = (read.command.since_press, was.command.since_press);
+        assert!(read == was || (read - was).abs() < 1e-5, "{read} {was}");
+    }
+    let header = format!("{},commanded_body_lengths_per_s,told_to_jump\n", HEADER.trim_end());
+    let with = |ends: [&str; 4]| {
+        header.clone() + &GOOD.lines().zip(ends).map(|(row, end)| format!("{row},{end}\n")).collect::<String>()
+    };
+    assert_eq!(
+        refusal(&with(["0,0", "0,0", "fast,0", "1,0"])),
+        "line 4: commanded_body_lengths_per_s is \"fast\", expected a finite number"
+    );
+    assert_eq!(refusal(&with(["0,0", "0,0", "1,2", "1,0"])), "line 4: told_to_jump is \"2\", expected 0 or 1");
+    assert_eq!(
+        refusal(&with(["0,0", "0,0", "1,0", "2,0"])),
+        "line 5: another command than in the rows before of step 1"
+    );
+    assert!(refusal(&header.replace(",told_to_jump", "")).contains("the column \"told_to_jump\" is missing"));
 }

@@ -79,7 +79,7 @@ impl Rules for JumpingRules {
     }
 }
 
-fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reason> {
+pub(super) fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reason> {
     let mut reasons = Vec::new();
     let time = flight.interval.from;
     let seconds = flight.interval.seconds();

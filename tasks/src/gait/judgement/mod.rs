@@ -2,10 +2,12 @@ use super::{GaitReport, Reason, Rules, Trajectory};
 use serde::{Deserialize, Serialize};
 
 mod jumping;
+mod playing;
 mod running;
 mod swimming;
 
 pub use jumping::JumpingRules;
+pub use playing::PlayingRules;
 pub use running::RunningRules;
 pub use swimming::SwimmingRules;
 

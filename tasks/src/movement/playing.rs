@@ -1,0 +1,328 @@
+use super::{Movement, Verdict};
+use crate::{Body, Command, Snapshot};
+use ne_core::SettingError;
+use serde::Deserialize;
+
+/// How long the body does as it is told, in s: how long it moves at the [commanded](crate::Command) speed, or stands still where
+/// that is 0, and a number of seconds for every jump.
+///
+/// Each moment counts from 0 to 1. Half of it is for the way to go: it falls in proportion to the error, to 0 at an error of 1
+/// body length a second plus the commanded speed. The other half is for being there: it is 1 without an error, and a half of
+/// that at 0.1 body lengths a second plus a tenth of the commanded speed. The speed is that of the torso, forwards, smoothed over
+/// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about.
+///
+/// For 1.5 s after a press the moments do not count, and the jump does, once they are over: all of it if the body leaves the
+/// ground within 0.5 s and its centre of mass rises by 0.35 start heights above its start (0.3 body lengths if it has no legs),
+/// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
+/// so that a search is drawn towards a push-off before anything leaves the ground. Of legs that leave the ground one after the other less counts: nothing where they do so
+/// 0.4 s apart; and of a jump in which anything but a foot touches the ground 0.4.
+#[derive(Clone, Debug)]
+pub struct Playing {
+    jump_worth: f64,
+    body_length: f64,
+    masses: Vec<f64>,
+    feet: Vec<usize>,
+    /// Parts that are no feet, of a body with legs.
+    others: Vec<usize>,
+    /// The rise of a whole jump, m.
+    enough: f64,
+    /// m/s².
+    gravity: f64,
+    /// Height of the centre of mass at the start, and now, m.
+    rest: f64,
+    centre: f64,
+    time: f64,
+    speed: f64,
+    command: Command,
+    /// When each foot last left the ground, s; infinity while it is down.
+    left: Vec<f64>,
+    jump: Option<Jump>,
+    followed: f64,
+    jumped: f64,
+}
+
+/// Settings of [`Playing`].
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct PlayingSettings {
+    /// What a jump is worth, s; from 0 to 100, default 3.
+    pub jump: f64,
+}
+
+impl Default for PlayingSettings {
+    fn default() -> Self {
+        Self { jump: 3.0 }
+    }
+}
+
+/// A jump that is due.
+#[derive(Clone, Copy, Debug)]
+struct Jump {
+    /// When the button was pressed, s.
+    pressed: f64,
+    /// How much of a jump the flight is that answered the press, 0 to 1; `None`: there is none yet.
+    flight: Option<f64>,
+    /// What it is worth so far, 0 to 1.
+    worth: f64,
+    /// Whether a part that is no foot has touched the ground.
+    brushed: bool,
+}
+
+/// Over which the speed is smoothed, s.
+const SMOOTH: f64 = 0.25;
+/// How long after the press a jump has, s.
+const JUMP_SECONDS: f64 = 1.5;
+/// By when the body has to leave the ground, s.
+const ANSWER: f64 = 0.5;
+/// The rise of a whole jump, in start heights; of a body without legs in body lengths.
+const ENOUGH: f64 = 0.35;
+const ENOUGH_LEGLESS: f64 = 0.3;
+/// m.
+const LEAST_RISE: f64 = 0.06;
+/// What counts of the rise that is promised on the ground.
+const PROMISED: f64 = 0.4;
+/// What counts of a jump in which a part that is no foot touches the ground.
+const BRUSHED: f64 = 0.4;
+/// Legs that push off within this of each other push off together, s...
+const TOGETHER: f64 = 0.12;
+/// ...and so far apart they do not jump.
+const APART: f64 = 0.4;
+/// At this speed of its fastest part, in body lengths a second, a standing body is half as still as can be.
+const RESTLESS: f64 = 0.3;
+
+impl Default for Playing {
+    fn default() -> Self {
+        Self {
+            jump_worth: PlayingSettings::default().jump,
+            body_length: 1.0,
+            masses: Vec::new(),
+            feet: Vec::new(),
+            others: Vec::new(),
+            enough: ENOUGH,
+            gravity: 9.81,
+            rest: 0.0,
+            centre: 0.0,
+            time: 0.0,
+            speed: 0.0,
+            command: Command::default(),
+            left: Vec::new(),
+            jump: None,
+            followed: 0.0,
+            jumped: 0.0,
+        }
+    }
+}
+
+impl Playing {
+    /// With these settings.
+    ///
+    /// # Errors
+    /// If what a jump is worth is out of range.
+    pub fn new(settings: PlayingSettings) -> Result<Self, SettingError> {
+        SettingError::check_range("jump", settings.jump, 0.0, 100.0)?;
+        Ok(Self { jump_worth: settings.jump, ..Self::default() })
+    }
+
+    /// How much a moment counts, 0 to 1.
+    fn follows(&self, now: &Snapshot) -> f64 {
+        let wanted = f64::from(self.command.speed);
+        let error = (self.speed / self.body_length - wanted).abs();
+        let near = 1.0 - error / (1.0 + wanted.abs());
+        let there = error / (0.1 + 0.1 * wanted.abs());
+        let follows = 0.5 * near.max(0.0) + 0.5 / (1.0 + there * there);
+        if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) } else { follows }
+    }
+
+    fn stillness(&self, now: &Snapshot) -> f64 {
+        let square = |vx: f32, vy: f32| f64::from(vx) * f64::from(vx) + f64::from(vy) * f64::from(vy);
+        let fastest = now.parts.iter().map(|part| square(part.vx, part.vy)).fold(0.0, f64::max);
+        let restless = RESTLESS * self.body_length;
+        1.0 / (1.0 + fastest / (restless * restless))
+    }
+
+    /// Height of the centre of mass, m; of the torso where masses are not known.
+    fn centre_of(&self, now: &Snapshot) -> f64 {
+        let total: f64 = self.masses.iter().sum();
+        if self.masses.len() != now.parts.len() || total <= 0.0 {
+            return now.torso().y.into();
+        }
+        self.masses.iter().zip(&now.parts).map(|(mass, part)| mass * f64::from(part.y)).sum::<f64>() / total
+    }
+
+    /// `upwards`: the speed of the centre of mass, m/s.
+    fn watch_jump(&mut self, now: &Snapshot, time: f64, upwards: f64) {
+        let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
+        let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
+        let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
+        let Some(jump) = &mut self.jump else { return };
+        let (share, rise) = match now.aloft() {
+            true => {
+                let apart = if first.is_finite() { time - first } else { 0.0 };
+                let begins_late = time - jump.pressed > ANSWER;
+                let flight = || match begins_late {
+                    true => PROMISED,
+                    false => PROMISED + (1.0 - PROMISED) * ((APART - apart) / (APART - TOGETHER)).clamp(0.0, 1.0),
+                };
+                (*jump.flight.get_or_insert_with(flight), risen)
+            }
+            false => {
+                jump.flight = None;
+                (PROMISED, rising)
+            }
+        };
+        jump.worth = jump.worth.max(share * (rise / self.enough).clamp(0.0, 1.0));
+        jump.brushed |= self.others.iter().any(|&part| now.parts[part].touching);
+        if time - jump.pressed >= JUMP_SECONDS {
+            self.jumped += self.jump_worth * jump.worth * if jump.brushed { BRUSHED } else { 1.0 };
+            self.jump = None;
+        }
+    }
+}
+
+impl Movement for Playing {
+    fn name(&self) -> &str {
+        "playing"
+    }
+
+    fn unit(&self) -> &str {
+        "s"
+    }
+
+    fn bind(&mut self, body: &Body) {
+        self.body_length = body.body_length.into();
+        self.masses = body.parts.iter().map(|part| part.mass.into()).collect();
+        self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
+        self.others = if body.legless { Vec::new() } else { body.parts_without_feet() };
+        self.left = vec![f64::INFINITY; self.feet.len()];
+        let enough = match body.legless {
+            true => ENOUGH_LEGLESS * self.body_length,
+            false => ENOUGH * f64::from(body.start_height),
+        };
+        self.enough = enough.max(LEAST_RISE);
+        self.gravity = f64::from(body.gravity).max(0.1);
+    }
+
+    fn begin(&mut self, start: &Snapshot) {
+        self.rest = self.centre_of(start);
+        self.centre = self.rest;
+        (self.time, self.speed, self.command) = (start.time.into(), 0.0, start.command);
+        (self.jump, self.followed, self.jumped) = (None, 0.0, 0.0);
+        self.left.fill(f64::INFINITY);
+    }
+
+    fn observe(&mut self, now: &Snapshot) -> Verdict {
+        let time = f64::from(now.time);
+        let step = time - self.time;
+        self.time = time;
+        self.speed += (f64::from(now.torso().vx) - self.speed) * (step / SMOOTH).clamp(0.0, 1.0);
+        for (left, &foot) in self.left.iter_mut().zip(&self.feet) {
+            if now.parts[foot].touching {
+                *left = f64::INFINITY;
+            } else if left.is_infinite() {
+                *left = time;
+            }
+        }
+        let before = self.centre;
+        self.centre = self.centre_of(now);
+        let upwards = if step > 0.0 { (self.centre - before) / step } else { 0.0 };
+        match self.jump {
+            Some(_) => self.watch_jump(now, time, upwards),
+            None => self.followed += step * self.follows(now),
+        }
+        self.command = now.command;
+        if now.command.since_press == 0.0 {
+            self.jump = Some(Jump { pressed: time, flight: None, worth: 0.0, brushed: false });
+        }
+        Verdict::GoOn
+    }
+
+    fn value(&self) -> f64 {
+        self.followed + self.jumped
+    }
+
+    fn measurements(&self, tell: &mut dyn FnMut(&str, f64)) {
+        tell("playing", self.value());
+        tell("followed", self.followed);
+        tell("jumped", self.jumped);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::PartState;
+
+    const STEP: f32 = 0.02;
+
+    /// What a body of one part does that moves at this speed and this height above its start, told this, at each step.
+    fn played(seconds: f32, mut at: impl FnMut(f32) -> (f32, f32, Command)) -> f64 {
+        let mut movement = Playing::default();
+        let mut x = 0.0;
+        let mut snapshot = |step: u32| {
+            let time = step as f32 * STEP;
+            let (speed, height, command) = at(time);
+            x += speed * STEP;
+            let part =
+                PartState { x, y: 1.0 + height, cos: 1.0, vx: speed, touching: height <= 0.0, ..PartState::default() };
+            Snapshot { time, parts: vec![part], command, ..Snapshot::default() }
+        };
+        movement.begin(&snapshot(0));
+        for step in 1..=(seconds / STEP) as u32 {
+            assert_eq!(movement.observe(&snapshot(step)), Verdict::GoOn);
+        }
+        movement.value()
+    }
+
+    fn told(speed: f32) -> Command {
+        Command { speed, ..Command::default() }
+    }
+
+    #[test]
+    fn what_does_as_it_is_told_gets_all_its_time() {
+        let stands = played(10.0, |_| (0.0, 0.0, told(0.0)));
+        let runs = played(10.0, |time| (if time > 0.0 { 1.0 } else { 0.0 }, 0.0, told(1.0)));
+        assert!((9.9..=10.001).contains(&stands), "{stands}");
+        assert!((9.0..=10.0).contains(&runs), "{runs}");
+    }
+
+    #[test]
+    fn nearer_to_the_commanded_speed_is_worth_more() {
+        for wanted in [-1.0_f32, 0.0, 0.5, 2.0] {
+            let of = |error: f32| played(5.0, |_| (wanted + error, 0.0, told(wanted)));
+            let worths: Vec<f64> = [0.0, 0.05, 0.1, 0.3, 0.6, 1.0].map(of).to_vec();
+            assert!(worths.is_sorted_by(|one, other| one > other), "{wanted}: {worths:?}");
+        }
+    }
+
+    /// Pressed at 1 s; in the air from `from` to `to`, m at the peak.
+    fn jumps(from: f32, to: f32, peak: f32) -> f64 {
+        let mut before = f32::INFINITY;
+        let value = played(4.0, |time| {
+            let jump = (1.0..1.2).contains(&time);
+            before = if jump && before.is_infinite() { 0.0 } else { before + STEP };
+            let place = (time - from) / (to - from);
+            let height = if (0.0..1.0).contains(&place) { peak * 4.0 * place * (1.0 - place) } else { 0.0 };
+            (0.0, height, Command { speed: 0.0, jump, since_press: before })
+        });
+        value - played(2.5, |_| (0.0, 0.0, told(0.0)))
+    }
+
+    #[test]
+    fn a_jump_counts_if_it_answers_a_press() {
+        let [whole, half, late, none] =
+            [jumps(1.3, 1.9, 0.5), jumps(1.3, 1.9, 0.17), jumps(1.8, 2.4, 0.5), jumps(9.0, 9.1, 0.0)];
+        assert!((2.9..3.1).contains(&whole), "{whole}");
+        assert!((1.0..2.0).contains(&half), "{half}");
+        assert!(late < 0.5 * whole, "{late}");
+        assert!(none.abs() < 0.1, "{none}");
+    }
+
+    #[test]
+    fn what_a_jump_is_worth_is_a_setting() {
+        for jump in [-1.0, 101.0, f64::NAN] {
+            let error = Playing::new(PlayingSettings { jump }).expect_err("out of range").to_string();
+            assert!(error.contains("jump") && error.contains("from 0 to 100"), "{error}");
+        }
+        assert!(Playing::new(PlayingSettings { jump: 0.0 }).is_ok());
+    }
+}
