@@ -150,7 +150,7 @@ impl Champion {
         let ne_core::Champion { seed, generation, fitness, trained, diverged, .. } = *champion;
         let network: Network = champion.genome.express().into();
         let (trials, variation, (trajectory, evaluation)) = match &setup.reference {
-            Some(reference) => (Trials::default(), Variation::default(), reference.replay(&network, seed)),
+            Some(reference) => (reference.trials, Variation::default(), reference.replay(&network, seed)),
             None => (config.trials, config.variation, replay(&setup.episode, config.trials, &network, seed)),
         };
         let training = (config.engine != EngineChoice::Rapier || setup.reference.is_some()).then(|| Training {

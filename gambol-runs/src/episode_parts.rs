@@ -117,6 +117,9 @@ pub struct EpisodeParts<'a> {
     pub commands: Option<&'a Commands>,
 }
 
+/// Schedules of commands in which champions are compared.
+const SCHEDULES: u32 = 8;
+
 /// Varied worlds a candidate is proved in.
 const PROOFS: u32 = 4;
 
@@ -168,10 +171,12 @@ impl EpisodeParts<'_> {
         self.sensors.unwrap_or(&self.creature.sensors)
     }
 
-    /// The same without variation, and with one trial: more would all be alike.
+    /// The same without variation, and with one trial: more would all be alike. A body that is told random commands has several,
+    /// in each of which it is told something else: of one alone what was lucky would be the best for ever.
     #[must_use]
     pub fn reference(self) -> Self {
-        Self { trials: Trials::default(), variation: Variation::default(), ..self }
+        let count = if matches!(self.commands, Some(Commands::Random(_))) { SCHEDULES } else { 1 };
+        Self { trials: Trials { count, ..Trials::default() }, variation: Variation::default(), ..self }
     }
 
     /// The same in as many varied worlds as a champion is proved in.

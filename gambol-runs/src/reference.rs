@@ -12,7 +12,7 @@ use ne_net::Network;
 use std::sync::{Arc, Mutex};
 use tasks::{Episode, Trials};
 
-/// One trial of the creature, whole and in the world as the configuration has it, where training varies the world, shortens
+/// One trial of the creature, or several of one that is told random commands, whole and in the world as the configuration has it, where training varies the world, shortens
 /// the episode or has further bodies.
 #[derive(Clone)]
 pub struct ReferenceEpisode {
@@ -20,7 +20,9 @@ pub struct ReferenceEpisode {
     pub task: TrainingTask,
     /// In rapier.
     pub episode: Episode<RapierEnvironment>,
-    /// The seed of its one trial.
+    /// Its trials.
+    pub trials: Trials,
+    /// The seed of its trials.
     pub seed: Seed,
     /// The varied worlds of training, always the same few, in which a champion must keep its fitness; `None` if training
     /// does not vary the world.
@@ -43,7 +45,7 @@ struct Replay {
 impl ReferenceEpisode {
     pub(crate) fn new(
         task: TrainingTask,
-        episode: Episode<RapierEnvironment>,
+        (episode, trials): (Episode<RapierEnvironment>, Trials),
         proof: Option<TrainingTask>,
         judge: Judge,
         seed: Seed,
@@ -51,7 +53,7 @@ impl ReferenceEpisode {
         let judge = Some(judge).filter(|judge| judge.rules().is_some());
         let tried = judge.clone().filter(|_| proof.is_some());
         let robustness_check = tried.map(|judge| RobustnessCheck::new(judge, seed));
-        Self { task, episode, seed, proof, judge, robustness_check, last: Arc::default() }
+        Self { task, episode, trials, seed, proof, judge, robustness_check, last: Arc::default() }
     }
 
     /// What a controller does in rapier, and what it is worth there.
@@ -61,7 +63,7 @@ impl ReferenceEpisode {
             known.map(|known| known.result.clone())
         });
         known.unwrap_or_else(|| {
-            let result = replay(&self.episode, Trials::default(), network, seed);
+            let result = replay(&self.episode, self.trials, network, seed);
             if let Ok(mut last) = self.last.lock() {
                 *last = Some(Replay { network: network.clone(), seed, result: result.clone() });
             }

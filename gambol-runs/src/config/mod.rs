@@ -37,7 +37,7 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ. With any, with shortened training episodes or further bodies, the champion is chosen without variation, in one trial.
+    /// How trials differ. With any, with shortened training episodes or further bodies, the champion is chosen without variation, in one trial; of a body that is told random commands in eight, in each of which it is told something else.
     pub variation: Variation,
     /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.

@@ -11,9 +11,9 @@ use tasks::{Commands, RandomCommands, TermSpec};
 const STEPS: (Option<u32>, Option<u32>) = (Some(1000), Some(500));
 
 /// What follows soundly after fewer steps of training is a lucky one.
-const LEAST_STEPS: u64 = 20_000_000;
+const LEAST_STEPS: u64 = 80_000_000;
 /// What does not follow after so many goes on all the same.
-const MOST_STEPS: u64 = 150_000_000;
+const MOST_STEPS: u64 = 200_000_000;
 
 /// The turn of the jump clock, s: within half a second of the press a body has to crouch and to push off. With 1 s one search in
 /// four finds a jump in 12 million steps, with 0.5 or 0.65 s all do (tetrapod-2, four seeds each).

@@ -2,6 +2,7 @@ use super::{BodyFacts, MovementDefaults};
 use crate::{
     Registry,
     config::{LimbPhases, RunConfig},
+    setup::Setup,
 };
 use creatures::{Actuation, Sensor};
 use ne_fixed::CmaEsSettings;
@@ -73,6 +74,24 @@ fn two_legs_without_knees_that_jump_have_a_clock_that_begins_anew_when_they_land
         let is_it = |sensor: &Sensor| matches!(sensor, Sensor::LandingClock { .. });
         assert_eq!(sensors.iter().any(is_it), from_landing, "{creature} {movement}");
     }
+}
+
+/// What docs/playing.md says of it.
+#[test]
+fn what_plays_is_told_what_to_do_in_two_stages_and_chosen_over_eight_schedules() {
+    for creature in ["biped-1", "tetrapod-2", "apod"] {
+        let config = config(creature, "playing");
+        let stages: Vec<&str> = config.stages.iter().map(|stage| stage.name.as_str()).collect();
+        assert_eq!((stages, config.trials.count), (vec!["follow", "jump"], 6), "{creature}");
+        let sensors = config.sensors.iter().flatten();
+        let told =
+            sensors.filter(|sensor| matches!(sensor, Sensor::CommandedSpeed { .. } | Sensor::StrideClock { .. }));
+        assert_eq!(told.count(), 2, "{creature}");
+        let setup = Setup::new(&config, &Registry::default()).expect("valid");
+        assert_eq!(setup.reference.map(|reference| reference.trials.count), Some(8), "{creature}");
+    }
+    let setup = Setup::new(&config("biped-1", "running"), &Registry::default()).expect("valid");
+    assert_eq!(setup.reference.map(|reference| reference.trials.count), Some(1));
 }
 
 /// A movement of another crate gets what its crate says, and a controller if it says nothing.

@@ -131,13 +131,14 @@ impl Setup {
         let reference = match config.has_champion_selection() {
             false => None,
             true => {
-                let (episode, task) = parts.reference().build_both(config.engine, registry)?;
+                let reference = parts.reference();
+                let (episode, task) = reference.build_both(config.engine, registry)?;
                 let judge = Judge::new(parts, registry)?.of_training(Seed::of_run(config.seed));
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),
                 };
-                Some(ReferenceEpisode::new(task, episode, proof, judge, Seed::of_run(config.seed)))
+                Some(ReferenceEpisode::new(task, (episode, reference.trials), proof, judge, Seed::of_run(config.seed)))
             }
         };
         if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
