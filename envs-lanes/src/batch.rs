@@ -47,10 +47,8 @@ pub(crate) struct Batch<const W: usize> {
     /// When each lane is pushed next, s from the start of its trial.
     next_push: Lanes<W>,
     commands: [CommandSchedule; W],
-    /// What each lane is told to do; its speed and the time since its last press stand beside it for the senses.
+    /// What each lane is told to do.
     command: [Command; W],
-    commanded_speed: Lanes<W>,
-    since_press: Lanes<W>,
     /// Whether any lane is told anything.
     commanded: bool,
     /// Of the last step: the power of all motors, W.
@@ -97,8 +95,6 @@ impl<const W: usize> Batch<W> {
             next_push: Lanes::splat(f32::INFINITY),
             commands: std::array::from_fn(|_| CommandSchedule::default()),
             command: [Command::default(); W],
-            commanded_speed: Lanes::ZERO,
-            since_press: Lanes::splat(f32::INFINITY),
             commanded: false,
             power: Lanes::ZERO,
             fastest: Lanes::ZERO,
@@ -122,16 +118,10 @@ impl<const W: usize> Batch<W> {
         self.next_push.0[lane] = settled.pushes.next_time();
         self.commands[lane] = settled.commands.clone();
         self.commanded |= !settled.commands.is_empty();
-        self.tell(lane, settled.commands.first());
+        self.command[lane] = settled.commands.first();
         if let Some(net) = &mut self.net {
             net.forget(lane);
         }
-    }
-
-    fn tell(&mut self, lane: usize, command: Command) {
-        self.command[lane] = command;
-        self.commanded_speed.0[lane] = command.speed;
-        self.since_press.0[lane] = command.since_press;
     }
 
     /// Whether the nets think in lanes; else each thinks for itself in [`think`](Self::think).
@@ -193,7 +183,7 @@ impl<const W: usize> Batch<W> {
         if self.commanded {
             for lane in 0..W {
                 let (time, time_step) = (self.time.0[lane], self.time_step.0[lane]);
-                self.tell(lane, self.commands[lane].at(time, &self.command[lane], time_step));
+                self.command[lane] = self.commands[lane].at(time, &self.command[lane], time_step);
             }
         }
         if let Some(landings) = &mut self.landings {
@@ -257,22 +247,8 @@ impl<const W: usize> Work for Sense<'_, W> {
 
     #[inline(always)]
     fn run(self) {
-        let Batch {
-            world,
-            senses,
-            net,
-            inputs,
-            outputs,
-            time,
-            since_landing,
-            rest_height,
-            gaps,
-            command,
-            commanded_speed,
-            since_press,
-            ..
-        } = self.0;
-        let clocks = Clocks { time, since_landing, rest_height, gaps, command, commanded_speed, since_press };
+        let Batch { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, command, .. } = self.0;
+        let clocks = Clocks { time, since_landing, rest_height, gaps, command };
         senses.read(world, &clocks, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);

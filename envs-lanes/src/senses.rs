@@ -28,9 +28,14 @@ pub(crate) struct Clocks<'a, const W: usize> {
     pub(crate) gaps: &'a [Arc<[[f32; 2]]>; W],
     /// What each lane is told to do.
     pub(crate) command: &'a [Command; W],
-    /// Of these, the speeds and the times since the last press.
-    pub(crate) commanded_speed: &'a Lanes<W>,
-    pub(crate) since_press: &'a Lanes<W>,
+}
+
+impl<const W: usize> Clocks<'_, W> {
+    /// Something of what each lane is told.
+    #[inline(always)]
+    fn told(&self, what: impl Fn(&Command) -> f32) -> Lanes<W> {
+        Lanes(std::array::from_fn(|lane| what(&self.command[lane])))
+    }
 }
 
 impl LaneSenses {
@@ -94,19 +99,19 @@ impl LaneSenses {
             Source::ClockCosine { period } => clocks.time.map(|time| libm::cosf(clock_phase(time, period))),
             Source::LandingSine { period } => clocks.since_landing.map(|time| libm::sinf(clock_phase(time, period))),
             Source::LandingCosine { period } => clocks.since_landing.map(|time| libm::cosf(clock_phase(time, period))),
-            Source::CommandedSpeed => *clocks.commanded_speed,
-            Source::JumpCommand => Lanes(std::array::from_fn(|lane| f32::from(u8::from(clocks.command[lane].jump)))),
+            Source::CommandedSpeed => clocks.told(|command| command.speed),
+            Source::JumpCommand => clocks.told(|command| f32::from(u8::from(command.jump))),
             Source::StrideSine { period, top } => {
-                let swing = clocks.commanded_speed.map(|speed| stride_swing(speed, top));
+                let swing = clocks.told(|command| stride_swing(command.speed, top));
                 swing * clocks.time.map(|time| libm::sinf(clock_phase(time, period)))
             }
             Source::StrideCosine { period, top } => {
-                let swing = clocks.commanded_speed.map(|speed| stride_swing(speed, top));
+                let swing = clocks.told(|command| stride_swing(command.speed, top));
                 swing * clocks.time.map(|time| libm::cosf(clock_phase(time, period)))
             }
-            Source::JumpSine { period } => clocks.since_press.map(|time| libm::sinf(jump_phase(time, period))),
+            Source::JumpSine { period } => clocks.told(|command| libm::sinf(jump_phase(command.since_press, period))),
             Source::JumpSwell { period } => {
-                clocks.since_press.map(|time| 0.5 * (1.0 - libm::cosf(jump_phase(time, period))))
+                clocks.told(|command| 0.5 * (1.0 - libm::cosf(jump_phase(command.since_press, period))))
             }
             // Lanes have no view of one body that it could be asked with; not a number fails the evaluation.
             Source::Custom { .. } => Lanes::splat(f32::NAN),

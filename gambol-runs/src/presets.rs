@@ -11,7 +11,7 @@ use ne_core::StopConditions;
 use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
 use ne_neat::NeatSettings;
 use ne_net::Activation;
-use tasks::{Medium, MovementCatalogue, MovementSpec, Trials};
+use tasks::{Commands, Medium, MovementCatalogue, MovementSpec, Trials};
 
 /// A named starting point of a configuration.
 #[derive(Clone, Copy, Debug)]
@@ -133,6 +133,9 @@ impl Preset {
             // Only rapier has water.
             config.physics.water = Some(Water::default());
             config.engine = EngineChoice::Rapier;
+        }
+        if movements.rules(movement).is_some_and(|rules| rules.needs_commands()) {
+            config.commands = Some(Commands::default());
         }
         (self.change)(&mut config, known);
         config

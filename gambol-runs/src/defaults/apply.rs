@@ -27,7 +27,9 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     config.movement.terms = defaults.terms;
     config.movement.steps = defaults.steps;
     config.training_steps = defaults.training_steps;
-    config.commands.clone_from(&defaults.commands);
+    if let Some(commands) = defaults.commands.clone() {
+        config.commands = Some(commands);
+    }
     config.trials.count = defaults.trials.unwrap_or(TRIALS);
     config.stages = defaults.stages;
     if let Some(variation) = defaults.variation {

@@ -90,6 +90,8 @@ fn what_plays_is_told_what_to_do_in_two_stages_and_chosen_over_eight_schedules()
         let setup = Setup::new(&config, &Registry::default()).expect("valid");
         assert_eq!(setup.reference.map(|reference| reference.trials.count), Some(8), "{creature}");
     }
+    let thesis = Registry::default().config("thesis", creatures::find("apod").expect("shipped"), "playing");
+    assert!(thesis.expect("a preset").commands.is_some() && config("apod", "running").commands.is_none());
     let setup = Setup::new(&config("biped-1", "running"), &Registry::default()).expect("valid");
     assert_eq!(setup.reference.map(|reference| reference.trials.count), Some(1));
 }

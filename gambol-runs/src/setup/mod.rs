@@ -81,6 +81,12 @@ impl Setup {
             let allowed = format!("water, which {} is done in", config.movement.name);
             return Err(SettingError::new("physics.water", "null", allowed).into());
         }
+        let needs_commands =
+            registry.movements.rules(&config.movement.name).is_some_and(|rules| rules.needs_commands());
+        if needs_commands && config.commands.is_none() {
+            let allowed = format!("commands, which {} is judged by", config.movement.name);
+            return Err(SettingError::new("commands", "null", allowed).into());
+        }
         let parts = config.episode_parts();
         let (episode, task) = parts.build_both(config.engine, registry)?;
         let (senses, motors) = (episode.environment().senses().channels(), episode.environment().motors().channels());

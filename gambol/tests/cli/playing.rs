@@ -94,6 +94,7 @@ fn what_is_wrong_with_commands_is_named() -> Outcome {
         ("sensors=[{\"stride-clock\":{\"period\":0.5,\"top\":0}}]", "sensors[0].stride-clock.top"),
         ("sensors=[{\"commanded-speed\":{\"top\":99}}]", "sensors[0].commanded-speed.top"),
         ("sensors=[{\"jump-clock\":{\"period\":0}}]", "sensors[0].jump-clock.period"),
+        ("commands=null", "commands = null: must be commands, which playing is judged by"),
         ("trials.lessons=3", "trials.lessons: invalid type: integer `3`, expected a boolean"),
     ];
     for (setting, refusal) in refusals {

@@ -32,7 +32,7 @@ use std::fmt;
 /// ```
 pub trait Rules: fmt::Debug + Send + Sync {
     /// What the gait is judged as, for files and tables: lower case, hyphens. Built-in: `running`, `backwards`, `jumping`,
-    /// `swimming`.
+    /// `swimming`, `playing`.
     fn name(&self) -> &str;
 
     /// How long the episode to judge must last, s. All of a longer one is judged. A shorter one is not usable, which need

@@ -133,6 +133,12 @@ impl Playing {
         if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) } else { follows }
     }
 
+    /// The jump that is due if the button was pressed at this moment.
+    fn pressed(&self) -> Option<Jump> {
+        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, brushed: false };
+        (self.command.since_press == 0.0).then_some(jump)
+    }
+
     fn stillness(&self, now: &Snapshot) -> f64 {
         let square = |vx: f32, vy: f32| f64::from(vx) * f64::from(vx) + f64::from(vy) * f64::from(vy);
         let fastest = now.parts.iter().map(|part| square(part.vx, part.vy)).fold(0.0, f64::max);
@@ -206,7 +212,8 @@ impl Movement for Playing {
         self.rest = self.centre_of(start);
         self.centre = self.rest;
         (self.time, self.speed, self.command) = (start.time.into(), 0.0, start.command);
-        (self.jump, self.followed, self.jumped) = (None, 0.0, 0.0);
+        (self.followed, self.jumped) = (0.0, 0.0);
+        self.jump = self.pressed();
         self.left.fill(f64::INFINITY);
     }
 
@@ -230,9 +237,7 @@ impl Movement for Playing {
             None => self.followed += step * self.follows(now),
         }
         self.command = now.command;
-        if now.command.since_press == 0.0 {
-            self.jump = Some(Jump { pressed: time, flight: None, worth: 0.0, brushed: false });
-        }
+        self.jump = self.pressed().or(self.jump);
         Verdict::GoOn
     }
 
@@ -315,6 +320,18 @@ mod tests {
         assert!((1.0..2.0).contains(&half), "{half}");
         assert!(late < 0.5 * whole, "{late}");
         assert!(none.abs() < 0.1, "{none}");
+    }
+
+    #[test]
+    fn a_press_at_the_very_start_is_one() {
+        let value = |peak: f32| {
+            played(1.6, |time| {
+                let place = (time - 0.2) / 0.6;
+                let height = if (0.0..1.0).contains(&place) { peak * 4.0 * place * (1.0 - place) } else { 0.0 };
+                (0.0, height, Command { speed: 0.0, jump: time < 0.2, since_press: time })
+            })
+        };
+        assert!(value(0.5) > value(0.0) + 2.9, "{} {}", value(0.5), value(0.0));
     }
 
     #[test]
