@@ -24,6 +24,7 @@
 //!
 //! # Example
 //! ```
+//! # #[cfg(feature = "files")] {
 //! use creatures::{Blueprint, Motors, Senses};
 //!
 //! let creature = creatures::find("tetrapod-2")?;
@@ -41,61 +42,108 @@
 //! assert_eq!((senses.len(), motors.len()), (9, 8));
 //! assert!(listed[0].starts_with("rotation of case: -3.14"));
 //! assert_eq!(listed[9], "speed of near front thigh: -12 to 12 rad/s");
+//! # }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! # Units
 //! Metres, kilograms, seconds, newton metres; x points forward, y up; angles count counter-clockwise. Files hold
 //! degrees, everything else radians.
+#![cfg_attr(not(feature = "files"), no_std)]
 
+#[cfg(feature = "files")]
 mod blueprint;
+#[cfg(feature = "files")]
 mod body_part;
 mod body_view;
+#[cfg(feature = "files")]
 pub mod bounds;
+#[cfg(feature = "files")]
 mod channel;
+#[cfg(feature = "files")]
 mod check;
+#[cfg(feature = "files")]
 mod colour;
+#[cfg(feature = "files")]
 mod creature;
+#[cfg(feature = "files")]
 mod custom;
+mod drive;
+#[cfg(feature = "files")]
 mod error;
+#[cfg(feature = "files")]
 mod format;
 mod landings;
+#[cfg(feature = "files")]
 mod legs;
+mod limit;
+#[cfg(feature = "files")]
 pub mod look;
+#[cfg(feature = "files")]
 mod motors;
+#[cfg(feature = "files")]
 mod names;
+#[cfg(feature = "files")]
 mod parse;
+#[cfg(feature = "files")]
 mod problem;
+pub mod rotation;
 #[cfg(feature = "schema")]
 mod schema;
+#[cfg(feature = "files")]
 mod sense;
+#[cfg(feature = "files")]
 mod senses;
+#[cfg(feature = "files")]
 mod sensor;
 mod shape;
+#[cfg(feature = "files")]
 mod shipped;
+mod source;
+#[cfg(feature = "files")]
 mod terrain;
 
+#[cfg(feature = "files")]
 pub use blueprint::Blueprint;
+#[cfg(feature = "files")]
 pub use body_part::{BodyPart, Hinge};
 pub use body_view::BodyView;
+#[cfg(feature = "files")]
 pub use bounds::Bounds;
+#[cfg(feature = "files")]
 pub use channel::Channel;
+#[cfg(feature = "files")]
 pub use colour::Colour;
+#[cfg(feature = "files")]
 pub use creature::{Creature, Joint, Motor, Part};
+#[cfg(feature = "files")]
 pub use custom::CustomSensor;
+pub use drive::{Actuation, Drive};
+#[cfg(feature = "files")]
 pub use error::{CreatureError, UnknownName};
+#[cfg(feature = "files")]
 pub use format::{FORMAT, VERSION};
 pub use landings::Landings;
+pub use limit::limit;
+#[cfg(feature = "files")]
 pub use look::{Decoration, Form, Look};
-pub use motors::{Actuation, Drive, Motors};
+#[cfg(feature = "files")]
+pub use motors::Motors;
+#[cfg(feature = "files")]
 pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::json_schema;
+#[cfg(feature = "files")]
 pub use sense::Sense;
-pub use senses::{DEFAULT_INPUT_RANGE, Probe, Senses, Source, clock_phase, jump_phase, stride_swing};
+#[cfg(feature = "files")]
+pub use senses::{DEFAULT_INPUT_RANGE, Senses};
+#[cfg(feature = "files")]
 pub use sensor::Sensor;
 pub use shape::Shape;
+#[cfg(feature = "files")]
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};
+pub use source::{Probe, Source, clock_phase, jump_phase, stride_swing};
+#[cfg(feature = "files")]
 pub use terrain::{
     BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles, TERRAINS, Terrain, TerrainEntry, TerrainError,
 };

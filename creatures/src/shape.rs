@@ -1,13 +1,14 @@
 //! The solid shapes parts are made of.
 
-use std::f32::consts::PI;
+use core::f32::consts::PI;
 
+#[cfg(feature = "files")]
 use serde::{Deserialize, Serialize};
 
 /// The solid shape of a part, centred on the part's origin. Full sizes, in metres, each from 0.005 to 50.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
-#[serde(rename_all = "snake_case", deny_unknown_fields)]
+#[cfg_attr(feature = "files", derive(Serialize, Deserialize), serde(rename_all = "snake_case", deny_unknown_fields))]
 pub enum Shape {
     /// A rectangle.
     Box {
@@ -72,6 +73,7 @@ impl Shape {
     }
 
     /// Its sizes in m, each with the path of its field.
+    #[cfg(feature = "files")]
     pub(crate) fn sizes(&self) -> Vec<(&'static str, f32)> {
         match *self {
             Self::Box { width, height } => vec![("box.width", width), ("box.height", height)],

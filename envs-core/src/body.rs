@@ -1,5 +1,8 @@
 use crate::Engine;
-use creatures::{Blueprint, BodyView, Hinge, Landings, Shape};
+use creatures::{
+    Blueprint, BodyView, Hinge, Landings, Shape,
+    rotation::{angle_from, turned_back},
+};
 use tasks::{PartState, Snapshot};
 
 /// What the senses need to know of a creature besides where its parts are now.
@@ -77,16 +80,6 @@ pub fn next_gap(gaps: &[[f32; 2]], x: f32, length: f32) -> [f32; 2] {
         Some(&[from, to]) if from - x < length => [(from - x).max(0.0), to - from],
         _ => [length, 0.0],
     }
-}
-
-/// The angle of `direction` (cosine, sine) seen from `reference`, rad.
-fn angle_from(reference: [f32; 2], direction: [f32; 2]) -> f32 {
-    let [cos, sin] = turned_back(reference, direction);
-    libm::atan2f(sin, cos)
-}
-
-fn turned_back([c, s]: [f32; 2], [cos, sin]: [f32; 2]) -> [f32; 2] {
-    [c * cos + s * sin, c * sin - s * cos]
 }
 
 fn direction(part: &PartState) -> [f32; 2] {

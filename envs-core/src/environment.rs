@@ -2,7 +2,7 @@ use crate::{
     Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, PushSchedule, RestPose, Settled,
     Variation, anatomy::body_of, body::Body, settled::advance,
 };
-use creatures::{Actuation, Blueprint, Landings, Motors, Senses, Sensor, Terrain, TerrainError};
+use creatures::{Actuation, Blueprint, Landings, Motors, Senses, Sensor, Source, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
 use std::{borrow::Cow, sync::Arc};
 use tasks::{CommandSchedule, Commands, Environment, Snapshot};
@@ -280,6 +280,16 @@ impl<E: Engine> CreatureEnvironment<E> {
         self.plan.actuated.iter().map(|actuated| -self.state.engine.motor_torque(actuated.hinge))
     }
 
+    /// The speed each motor was last asked for, rad/s, in order of the outputs.
+    pub fn asked_speeds(&self) -> &[f32] {
+        &self.state.wanted
+    }
+
+    /// The raw value of a source now; NaN for a sensor of another crate.
+    pub fn measure(&self, source: Source) -> f32 {
+        source.read(&self.state.body())
+    }
+
     /// Where the commands of a trial come from; `None`: the body is told nothing.
     pub fn commands(&self) -> Option<&Commands> {
         self.plan.commands.as_ref().map(|(commands, _)| commands)
@@ -362,8 +372,7 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
     }
 
     fn sense(&self, inputs: &mut [f32]) {
-        let State { engine, snapshot, rest, gaps, landings, .. } = &self.state;
-        self.plan.senses.read(&Body { engine, snapshot, rest, gaps, landings: *landings }, inputs);
+        self.plan.senses.read(&self.state.body(), inputs);
     }
 
     fn act(&mut self, outputs: &[f32]) {
@@ -431,6 +440,12 @@ impl<E: Engine> State<E> {
             speeds: still.clone(),
             wanted: still,
         }
+    }
+
+    /// The creature as its sensors see it.
+    fn body(&self) -> Body<'_, E> {
+        let Self { engine, snapshot, rest, gaps, landings, .. } = self;
+        Body { engine, snapshot, rest, gaps, landings: *landings }
     }
 
     /// One step, with everything that is measured after it.

@@ -1,13 +1,14 @@
 use crate::mathematics::{exp, limit, sin, tanh};
+use core::fmt;
+#[cfg(feature = "nets")]
 use serde::{Deserialize, Serialize};
-use std::fmt;
 
 /// The function that turns the weighted sum `a` of a neuron into its output.
 ///
 /// All of them give the same bits on every platform, a finite output for every finite sum, and NaN for NaN. Errors are
 /// against the exact function.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "nets", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Activation {
     /// 1 / (1 + e⁻ᵃ), from 0 to 1; error below 1e-6.
     Logistic,

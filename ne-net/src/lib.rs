@@ -7,7 +7,7 @@
 //!
 //! | type | what it is |
 //! |---|---|
-//! | [`Activation`] | the function of a neuron |
+//! | [`Activation`] | the function of a neuron; all there is without the feature `nets`, and then without `std` |
 //! | [`DenseShape`] | the layers of a dense net, without weights |
 //! | [`DenseNet`] | a dense feed-forward net, ready to activate |
 //! | [`GraphShape`] | neurons and their connections, without weights |
@@ -18,6 +18,7 @@
 //! | [`NetView`] | a net of any kind as neurons and connections |
 //!
 //! ```
+//! # #[cfg(feature = "nets")] {
 //! use ne_core::Phenotype;
 //! use ne_net::{DenseNet, DenseShape};
 //!
@@ -26,13 +27,15 @@
 //! let mut outputs = [0.0];
 //! net.activate(&[0.1, -0.2], &mut outputs);
 //! assert!(outputs[0].abs() <= 1.0);
-//! # Ok::<(), ne_net::NetworkError>(())
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! A graph net lists its neurons in the order they are computed. Nodes are numbered, inputs first. This one swings: its
 //! only neuron, node 1, hears the input and what it put out itself in the step before.
 //!
 //! ```
+//! # #[cfg(feature = "nets")] {
 //! use ne_core::Phenotype;
 //! use ne_net::{Activation, GraphNet, GraphNeuron, GraphShape, Network};
 //!
@@ -44,28 +47,48 @@
 //! assert!(outputs[0] > 0.7);
 //! net.activate(&[0.0], &mut outputs);
 //! assert!(outputs[0] < -0.7);
-//! # Ok::<(), ne_net::NetworkError>(())
+//! # }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+#![cfg_attr(not(feature = "nets"), no_std)]
 
 mod activation;
+#[cfg(feature = "nets")]
 mod copies;
+#[cfg(feature = "nets")]
 mod dense;
+#[cfg(feature = "nets")]
 mod error;
+#[cfg(feature = "nets")]
 mod graph;
 mod mathematics;
+#[cfg(feature = "nets")]
 mod network;
+#[cfg(feature = "nets")]
 mod shared;
+#[cfg(feature = "nets")]
 mod topology;
+#[cfg(feature = "nets")]
 mod topology_map;
+#[cfg(feature = "nets")]
 mod view;
 
 pub use activation::Activation;
+#[cfg(feature = "nets")]
 pub use copies::{CopiedShape, Copies, CopySense, NetCopy};
+#[cfg(feature = "nets")]
 pub use dense::{DenseNet, DenseShape};
+#[cfg(feature = "nets")]
 pub use error::NetworkError;
+#[cfg(feature = "nets")]
 pub use graph::{GraphNet, GraphNeuron, GraphShape};
+#[cfg(feature = "nets")]
 pub use network::Network;
+#[cfg(feature = "nets")]
 pub use shared::{SharedShape, SharedWeight, Turn};
+#[cfg(feature = "nets")]
 pub use topology::Topology;
+#[cfg(feature = "nets")]
 pub use topology_map::TopologyMap;
+#[cfg(feature = "nets")]
 pub use view::{NetView, NeuronView};

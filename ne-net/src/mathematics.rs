@@ -43,7 +43,7 @@ pub(crate) fn sin(x: f32) -> f32 {
     const C11: f64 = -1.0 / 39_916_800.0;
     const C13: f64 = 1.0 / 6_227_020_800.0;
     let size = f64::from(limit(x.abs(), 0.0, 4_294_967_296.0));
-    let rounded = size * std::f64::consts::FRAC_1_PI + ROUNDER_64;
+    let rounded = size * core::f64::consts::FRAC_1_PI + ROUNDER_64;
     let turns = rounded - ROUNDER_64;
     let r = (size - turns * PI_UPPER) - turns * PI_LOWER;
     let r2 = r * r;
@@ -75,7 +75,7 @@ fn exp_parts(x: f32) -> (f32, f32) {
     const C5: f32 = 1.0 / 120.0;
     const C6: f32 = 1.0 / 720.0;
     const C7: f32 = 1.0 / 5_040.0;
-    let rounded = x * std::f32::consts::LOG2_E + ROUNDER;
+    let rounded = x * core::f32::consts::LOG2_E + ROUNDER;
     let n = rounded - ROUNDER;
     let r = (x - n * LN_2_UPPER) - n * LN_2_LOWER;
     // In pairs, which do not wait for each other.

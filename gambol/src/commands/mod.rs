@@ -10,6 +10,7 @@ mod bench_gaits;
 mod bench_training;
 mod check;
 mod compare;
+mod export;
 mod film;
 mod gait;
 mod gait_text;
@@ -143,6 +144,8 @@ enum Command {
     Verify(verify::Verify),
     /// Replays a champion: as a page, as a trajectory
     Replay(replay::Replay),
+    /// Writes a champion as a file for games and other programs
+    Export(export::Export),
     /// Films gaits side by side, as an animated image
     Film(film::Film),
     /// Measures a gait, says whether it is usable, and why not
@@ -181,6 +184,7 @@ impl Command {
             Self::Report(report) => report.run(registry),
             Self::Verify(verify) => verify.run(registry),
             Self::Replay(replay) => replay.run(registry),
+            Self::Export(export) => export.run(registry),
             Self::Film(film) => film.run(registry),
             Self::Gait(gait) => gait.run(registry),
             Self::Robust(robust) => robust.run(registry),

@@ -128,7 +128,7 @@ fn same_file(one: &Path, other: &Path) -> bool {
 }
 
 /// The steps of so many seconds.
-fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
+pub(super) fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
     let steps = seconds / f64::from(time_step);
     match (1.0..=1e6).contains(&steps) {
         true => Ok(steps.round() as u32),

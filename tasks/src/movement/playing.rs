@@ -66,6 +66,8 @@ struct Jump {
     worth: f64,
     /// Whether a part that is no foot has touched the ground.
     brushed: bool,
+    /// Whether the body has come down again.
+    landed: bool,
 }
 
 /// Over which the speed is smoothed, s.
@@ -135,7 +137,7 @@ impl Playing {
 
     /// The jump that is due if the button was pressed at this moment.
     fn pressed(&self) -> Option<Jump> {
-        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, brushed: false };
+        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, brushed: false, landed: false };
         (self.command.since_press == 0.0).then_some(jump)
     }
 
@@ -172,6 +174,7 @@ impl Playing {
                 (*jump.flight.get_or_insert_with(flight), risen)
             }
             false => {
+                jump.landed |= jump.flight.is_some();
                 jump.flight = None;
                 (PROMISED, rising)
             }
@@ -232,10 +235,10 @@ impl Movement for Playing {
         let before = self.centre;
         self.centre = self.centre_of(now);
         let upwards = if step > 0.0 { (self.centre - before) / step } else { 0.0 };
-        match self.jump {
-            Some(_) => self.watch_jump(now, time, upwards),
-            None => self.followed += step * self.follows(now),
+        if self.jump.is_none_or(|jump| jump.landed) {
+            self.followed += step * self.follows(now);
         }
+        self.watch_jump(now, time, upwards);
         self.command = now.command;
         self.jump = self.pressed().or(self.jump);
         Verdict::GoOn

@@ -1,0 +1,230 @@
+//! One body that is played.
+
+use crate::{
+    Character, Command, Facing, FileError, PartState, TickError,
+    body::{Body, Rest},
+};
+use alloc::{sync::Arc, vec, vec::Vec};
+use creatures::{Drive, Landings, Source, limit};
+
+/// One body that is played: the state of its controller, which is a function of what it was told since it began.
+///
+/// A new one allocates; [`tick`](Self::tick) does not. Bodies that share a [`Character`] share its memory.
+#[derive(Clone, Debug)]
+pub struct Player {
+    character: Arc<Character>,
+    rest: Arc<Rest>,
+    drives: Vec<Drive>,
+    /// How high the ground is, m.
+    ground: f32,
+    /// Inputs, and what each neuron put out last.
+    nodes: Vec<f32>,
+    /// The parts as the net knows them: facing right.
+    parts: Vec<PartState>,
+    joint_angles: Vec<f32>,
+    speeds: Vec<f32>,
+    /// Since the start, s. A sum of equal steps is exact for centuries.
+    seconds: f64,
+    landings: Landings,
+    command: Command,
+    since_press: f32,
+    /// Of the last frame, s.
+    step: f32,
+}
+
+/// The longest a frame may last, s.
+const LONGEST_FRAME: f32 = 1.0;
+
+impl Player {
+    /// A body that stands in its start pose, its clocks at 0.
+    ///
+    /// # Errors
+    /// If the character is [not valid](Character::validate). One from a file is.
+    pub fn new(character: Arc<Character>) -> Result<Self, FileError> {
+        character.validate()?;
+        let rest = match character.facing {
+            Facing::Right => Rest::new(&character),
+            Facing::Left => Rest::new(&character.mirrored()),
+        };
+        let mut player = Self {
+            rest: Arc::new(rest),
+            drives: character.drives().map(|(drive, _)| drive).collect(),
+            ground: 0.0,
+            nodes: vec![0.0; character.net.nodes()],
+            parts: vec![PartState::default(); character.parts.len()],
+            joint_angles: vec![0.0; character.hinges.len()],
+            speeds: vec![0.0; character.outputs.len()],
+            seconds: 0.0,
+            landings: Landings::default(),
+            command: Command::STAND,
+            since_press: f32::INFINITY,
+            step: 0.0,
+            character,
+        };
+        player.reset();
+        Ok(player)
+    }
+
+    /// Another body that does what the same character does, at its start; cheaper than [`new`](Self::new).
+    #[must_use]
+    pub fn another(&self) -> Self {
+        let mut other = self.clone();
+        other.reset();
+        other
+    }
+
+    /// Begins anew: clocks at 0, the net without memory. Call it when the body was put back into its start pose.
+    pub fn reset(&mut self) {
+        self.nodes.fill(0.0);
+        self.speeds.fill(0.0);
+        (self.seconds, self.landings) = (0.0, Landings::default());
+        (self.command, self.since_press, self.step) = (Command::STAND, f32::INFINITY, 0.0);
+    }
+
+    /// What is played.
+    pub fn character(&self) -> &Arc<Character> {
+        &self.character
+    }
+
+    /// How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its
+    /// torso goes by it.
+    pub fn set_ground(&mut self, height: f32) {
+        self.ground = height;
+    }
+
+    /// Since the start, s.
+    pub fn seconds(&self) -> f64 {
+        self.seconds
+    }
+
+    /// The inputs of the net in the last frame.
+    pub fn inputs(&self) -> &[f32] {
+        &self.nodes[..self.character.net.inputs()]
+    }
+
+    /// What the net put out in the last frame.
+    pub fn outputs(&self) -> impl Iterator<Item = f32> + '_ {
+        self.character.net.outputs().iter().map(|&node| self.nodes[usize::from(node)])
+    }
+
+    /// The speed that the motor of each output was last asked for, rad/s: of the child against the parent, counter-clockwise.
+    pub fn speeds(&self) -> &[f32] {
+        &self.speeds
+    }
+
+    /// A frame: what the body does now, what is outside of it, and what it is told; the speeds that its motors are asked for
+    /// until the next, rad/s, in the order of [`Character::outputs`].
+    ///
+    /// - `parts`: where each part is, in the order of [`Character::parts`];
+    /// - `outside`: what the game measures, in the order of [`Character::outside`];
+    /// - `seconds`: how long this frame lasts, from 0 to 1 s.
+    ///
+    /// Allocates nothing.
+    ///
+    /// # Errors
+    /// If there are too few or too many parts or measurements, or a number is not finite. The motors are then asked for
+    /// speed 0.
+    pub fn tick(
+        &mut self,
+        parts: &[PartState],
+        outside: &[f32],
+        command: Command,
+        seconds: f32,
+    ) -> Result<&[f32], TickError> {
+        match self.control(parts, outside, command, seconds) {
+            Ok(()) => Ok(&self.speeds),
+            Err(error) => {
+                self.speeds.fill(0.0);
+                if error == TickError::NotFinite {
+                    self.nodes.fill(0.0);
+                }
+                Err(error)
+            }
+        }
+    }
+
+    /// The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the parent, for
+    /// engines whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top torque. May be
+    /// asked for at every step of the engine, several times a frame. As many as there are outputs are written.
+    pub fn torques(&self, parts: &[PartState], torques: &mut [f32]) {
+        let character = &*self.character;
+        let spin = |part: u16| parts.get(usize::from(part)).map_or(0.0, |part| part.spin);
+        for ((torque, &hinge), &speed) in torques.iter_mut().zip(&character.outputs).zip(&self.speeds) {
+            let hinge = &character.hinges[usize::from(hinge)];
+            let most = hinge.motor.map_or(0.0, |motor| motor.top_torque);
+            let lacking = speed - (spin(hinge.child) - spin(hinge.parent));
+            *torque = limit(lacking * character.world.motor_gain, -most, most);
+        }
+    }
+
+    fn control(
+        &mut self,
+        parts: &[PartState],
+        outside: &[f32],
+        command: Command,
+        seconds: f32,
+    ) -> Result<(), TickError> {
+        let character = &*self.character;
+        if parts.len() != character.parts.len() {
+            return Err(TickError::Parts { expected: character.parts.len(), found: parts.len() });
+        }
+        let expected = character.outside().count();
+        if outside.len() != expected {
+            return Err(TickError::Outside { expected, found: outside.len() });
+        }
+        if !(0.0..=LONGEST_FRAME).contains(&seconds) {
+            return Err(TickError::Seconds);
+        }
+        let is_finite = |number: &f32| number.is_finite();
+        if !parts.iter().all(PartState::is_finite) || !outside.iter().chain([&command.speed]).all(is_finite) {
+            return Err(TickError::NotFinite);
+        }
+        let left = character.facing == Facing::Left;
+        for (own, &part) in self.parts.iter_mut().zip(parts) {
+            *own = if left { part.mirrored() } else { part };
+        }
+        self.rest.joint_angles(&self.parts, &mut self.joint_angles);
+        let time = self.seconds as f32;
+        self.landings.observe(self.parts.iter().any(|part| part.touching != 0), time);
+        let pressed = command.jump != 0 && self.command.jump == 0;
+        self.since_press = if pressed { 0.0 } else { self.since_press + self.step };
+        (self.command, self.step) = (command, seconds);
+        self.sense(outside, time);
+        self.character.net.activate(&mut self.nodes);
+        let actuation = self.character.actuation;
+        for ((speed, drive), &node) in self.speeds.iter_mut().zip(&self.drives).zip(self.character.net.outputs()) {
+            let asked = drive.speed(actuation, self.nodes[usize::from(node)], || self.joint_angles[drive.hinge]);
+            if !asked.is_finite() {
+                return Err(TickError::NotFinite);
+            }
+            *speed = if left { -asked } else { asked };
+        }
+        self.seconds += f64::from(seconds);
+        Ok(())
+    }
+
+    /// Writes the inputs of the net.
+    fn sense(&mut self, outside: &[f32], time: f32) {
+        let character = &*self.character;
+        let body = Body {
+            rest: &self.rest,
+            parts: &self.parts,
+            joint_angles: &self.joint_angles,
+            rest_height: self.ground + character.world.rest_height,
+            time,
+            landings: self.landings,
+            command: self.command,
+            since_press: self.since_press,
+        };
+        let mut outside = outside.iter();
+        for (input, probe) in self.nodes.iter_mut().zip(&character.inputs) {
+            let value = match probe.source {
+                Source::Ray { .. } | Source::GapDistance { .. } | Source::GapWidth { .. } => {
+                    outside.next().copied().unwrap_or(0.0)
+                }
+                source => source.read(&body),
+            };
+            *input = probe.scale(value, character.input_range);
+        }
+    }
+}
