@@ -19,8 +19,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("ne-neat",         &["ne-core", "ne-net"]),
     ("gambol-runs",     &["ne-core", "ne-net", "ne-fixed", "ne-neat", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes"]),
     ("gambol-reports",  &["ne-core", "ne-net", "ne-neat", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs"]),
+    ("gambol-player",   &["ne-core", "ne-net", "gambol-creatures"]),
+    ("gambol-player-c", &["gambol-player"]),
+    ("gambol-exports",  &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-rapier", "gambol-runs", "gambol-player"]),
     ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
-    ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-experiments"]),
+    ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-exports", "gambol-experiments"]),
     // Nothing is built on these; what they use is for their examples and tests.
     ("gambol-examples", &[]),
     ("own-program",     &["gambol", "ne-core", "ne-fixed", "ne-net", "gambol-tasks", "gambol-creatures", "envs-core"]),

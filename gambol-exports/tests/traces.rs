@@ -61,7 +61,7 @@ fn recurrent(inputs: usize, outputs: usize) -> Network {
             known
         });
         let activation = if index < 9 { all[index] } else { Activation::Tanh };
-        GraphNeuron { activation, bias: index % 2 == 0, sources }
+        GraphNeuron { activation, bias: index.is_multiple_of(2), sources }
     };
     let neurons: Vec<_> = (0..outputs + 9).map(neuron).collect();
     let nodes = (0..outputs).map(|output| inputs + 9 + output).collect();

@@ -1,5 +1,6 @@
 //! What a body is told to do, moment by moment.
 
+use crate::trials::LESSONS;
 use ne_core::{Purpose, Seed, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -139,7 +140,7 @@ impl Commands {
 impl RandomCommands {
     /// The settings of the trial with this index.
     fn lesson(self, trial: u32) -> Self {
-        match trial % 3 {
+        match trial as usize % LESSONS {
             0 => Self { standing: 1.0, jumps: 1.0, hold: JUMPS_APART, still: self.still.min(FIRST_JUMP), ..self },
             1 => Self { jumps: 0.0, ..self },
             _ => Self { standing: 0.0, jumps: 1.0, ..self },

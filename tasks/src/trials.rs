@@ -27,6 +27,9 @@ pub enum Combine {
     Mean,
     /// The lowest: a gait is worth what it is on its worst day.
     Worst,
+    /// Half the mean, and half the mean of the [lesson](Trials::lessons) that went worst: nothing is gained by doing one thing
+    /// better and another worse. Without lessons the mean.
+    WorstLesson,
 }
 
 impl Default for Trials {
@@ -110,15 +113,21 @@ pub struct Tally {
     steps: u64,
     sum: f64,
     worst: f64,
+    /// Sum and number of the trials of each lesson.
+    lessons: [(f64, f64); LESSONS],
     objectives: Vec<f64>,
     measurements: Measurements,
 }
+
+/// The trials of a body that is told random commands are of so many kinds, by turns.
+pub(crate) const LESSONS: usize = 3;
 
 impl Tally {
     /// Of no trials yet.
     pub fn new(trials: Trials) -> Self {
         let (objectives, measurements) = (Vec::new(), Measurements::default());
-        Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, objectives, measurements }
+        let lessons = [(0.0, 0.0); LESSONS];
+        Self { trials, done: 0, steps: 0, sum: 0.0, worst: f64::INFINITY, lessons, objectives, measurements }
     }
 
     /// The number of the trial that comes next, from 0.
@@ -139,6 +148,8 @@ impl Tally {
         if !value.is_finite() {
             return Some(Evaluation::new(value).with_steps(self.steps));
         }
+        let (sum, trials) = &mut self.lessons[(self.done as usize - 1) % LESSONS];
+        (*sum, *trials) = (*sum + value, *trials + 1.0);
         self.sum += value;
         self.worst = self.worst.min(value);
         let count = f64::from(self.trials.count);
@@ -157,7 +168,11 @@ impl Tally {
             return None;
         }
         let fitness = match self.trials.combine {
-            Combine::Mean => self.sum / count,
+            Combine::WorstLesson if self.trials.lessons => {
+                let means = self.lessons.iter().filter(|lesson| lesson.1 > 0.0).map(|(sum, trials)| sum / trials);
+                0.5 * (self.sum / count + means.fold(f64::INFINITY, f64::min))
+            }
+            Combine::Mean | Combine::WorstLesson => self.sum / count,
             Combine::Worst => self.worst,
         };
         let (objectives, measurements) = (std::mem::take(&mut self.objectives), std::mem::take(&mut self.measurements));

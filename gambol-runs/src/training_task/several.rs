@@ -41,7 +41,7 @@ impl SeveralBodies {
         let count = evaluations.len() as f64;
         let fitnesses = evaluations.iter().filter_map(Evaluation::fitness).map(Fitness::get);
         let fitness = match self.combine {
-            Combine::Mean => fitnesses.sum::<f64>() / count,
+            Combine::Mean | Combine::WorstLesson => fitnesses.sum::<f64>() / count,
             Combine::Worst => fitnesses.fold(f64::INFINITY, f64::min),
         };
         let mut all = Evaluation::new(fitness).with_steps(steps);

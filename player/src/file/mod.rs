@@ -1,6 +1,6 @@
 //! The file of a character: a header, and fields one after the other, all numbers with the lowest byte first.
 //!
-//! `docs/player.md` is the specification; a test keeps the two alike.
+//! `docs/player.md` is its specification.
 
 mod codes;
 mod read;

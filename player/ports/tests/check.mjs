@@ -1,0 +1,133 @@
+// Replays a golden trace with gambol-player.js:
+//
+//     node check.mjs all-senses.player all-senses.trace.csv
+//
+// Prints the greatest difference, and fails where something is wrong.
+
+import { readFileSync } from "node:fs";
+import { Character, FileError, Player, TickError } from "../gambol-player.js";
+
+const MOST = 1e-5;
+const PART_FIELDS = ["x", "y", "cos", "sin", "vx", "vy", "spin", "touching"];
+const [, , filePath, tracePath] = process.argv;
+const bytes = new Uint8Array(readFileSync(filePath));
+const [header, ...lines] = readFileSync(tracePath, "utf8").trim().split("\n");
+const columns = header.split(",");
+
+function assert(holds, what) {
+  if (holds) return;
+  console.error(`wrong: ${what}`);
+  process.exit(1);
+}
+
+/** What a row tells a player, and what it must give: seconds, inputs, outputs, speeds. */
+function rowOf(line, character) {
+  const numbers = line.split(",").map(Number);
+  const [partCount, outsideCount] = [character.parts.length, character.outside().length];
+  const parts = character.parts.map((_, part) => {
+    return Object.fromEntries(PART_FIELDS.map((field, index) => [field, numbers[4 + 8 * part + index]]));
+  });
+  const measured = 4 + 8 * partCount;
+  const [outside, rest] = [numbers.slice(measured, measured + outsideCount), numbers.slice(measured + outsideCount)];
+  const expected = [numbers[1], ...rest];
+  return { parts, outside, command: { speed: numbers[2], jump: numbers[3] }, expected };
+}
+
+function replay(character) {
+  const player = new Player(character);
+  let greatest = { difference: 0, where: "anywhere" };
+  lines.forEach((line, step) => {
+    const { parts, outside, command, expected } = rowOf(line, character);
+    const seconds = Math.fround(player.seconds);
+    player.tick(parts, outside, command, character.world.timeStep);
+    const found = [seconds, ...player.inputs, ...player.outputs, ...player.speeds];
+    assert(found.length === expected.length, "the trace has other columns than the player has numbers");
+    found.forEach((number, index) => {
+      const difference = Math.abs(number - expected[index]) / Math.max(1, Math.abs(expected[index]));
+      assert(Number.isFinite(difference), `${number} in step ${step}`);
+      if (difference <= greatest.difference) return;
+      const column = index === 0 ? "seconds" : columns[columns.length - found.length + index];
+      greatest = { difference, where: `${column}, step ${step}` };
+    });
+  });
+  return greatest;
+}
+
+/** Asserts that bytes are refused, and why. */
+function assertRefused(damaged, why) {
+  try {
+    Character.fromBytes(damaged);
+  } catch (error) {
+    assert(error instanceof FileError && error.message.includes(why), `refused with "${error.message}", not "${why}"`);
+    return;
+  }
+  assert(false, "a damaged file is played");
+}
+
+function checkDamage() {
+  for (let place = 0; place < bytes.length; place += 1) {
+    const flipped = bytes.slice();
+    flipped[place] ^= 4;
+    assertRefused(flipped, place < 8 ? "not a character" : place < 12 ? "version" : place < 16 ? "cut or" : "digest");
+  }
+  assertRefused(bytes.subarray(0, bytes.length - 1), "the file was cut or added to");
+  assertRefused(bytes.subarray(0, 20), "not a character of Gambol");
+  const newer = bytes.slice();
+  newer[8] = 2;
+  assertRefused(newer, "version 2 of the format; this player reads version 1");
+}
+
+/** The mirror image does the same the other way. */
+function checkMirrored(character) {
+  const [right, left] = [new Player(character), new Player(character.mirrored())];
+  lines.forEach((line) => {
+    const { parts, outside, command } = rowOf(line, character);
+    const mirrored = parts.map((part) => ({ ...part, x: -part.x, sin: -part.sin, vx: -part.vx, spin: -part.spin }));
+    right.tick(parts, outside, command, 0.02);
+    left.tick(mirrored, outside, command, 0.02);
+    assert(right.speeds.every((speed, index) => speed === -left.speeds[index]), "the mirror image moves otherwise");
+    const [torques, others] = [right.torques(parts), left.torques(mirrored)];
+    assert(torques.every((torque, index) => torque === -others[index]), "the mirror image pushes otherwise");
+  });
+}
+
+/** What a game tells wrongly leaves the motors still. */
+function checkErrors(character) {
+  const player = new Player(character);
+  const { parts, outside, command } = rowOf(lines[0], character);
+  const wrong = (change) => parts.map((part, index) => (index === 1 ? { ...part, ...change } : part));
+  const cases = [
+    [parts.slice(1), outside, command, 0.02, "parts, and the character has"],
+    [parts, [...outside, 1], command, 0.02, "measurements of what is outside"],
+    [parts, outside, command, -0.1, "the time of a frame"],
+    [parts, outside, command, NaN, "the time of a frame"],
+    [wrong({ vx: NaN }), outside, command, 0.02, "not finite"],
+    [wrong({ sin: Infinity }), outside, command, 0.02, "not finite"],
+    [parts, outside, { speed: NaN, jump: 0 }, 0.02, "not finite"],
+  ];
+  const first = [...player.tick(parts, outside, command, 0.02)];
+  for (const [parts_, outside_, command_, seconds, why] of cases) {
+    assert(player.tick(parts, outside, command, 0.02).some((speed) => speed !== 0), "the motors hold still");
+    let message = "";
+    try {
+      player.tick(parts_, outside_, command_, seconds);
+    } catch (error) {
+      message = error instanceof TickError ? error.message : `${error}`;
+    }
+    assert(message.includes(why), `"${message}", not "${why}"`);
+    assert(player.speeds.every((speed) => speed === 0), "the motors do not hold still");
+    const forgets = why !== "not finite" || player.outputs.every((output) => output === 0);
+    assert(forgets, "the net does not begin anew");
+  }
+  player.reset();
+  assert(player.tick(parts, outside, command, 0.02).every((speed, index) => speed === first[index]), "no new start");
+}
+
+const character = Character.fromBytes(bytes);
+const { difference, where } = replay(character);
+console.log(`greatest difference ${difference.toExponential(2)} (${where})`);
+assert(difference <= MOST, `a difference above ${MOST}`);
+checkDamage();
+checkMirrored(character);
+checkErrors(character);
+console.log("checked");
