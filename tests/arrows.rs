@@ -21,7 +21,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("gambol-reports",  &["ne-core", "ne-net", "ne-neat", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs"]),
     ("gambol-player",   &["ne-core", "ne-net", "gambol-creatures"]),
     ("gambol-player-c", &["gambol-player"]),
-    ("gambol-exports",  &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-rapier", "gambol-runs", "gambol-player"]),
+    ("gambol-exports",  &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-rapier", "gambol-runs", "gambol-reports", "gambol-player"]),
     ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
     ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-exports", "gambol-experiments"]),
     // Nothing is built on these; what they use is for their examples and tests.

@@ -21,6 +21,47 @@ pub enum ExportError {
         /// What went wrong.
         failure: Failure,
     },
+    /// It does not repeat itself, so that there is no loop.
+    #[error(
+        "its gait has no cycle to make a loop of: its joints repeat themselves to {:.0} %, which is too little, or no stride ends \
+         as it begins", 100.0 * strength
+    )]
+    NoCycle {
+        /// How regularly its joints repeat themselves, from 0 to 1.
+        strength: f64,
+    },
+    /// What it does cannot be measured.
+    #[error(transparent)]
+    Gait(#[from] tasks::gait::GaitError),
+    /// Its creature is not valid.
+    #[error(transparent)]
+    Creature(#[from] creatures::CreatureError),
+    /// An option that is out of its range.
+    #[error("{field}: {value} is not from {least} to {most}")]
+    Setting {
+        /// Which.
+        field: &'static str,
+        /// What was asked for.
+        value: f64,
+        /// The least allowed.
+        least: f64,
+        /// The greatest allowed.
+        most: f64,
+    },
+    /// It cannot be drawn.
+    #[error(transparent)]
+    Drawing(#[from] gambol_reports::drawing::DrawingError),
+    /// The image cannot be made.
+    #[error("the image cannot be made: {0}")]
+    Image(String),
+    /// Its net is too large.
+    #[error("its net takes {weights} weights, those that are zero included, and a file holds {most}")]
+    TooLarge {
+        /// How many numbers its matrices have.
+        weights: usize,
+        /// How many are allowed.
+        most: usize,
+    },
     /// It cannot be written.
     #[error(transparent)]
     Write(#[from] std::io::Error),

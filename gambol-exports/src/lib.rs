@@ -1,22 +1,43 @@
 //! What leaves Gambol: a champion in the formats that games and other programs read.
 //!
-//! Each [`Format`] is a file; [`export`] gives its bytes, and what is not whole is not given. All of them show the champion as
-//! `gambol gait` judges it: in rapier, in the world without variation.
+//! Each [`Format`] is a file, or two that belong together; [`export`] gives their bytes, and what is not whole is not given. All of
+//! them show the champion as `gambol gait` judges it: in rapier, in the world without variation. Pictures and animations show
+//! its [`Cycle`]: the stride of the gait that meets itself best, made to meet itself exactly.
 //!
 //! | format | what it is |
 //! |---|---|
 //! | [`Player`](Format::Player) | a character for the crate `player`, a few kB: see `docs/player.md` |
 //! | [`Trace`](Format::Trace) | what was sensed and commanded at every step, which a player must give again |
 //! | [`Csv`](Format::Csv) | the trajectory: where every part is at every step |
+//! | [`Gif`](Format::Gif), [`Apng`](Format::Apng), [`Svg`](Format::Svg) | a loop, transparent or with ground |
+//! | [`Sprites`](Format::Sprites) | a sheet of frames with its atlas, root motion for each frame |
+//! | [`Gltf`](Format::Gltf) | body and gait in three dimensions, with root motion |
+//! | [`DragonBones`](Format::DragonBones) | a skeleton with its gait, in place; bounding boxes, but no images |
+//! | [`Onnx`](Format::Onnx) | the net, and as metadata what its inputs and outputs are |
 
+mod bones;
 mod character;
+mod cycle;
+mod dragonbones;
 mod error;
+mod gltf;
+mod onnx;
+mod outline;
+mod picture;
+mod pose;
+#[cfg(test)]
+mod sample;
 mod trace;
 
 pub use character::character_of;
+pub use cycle::Cycle;
 pub use error::ExportError;
+pub use picture::Picture;
+pub use pose::Pose;
 
+use creatures::Blueprint;
 use gambol_runs::{Registry, champion::Champion, judge::Judge, trajectory::Recording};
+use picture::Loop;
 use tasks::{Body, Environment};
 
 /// What a champion can be exported to.
@@ -28,11 +49,56 @@ pub enum Format {
     Trace,
     /// A trajectory.
     Csv,
+    /// A loop as a GIF image.
+    Gif,
+    /// A loop as an animated PNG image.
+    Apng,
+    /// A loop as an animated SVG image.
+    Svg,
+    /// A loop as a sheet of frames, with its atlas.
+    Sprites,
+    /// Body and gait as glTF.
+    Gltf,
+    /// Body and gait as a skeleton for DragonBones.
+    DragonBones,
+    /// The net as an ONNX model.
+    Onnx,
+}
+
+/// How a champion is exported.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Options {
+    /// What the files are called, without their endings; a file that names another needs it.
+    pub name: String,
+    /// How many steps are shown, for traces and trajectories; by default as many as are judged.
+    pub steps: Option<u32>,
+    /// How pictures are drawn.
+    pub picture: Picture,
+}
+
+/// A file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Exported {
+    /// How its name ends.
+    pub ending: &'static str,
+    /// What is in it.
+    pub bytes: Vec<u8>,
 }
 
 impl Format {
     /// All formats.
-    pub const ALL: [Self; 3] = [Self::Player, Self::Trace, Self::Csv];
+    pub const ALL: [Self; 10] = [
+        Self::Player,
+        Self::Trace,
+        Self::Csv,
+        Self::Gif,
+        Self::Apng,
+        Self::Svg,
+        Self::Sprites,
+        Self::Gltf,
+        Self::DragonBones,
+        Self::Onnx,
+    ];
 
     /// The name a command line has for it.
     pub fn name(self) -> &'static str {
@@ -40,34 +106,71 @@ impl Format {
             Self::Player => "player",
             Self::Trace => "trace",
             Self::Csv => "csv",
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+            Self::Svg => "svg",
+            Self::Sprites => "sprites",
+            Self::Gltf => "gltf",
+            Self::DragonBones => "dragonbones",
+            Self::Onnx => "onnx",
         }
     }
 
-    /// How the name of such a file ends.
-    pub fn ending(self) -> &'static str {
+    /// How the names of its files end; the first is the file that is asked for.
+    pub fn endings(self) -> &'static [&'static str] {
         match self {
-            Self::Player => "player",
-            Self::Trace => "trace.csv",
-            Self::Csv => "csv",
+            Self::Player => &["player"],
+            Self::Trace => &["trace.csv"],
+            Self::Csv => &["csv"],
+            Self::Gif => &["gif"],
+            Self::Apng => &["png"],
+            Self::Svg => &["svg"],
+            Self::Sprites => &["json", "png"],
+            Self::Gltf => &["gltf"],
+            Self::DragonBones => &["ske.json"],
+            Self::Onnx => &["onnx"],
         }
     }
 }
 
-/// A champion in another format. `steps`: how long it is played, for formats that show it; by default as long as it is judged.
+/// A champion in another format: files in the order of its [endings](Format::endings).
 ///
 /// # Errors
-/// If the champion's episode cannot be built, or the format cannot hold it: the error names the field.
+/// If the champion's episode cannot be built, its gait has no cycle though the format wants one, an option is out of range, or
+/// the format cannot hold it: the error names the field.
 pub fn export(
     champion: &Champion,
     registry: &Registry,
     format: Format,
-    steps: Option<u32>,
-) -> Result<Vec<u8>, ExportError> {
-    match format {
-        Format::Player => Ok(character_of(champion, registry)?.to_bytes()?),
-        Format::Trace => trace::of(champion, registry, steps),
-        Format::Csv => trajectory(champion, registry, steps),
-    }
+    options: &Options,
+) -> Result<Vec<Exported>, ExportError> {
+    let files = match format {
+        Format::Player => vec![character_of(champion, registry)?.to_bytes()?],
+        Format::Trace => vec![trace::of(champion, registry, options.steps)?],
+        Format::Csv => vec![trajectory(champion, registry, options.steps)?],
+        Format::Gif => vec![picture::gif(&drawn(champion, registry, &options.picture)?)?],
+        Format::Apng => vec![picture::apng(&drawn(champion, registry, &options.picture)?)?],
+        Format::Svg => {
+            vec![picture::svg(
+                &drawn(champion, registry, &options.picture)?,
+                &Blueprint::new(champion.creature.clone())?,
+            )]
+        }
+        Format::Sprites => {
+            let (name, image) = ([&*champion.creature.name, &*champion.movement.name], format!("{}.png", options.name));
+            let (sheet, atlas) = picture::sprites(&drawn(champion, registry, &options.picture)?, name, &image)?;
+            vec![atlas, sheet]
+        }
+        Format::Gltf => vec![gltf::of(champion, registry)?],
+        Format::DragonBones => vec![dragonbones::of(champion, registry)?],
+        Format::Onnx => vec![onnx::of(champion, registry)?],
+    };
+    Ok(format.endings().iter().zip(files).map(|(ending, bytes)| Exported { ending, bytes }).collect())
+}
+
+fn drawn(champion: &Champion, registry: &Registry, picture: &Picture) -> Result<Loop, ExportError> {
+    let cycle = Cycle::of_champion(champion, registry)?;
+    Loop::new(&Blueprint::new(champion.creature.clone())?, cycle, picture)
 }
 
 fn trajectory(champion: &Champion, registry: &Registry, steps: Option<u32>) -> Result<Vec<u8>, ExportError> {

@@ -6,7 +6,7 @@
 //! | [`sheet`] | a gait as one image: a contact sheet with charts |
 //! | [`film`] | gaits side by side as one animated image |
 //! | [`dot`] | a champion's net as a drawing |
-//! | [`drawing`] | why a picture cannot be drawn |
+//! | [`drawing`] | a creature painted in any pose; why a picture cannot be drawn |
 //! | [`page`] | what all pages have in common |
 
 pub mod dot;

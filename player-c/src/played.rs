@@ -102,7 +102,8 @@ pub unsafe extern "C" fn gambol_player_tick(
 }
 
 /// The torque of each motor, N·m, counter-clockwise on the child and as much the other way on the parent, for engines whose hinges
-/// have no motors. May be asked for at every step of the engine, several times a frame.
+/// have no motors. May be asked for at every step of the engine, several times a frame: a light part shakes where steps are long, as
+/// `motor_gain` × step ÷ inertia grows beyond 2. Motors of the engine do better.
 ///
 /// # Safety
 /// As [`gambol_player_tick`].

@@ -1,6 +1,6 @@
 //! What a file holds: everything of a champion that a game needs.
 
-use crate::{FileError, Net, PartState};
+use crate::{Net, PartState};
 use alloc::{string::String, vec::Vec};
 use core::f32::consts::PI;
 
@@ -152,23 +152,6 @@ pub enum Outside {
 }
 
 impl Character {
-    /// Reads a character's file.
-    ///
-    /// # Errors
-    /// If the bytes are not one: cut, changed, of another version, or with a number that is out of range. Whatever they are,
-    /// nothing panics, and no more memory is taken than a small multiple of their length.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, FileError> {
-        crate::file::read(bytes)
-    }
-
-    /// Writes the file; [`from_bytes`](Self::from_bytes) gives the same character back.
-    ///
-    /// # Errors
-    /// If it is [not valid](Self::validate), or is the mirror image of a file's.
-    pub fn to_bytes(&self) -> Result<Vec<u8>, FileError> {
-        crate::file::write(self)
-    }
-
     /// The parts as they start: at rest.
     pub fn start_pose(&self) -> impl Iterator<Item = PartState> + '_ {
         self.parts.iter().map(|part| PartState::at(part.x, part.y, part.angle))
@@ -220,14 +203,6 @@ impl Character {
             hinges: self.hinges.iter().map(hinge).collect(),
             ..self.clone()
         }
-    }
-
-    /// Checks every number.
-    ///
-    /// # Errors
-    /// Names the first field that is out of range, and what is allowed.
-    pub fn validate(&self) -> Result<(), FileError> {
-        crate::file::validate(self)
     }
 }
 

@@ -2,6 +2,9 @@
 
 use core::fmt;
 
+/// The version of the file's format that this crate writes and reads.
+pub const VERSION: u32 = 1;
+
 /// Why bytes are not a character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -43,7 +46,7 @@ impl fmt::Display for FileError {
         match *self {
             Self::NotACharacter => f.write_str("not a character of Gambol: write one with `gambol export --to player`"),
             Self::Version { found } => {
-                write!(f, "version {found} of the format; this player reads version {}", crate::VERSION)
+                write!(f, "version {found} of the format; this player reads version {}", VERSION)
             }
             Self::Length { expected, found } => {
                 write!(f, "{found} bytes after the header, which says {expected}: the file was cut or added to")

@@ -56,10 +56,10 @@ mod state;
 pub use champion::{ChampionError, CharacterParts};
 pub use character::{Character, Facing, Hinge, Medium, Motor, Outside, Part, World};
 pub use creatures::{Actuation, Probe, Shape, Source};
-pub use error::{FileError, TickError};
+pub use error::{FileError, TickError, VERSION};
 #[doc(hidden)]
 pub use example::example;
-pub use file::{MAGIC, VERSION};
+pub use file::MAGIC;
 pub use ne_net::Activation;
 pub use net::{Net, Neuron};
 pub use player::Player;

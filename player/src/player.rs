@@ -145,7 +145,8 @@ impl Player {
 
     /// The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the parent, for
     /// engines whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top torque. May be
-    /// asked for at every step of the engine, several times a frame. As many as there are outputs are written.
+    /// asked for at every step of the engine, several times a frame: a light part shakes where steps are long, as `motor_gain` × step
+    /// ÷ inertia grows beyond 2. Motors of the engine do better. As many as there are outputs are written.
     pub fn torques(&self, parts: &[PartState], torques: &mut [f32]) {
         let character = &*self.character;
         let spin = |part: u16| parts.get(usize::from(part)).map_or(0.0, |part| part.spin);

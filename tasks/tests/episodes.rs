@@ -99,6 +99,27 @@ fn trials_are_different_and_become_their_mean_or_their_worst() {
 }
 
 #[test]
+fn the_lesson_that_went_worst_counts_for_half() {
+    let evaluate = |combine, lessons| {
+        let trials = Trials { count: 7, combine, lessons };
+        fitness(
+            &episode(PointMass::varied(1.0, 1e6), StartPlace::default(), 3, trials).evaluate(&mut Constant(0.0), SEED),
+        )
+    };
+    let start = |trial| {
+        let mut one = PointMass::varied(1.0, 1e6);
+        one.reset(SEED.trial(trial)).expect("it always starts");
+        f64::from(one.snapshot().torso().x)
+    };
+    let mean = |trials: &[u32]| trials.iter().map(|&trial| start(trial)).sum::<f64>() / trials.len() as f64;
+    let worst = [mean(&[0, 3, 6]), mean(&[1, 4]), mean(&[2, 5])].into_iter().fold(f64::INFINITY, f64::min);
+    let all = mean(&[0, 1, 2, 3, 4, 5, 6]);
+    assert!((evaluate(Combine::WorstLesson, true) - 0.5 * (worst + all)).abs() < 1e-12);
+    assert_eq!(evaluate(Combine::WorstLesson, false), evaluate(Combine::Mean, false));
+    assert!(worst < all);
+}
+
+#[test]
 fn fewer_trials_are_the_first_ones() {
     let evaluate = |count, fewer: u32| {
         let trials = Trials { count, combine: Combine::Worst, lessons: false };

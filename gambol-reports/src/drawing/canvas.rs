@@ -1,4 +1,4 @@
-//! An opaque image to draw on.
+//! An image to draw on.
 
 use super::{DrawingError, palette};
 use tiny_skia::{
@@ -28,7 +28,7 @@ pub(crate) const CURVE: Ink = [0x2f, 0x6f, 0x9e];
 /// The time of the frames, in charts.
 pub(crate) const BAND: Ink = [0xff, 0xe6, 0xcf];
 
-/// An image without transparency.
+/// An image; opaque, but where it was begun without anything.
 pub(crate) struct Canvas {
     pixmap: Pixmap,
 }
@@ -40,6 +40,18 @@ impl Canvas {
         let mut pixmap = Pixmap::new(width, height).ok_or_else(too_large)?;
         pixmap.fill(colour(background));
         Ok(Self { pixmap })
+    }
+
+    /// An image with nothing on it.
+    pub(crate) fn transparent(width: u32, height: u32) -> Result<Self, DrawingError> {
+        let too_large = || DrawingError::Image(format!("{width} × {height} pixels"));
+        Ok(Self { pixmap: Pixmap::new(width, height).ok_or_else(too_large)? })
+    }
+
+    /// Red, green, blue and opacity of each pixel, row by row.
+    pub(crate) fn into_rgba(self) -> Vec<u8> {
+        let pixels = self.pixmap.pixels().iter().map(|pixel| pixel.demultiply());
+        pixels.flat_map(|pixel| [pixel.red(), pixel.green(), pixel.blue(), pixel.alpha()]).collect()
     }
 
     pub(crate) fn width(&self) -> f32 {

@@ -21,7 +21,8 @@ const JUMP_CLOCK: f32 = 0.6;
 
 /// First it learns to move as fast as it is told and to stand, by a clock that swings with the speed; and then to jump, by a
 /// clock that a press starts. What learns both at once learns one: what can jump stays where it is, and what runs does
-/// not dare to jump.
+/// not dare to jump. And what learns to jump may forget to run, as long as the one is worth more than the other: so the
+/// lesson that goes worst counts for half.
 pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let unknown = MovementDefaults::unknown(body);
     let mut wanted = vec![with(TermSpec::new("no-exploits", 0.0), "ends", true)];
@@ -53,7 +54,7 @@ fn follow() -> StageSettings {
 fn jump() -> StageSettings {
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
-        "trials": { "count": 12, "lessons": true }
+        "trials": { "count": 12, "lessons": true, "combine": "worst-lesson" }
     });
     StageSettings { add_sensors: vec![Sensor::JumpClock { period: JUMP_CLOCK }], ..stage("jump", changes) }
 }

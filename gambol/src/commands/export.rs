@@ -2,7 +2,7 @@ use super::{Outcome, check_output, gait::champion_file, replay::steps_of};
 use crate::{
     Registry,
     champion::Champion,
-    export::{self, Format},
+    export::{self, Format, Options, Picture},
 };
 use clap::{Args, ValueEnum, builder::PossibleValue};
 use ne_core::archive;
@@ -14,6 +14,10 @@ Examples:
   gambol export runs/tetrapod-2-playing --to player            the character, for a game: see docs/player.md
   gambol export runs/tetrapod-2-playing --to trace --seconds 5 what a player must do with it, to test one with
   gambol export champion.json --to csv --out gait.csv
+  gambol export runs/biped-1-running --to gif --size 400 --ground
+  gambol export runs/biped-1-running --to sprites --rate 12
+
+A loop is the stride of the gait that meets itself best, made to meet itself exactly; a gait without rhythm has none.
 
 What the champion does is what `gambol gait` judges: in rapier, in the world without variation.")]
 pub(crate) struct Export {
@@ -25,9 +29,18 @@ pub(crate) struct Export {
     /// The file to write [default: CREATURE-MOVEMENT with the ending of the format, in the current folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// How long it is played, for formats that show it [default: as long as its movement is judged]
+    /// How long it is played, for traces and trajectories [default: as long as its movement is judged]
     #[arg(long)]
     seconds: Option<f64>,
+    /// The longer side of a frame, for pictures
+    #[arg(long, value_name = "PIXELS", default_value_t = Picture::default().size)]
+    size: u32,
+    /// Frames a second, for pictures
+    #[arg(long, value_name = "NUMBER", default_value_t = Picture::default().rate)]
+    rate: f64,
+    /// Draw sky and ground behind the creature, for pictures [default: it is transparent]
+    #[arg(long)]
+    ground: bool,
     /// Overwrite the file if it exists
     #[arg(long)]
     force: bool,
@@ -56,6 +69,17 @@ impl ValueEnum for Named {
             Format::Player => "a character for a game: body, senses, net and motors in a few kB",
             Format::Trace => "what is sensed and commanded at every step, as CSV, to test a player with",
             Format::Csv => "where every part is at every step",
+            Format::Gif => "a loop, as an image that every program plays",
+            Format::Apng => "a loop, as an animated PNG image: half-transparent edges, all colours",
+            Format::Svg => "a loop, as a drawing that plays by itself",
+            Format::Sprites => "a loop, as a sheet of frames (PNG) with its atlas (JSON) and root motion",
+            Format::Gltf => {
+                "body and gait as glTF 2.0, with root motion, for engines and modellers in three dimensions"
+            }
+            Format::DragonBones => {
+                "body and gait as a skeleton for DragonBones 5.5: bones and bounding boxes, no images"
+            }
+            Format::Onnx => "the net as an ONNX model, with what its inputs and outputs are as metadata",
         };
         Some(PossibleValue::new(self.0.name()).help(help))
     }
@@ -66,18 +90,37 @@ impl Export {
         let file = champion_file(&self.champion)?;
         let Named(format) = self.to;
         let champion = Champion::read(&file)?;
-        let name = || format!("{}-{}.{}", champion.creature.name, champion.movement.name, format.ending()).into();
-        let out = self.out.clone().unwrap_or_else(name);
-        if out.canonicalize().is_ok_and(|out| file.canonicalize().is_ok_and(|file| file == out)) {
-            return Err(format!("{} is what is to be exported", file.display()).into());
+        let places = self.places(format, format!("{}-{}", champion.creature.name, champion.movement.name))?;
+        for place in &places {
+            if place.canonicalize().is_ok_and(|out| file.canonicalize().is_ok_and(|file| file == out)) {
+                return Err(format!("{} is what is to be exported", file.display()).into());
+            }
+            check_output(place, self.force)?;
         }
-        check_output(&out, self.force)?;
         let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
-        let bytes = export::export(&champion, registry, format, steps)
+        let picture = Picture { size: self.size, rate: self.rate, ground: self.ground };
+        let stem = places[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let options = Options { name: stem, steps, picture };
+        let exported = export::export(&champion, registry, format, &options)
             .map_err(|error| format!("{}: {error}", file.display()))?;
-        let shown = out.display();
-        archive::write_whole(&out, &bytes).map_err(|error| format!("cannot write {shown}: {error}"))?;
-        say!("{}  {shown}, {} bytes", format.name(), bytes.len())?;
+        // The file that names the others comes last: what it names is there.
+        for (place, exported) in places.iter().zip(&exported).rev() {
+            let shown = place.display();
+            archive::write_whole(place, &exported.bytes).map_err(|error| format!("cannot write {shown}: {error}"))?;
+            say!("{}  {shown}, {} bytes", format.name(), exported.bytes.len())?;
+        }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// Where the files go: the first as asked for, the others beside it.
+    fn places(&self, format: Format, name: String) -> Result<Vec<PathBuf>, String> {
+        let endings = format.endings();
+        let first = self.out.clone().unwrap_or_else(|| format!("{name}.{}", endings[0]).into());
+        let others: Vec<PathBuf> = endings[1..].iter().map(|ending| first.with_extension(ending)).collect();
+        if others.contains(&first) {
+            let ending = endings[0];
+            return Err(format!("--out {}: must not end like the file beside it; .{ending} is usual", first.display()));
+        }
+        Ok(std::iter::once(first).chain(others).collect())
     }
 }

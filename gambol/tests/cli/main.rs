@@ -13,6 +13,7 @@ mod coaching;
 mod comparing;
 mod damage;
 mod engines;
+mod exporting;
 mod film;
 mod folder;
 mod forgetting;

@@ -17,10 +17,6 @@ pub struct CmaEsSettings {
     /// The least the greatest deviation of a weight may become, from 1e-9 to `step_size`; default 1e-5. The search does
     /// not get finer than that; with restarts it then begins anew.
     pub least_deviation: f64,
-    /// When the search goes on in another stage, on another task or with a net that has grown: how far at least the weight that
-    /// varies most deviates, as a share of `step_size`, from 0 to 1; default 0.3. New weights deviate by all of `step_size`.
-    /// With little what was learned stays as it is, and what is new is learned around it.
-    pub carried_deviation: f64,
     /// Which covariance matrices are adapted; default separable.
     pub covariance: CovarianceModel,
     /// When a search that has ended begins anew; default never.
@@ -41,7 +37,6 @@ impl Default for CmaEsSettings {
             population: None,
             step_size: 0.5,
             least_deviation: 1e-5,
-            carried_deviation: 0.3,
             covariance: CovarianceModel::default(),
             restart: Restart::default(),
             starts: 1,
@@ -86,7 +81,6 @@ impl CmaEsSettings {
         }
         SettingError::check_range("step_size", self.step_size, 1e-6, 1000.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-9, self.step_size)?;
-        SettingError::check_range("carried_deviation", self.carried_deviation, 0.0, 1.0)?;
         SettingError::check_range("starts", self.starts as f64, 1.0, 1000.0)?;
         SettingError::check_range("start_generations", self.start_generations as f64, 1.0, 1e6)?;
         self.initial_mean.validate().map_err(|error| error.within("initial_mean"))

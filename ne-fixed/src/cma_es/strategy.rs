@@ -142,8 +142,7 @@ impl CmaEs {
         let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
         let distribution = self.distribution.map(|mut distribution| {
-            let deviation = next.settings.carried_deviation * first;
-            distribution.limit_deviation(deviation, if deviation < 0.06 { deviation.max(1e-6) } else { f64::INFINITY });
+            distribution.limit_deviation(REVIVED * first, f64::INFINITY);
             distribution.remapped(growth, model, first)
         });
         let mut restarts = next.restarts.clone();

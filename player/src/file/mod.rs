@@ -7,18 +7,41 @@ mod read;
 mod validate;
 mod write;
 
-pub(crate) use read::read;
-pub(crate) use validate::validate;
-pub(crate) use write::write;
+use crate::{Character, FileError};
+use alloc::vec::Vec;
 
 /// What a file begins with.
 pub const MAGIC: [u8; 8] = *b"GAMBOLPL";
 
-/// The version of the format that this crate writes and reads.
-pub const VERSION: u32 = 1;
-
 /// Magic, version, length and digest of what follows.
 const HEADER: usize = 24;
+
+impl Character {
+    /// Reads a character's file.
+    ///
+    /// # Errors
+    /// If the bytes are not one: cut, changed, of another version, or with a number that is out of range. Whatever they are,
+    /// nothing panics, and no more memory is taken than a small multiple of their length.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, FileError> {
+        read::read(bytes)
+    }
+
+    /// Writes the file; [`from_bytes`](Self::from_bytes) gives the same character back.
+    ///
+    /// # Errors
+    /// If it is [not valid](Self::validate), or is the mirror image of a file's.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, FileError> {
+        write::write(self)
+    }
+
+    /// Checks every number.
+    ///
+    /// # Errors
+    /// Names the first field that is out of range, and what is allowed.
+    pub fn validate(&self) -> Result<(), FileError> {
+        validate::validate(self)
+    }
+}
 
 /// FNV-1a, 64 bits (RFC 9923): finds accidents, not attacks.
 fn digest(bytes: &[u8]) -> u64 {

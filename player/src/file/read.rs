@@ -1,10 +1,10 @@
-use super::{HEADER, MAGIC, VERSION, codes, digest};
-use crate::{Character, Facing, FileError, Hinge, Medium, Motor, Net, Neuron, Part, World};
+use super::{HEADER, MAGIC, codes, digest};
+use crate::{Character, Facing, FileError, Hinge, Medium, Motor, Net, Neuron, Part, VERSION, World};
 use alloc::{string::String, vec::Vec};
 use creatures::{Actuation, Probe, Shape};
 
 /// Reads a character's file.
-pub(crate) fn read(bytes: &[u8]) -> Result<Character, FileError> {
+pub(super) fn read(bytes: &[u8]) -> Result<Character, FileError> {
     let (header, content) = bytes.split_at_checked(HEADER).ok_or(FileError::NotACharacter)?;
     let mut file = Reader { rest: header, field: "header" };
     if file.array::<8>()? != MAGIC {

@@ -5,7 +5,7 @@ use creatures::{Actuation, Probe, Shape, Source};
 type Checked = Result<(), FileError>;
 
 /// Checks every number of a character.
-pub(crate) fn validate(character: &Character) -> Checked {
+pub(super) fn validate(character: &Character) -> Checked {
     text("name", 0, &character.name)?;
     text("movement", 0, &character.movement)?;
     world(character)?;

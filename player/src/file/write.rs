@@ -1,10 +1,10 @@
-use super::{HEADER, MAGIC, VERSION, codes, digest};
-use crate::{Character, Facing, FileError, Hinge, Medium, Neuron, Part};
+use super::{HEADER, MAGIC, codes, digest};
+use crate::{Character, Facing, FileError, Hinge, Medium, Neuron, Part, VERSION};
 use alloc::vec::Vec;
 use creatures::{Actuation, Probe, Shape};
 
 /// Writes a character's file.
-pub(crate) fn write(character: &Character) -> Result<Vec<u8>, FileError> {
+pub(super) fn write(character: &Character) -> Result<Vec<u8>, FileError> {
     character.validate()?;
     if character.facing == Facing::Left {
         return Err(FileError::Field { field: "facing", index: 0, allowed: "right, as it was trained" });

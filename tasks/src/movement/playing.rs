@@ -11,7 +11,7 @@ use serde::Deserialize;
 /// that at 0.1 body lengths a second plus a tenth of the commanded speed. The speed is that of the torso, forwards, smoothed over
 /// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about.
 ///
-/// For 1.5 s after a press the moments do not count, and the jump does, once they are over: all of it if the body leaves the
+/// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.35 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
 /// so that a search is drawn towards a push-off before anything leaves the ground. Of legs that leave the ground one after the other less counts: nothing where they do so
@@ -45,13 +45,14 @@ pub struct Playing {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PlayingSettings {
-    /// What a jump is worth, s; from 0 to 100, default 3.
+    /// What a jump is worth, s; from 0 to 100, default 1.5: as much as the time that does not count, so that with jumps and without
+    /// the best that can be done is worth about as much.
     pub jump: f64,
 }
 
 impl Default for PlayingSettings {
     fn default() -> Self {
-        Self { jump: 3.0 }
+        Self { jump: JUMP_SECONDS }
     }
 }
 
@@ -319,8 +320,9 @@ mod tests {
     fn a_jump_counts_if_it_answers_a_press() {
         let [whole, half, late, none] =
             [jumps(1.3, 1.9, 0.5), jumps(1.3, 1.9, 0.17), jumps(1.8, 2.4, 0.5), jumps(9.0, 9.1, 0.0)];
-        assert!((2.9..3.1).contains(&whole), "{whole}");
-        assert!((1.0..2.0).contains(&half), "{half}");
+        // 1.5 s for the jump, and 0.6 s from the landing on.
+        assert!((2.0..2.2).contains(&whole), "{whole}");
+        assert!((1.1..1.6).contains(&half), "{half}");
         assert!(late < 0.5 * whole, "{late}");
         assert!(none.abs() < 0.1, "{none}");
     }
@@ -334,7 +336,7 @@ mod tests {
                 (0.0, height, Command { speed: 0.0, jump: time < 0.2, since_press: time })
             })
         };
-        assert!(value(0.5) > value(0.0) + 2.9, "{} {}", value(0.5), value(0.0));
+        assert!(value(0.5) > value(0.0) + 1.4 + 0.6, "{} {}", value(0.5), value(0.0));
     }
 
     #[test]

@@ -1,0 +1,83 @@
+//! A champion's net as an ONNX model, for every program that computes nets.
+//!
+//! What a program has to know besides, to sense and to move a body as the net expects it, are metadata.
+
+mod graph;
+mod net;
+mod protobuf;
+
+use crate::ExportError;
+use creatures::{Actuation, Channel, Probe};
+use envs_rapier::RapierEnvironment;
+use gambol_runs::{Registry, champion::Champion, judge::Judge};
+use ne_net::Network;
+use protobuf::Message;
+use serde_json::{Value, json};
+
+/// The versions of the file's format and of the operations; programs from 2022 on know both.
+const FORMAT: u64 = 8;
+const OPERATIONS: u64 = 17;
+
+const DESCRIPTION: &str = "\
+The net of a creature. Call it every time_step seconds. An input is (value - middle) * factor, and no further from 0 than \
+input_range; the metadata `inputs` lists what each value is. An output from -1 to 1 asks for a value of its range, which the \
+metadata `outputs` list: the speed of a motor, or the angle of a joint, towards which the motor turns with the speed gain * \
+(angle asked for - angle). Angles of joints are against those of the start pose.";
+
+pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, ExportError> {
+    let judge = Judge::new(champion.episode_parts(), registry)?;
+    let world = judge.environment();
+    let metadata = [
+        ("creature", champion.creature.name.clone()),
+        ("movement", champion.movement.name.clone()),
+        ("time_step", world.settings().time_step.to_string()),
+        ("input_range", world.senses().input_range().to_string()),
+        ("inputs", inputs(world).to_string()),
+        ("outputs", outputs(world).to_string()),
+    ];
+    let actuation = match world.motors().actuation() {
+        Actuation::Speed => vec![("actuation", "speed".into())],
+        Actuation::Angle { gain } => vec![("actuation", "angle".into()), ("gain", gain.to_string())],
+    };
+    model(&champion.network, &[metadata.as_slice(), &actuation].concat())
+}
+
+/// A model of a net.
+fn model(network: &Network, metadata: &[(&str, String)]) -> Result<Vec<u8>, ExportError> {
+    let graph = net::graph(&network.view(), network.weights())?;
+    let operations = Message::default().text(1, "").number(2, OPERATIONS);
+    let model = Message::default()
+        .number(1, FORMAT)
+        .text(2, "Gambol")
+        .text(3, env!("CARGO_PKG_VERSION"))
+        .text(6, DESCRIPTION)
+        .message(7, graph.into_message())
+        .message(8, operations);
+    let entry = |(key, value): &(&str, String)| Message::default().text(1, key).text(2, value);
+    Ok(metadata.iter().map(entry).fold(model, |model, entry| model.message(14, entry)).into_bytes())
+}
+
+/// What each input is, and how it is scaled.
+fn inputs(world: &RapierEnvironment) -> Value {
+    let senses = world.senses();
+    let input = |(channel, probe): (&Channel, &Probe)| {
+        let mut input = described(channel);
+        input["middle"] = short(probe.middle);
+        input["factor"] = short(probe.factor);
+        input
+    };
+    senses.channels().iter().zip(senses.probes()).map(input).collect()
+}
+
+fn outputs(world: &RapierEnvironment) -> Value {
+    world.motors().channels().iter().map(described).collect()
+}
+
+fn described(channel: &Channel) -> Value {
+    json!({ "name": channel.name, "unit": channel.unit, "range": channel.range.map(short) })
+}
+
+/// No more digits than give the number back.
+fn short(number: f32) -> Value {
+    number.to_string().parse::<f64>().map_or(Value::Null, Value::from)
+}
