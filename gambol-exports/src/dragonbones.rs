@@ -1,9 +1,9 @@
 //! A body with its gait as a skeleton for DragonBones 5.5, which many two-dimensional engines play.
 //!
-//! A bone for each part, at the hinge that the part hangs on; a slot for each, in the order in which parts are drawn, with the
-//! part's shape as a bounding box: it has a colour, but no image, so that a player shows nothing where it does not draw
-//! bounding boxes. The animation `loop` stays in place: DragonBones has no root motion. The armature's `userData` says, as
-//! its only number, how far a loop would have gone, px.
+//! A bone for each part, at the hinge that the part hangs on; a slot for each, in the order in which parts are drawn,
+//! with the part's shape as a bounding box: it has a colour, but no image, so that a player shows nothing where it does
+//! not draw bounding boxes. The animation `loop` stays in place: DragonBones has no root motion. The armature's
+//! `userData` says, as its only number, how far a loop would have gone, px.
 
 #[cfg(test)]
 mod tests;
@@ -29,6 +29,7 @@ pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, Ex
 fn skeleton(blueprint: &Blueprint, cycle: &Cycle) -> Value {
     let order = blueprint.creature().drawing_order();
     let name = |part: usize| &blueprint.parts()[part].name;
+    let bone = |(part, body): (usize, &BodyPart)| bone(blueprint, part, body);
     let slot = |&part: &usize| json!({ "name": name(part), "parent": name(part) });
     let shown = |&part: &usize| json!({ "name": name(part), "display": [display(blueprint, part)] });
     let [left, bottom, right, top] = blueprint.bounding_box().map(f64::from);
@@ -40,7 +41,7 @@ fn skeleton(blueprint: &Blueprint, cycle: &Cycle) -> Value {
         "aabb": {
             "x": pixels(box_left), "y": pixels(-top), "width": pixels(right - left), "height": pixels(top - bottom),
         },
-        "bone": blueprint.parts().iter().enumerate().map(|(part, body)| bone(blueprint, part, body)).collect::<Vec<_>>(),
+        "bone": blueprint.parts().iter().enumerate().map(bone).collect::<Vec<_>>(),
         "slot": order.iter().map(slot).collect::<Vec<_>>(),
         "skin": [{ "name": "", "slot": order.iter().map(shown).collect::<Vec<_>>() }],
         "animation": [animation(blueprint, cycle)],

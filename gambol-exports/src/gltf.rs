@@ -1,7 +1,8 @@
 //! A body with its gait as glTF 2.0, for engines and modellers that know three dimensions.
 //!
-//! Forward is x, up is y, and the layers of a drawing lie a little apart along z: the body is seen from where z is large. A node
-//! for each part, at the hinge that the part hangs on, so that it turns there. The animation `loop` travels.
+//! Forward is x, up is y, and the layers of a drawing lie a little apart along z: the body is seen from where z is
+//! large. A node for each part, at the hinge that the part hangs on, so that it turns there. The animation `loop`
+//! travels.
 
 mod buffer;
 mod mesh;
@@ -18,7 +19,8 @@ use gambol_runs::{Registry, champion::Champion};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// What is painted later is so much closer, as a share of the body's length: enough for graphics cards, and hardly deep.
+/// What is painted later is so much closer, as a share of the body's length: enough for graphics cards, and hardly
+/// deep.
 const LAYER: f32 = 2e-4;
 
 pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, ExportError> {

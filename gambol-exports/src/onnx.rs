@@ -19,10 +19,10 @@ const FORMAT: u64 = 8;
 const OPERATIONS: u64 = 17;
 
 const DESCRIPTION: &str = "\
-The net of a creature. Call it every time_step seconds. An input is (value - middle) * factor, and no further from 0 than \
-input_range; the metadata `inputs` lists what each value is. An output from -1 to 1 asks for a value of its range, which the \
-metadata `outputs` list: the speed of a motor, or the angle of a joint, towards which the motor turns with the speed gain * \
-(angle asked for - angle). Angles of joints are against those of the start pose.";
+The net of a creature. Call it every time_step seconds. An input is (value - middle) * factor, and no further from 0 \
+than input_range; the metadata `inputs` lists what each value is. An output from -1 to 1 asks for a value of its range, \
+which the metadata `outputs` list: the speed of a motor, or the angle of a joint, towards which the motor turns with the \
+speed gain * (angle asked for - angle). Angles of joints are against those of the start pose.";
 
 pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, ExportError> {
     let judge = Judge::new(champion.episode_parts(), registry)?;

@@ -17,16 +17,18 @@ fn shapes() -> creatures::Creature {
     let text = r##"{
         "format": "gambol creature", "version": 1, "name": "shapes",
         "parts": [
-            {"name": "hub", "tag": "torso", "shape": {"circle": {"radius": 0.3}}, "density": 100, "position": [0.5, 1.2],
-             "angle": 20, "look": {"colour": "#336699", "opacity": 0.5}},
+            {"name": "hub", "tag": "torso", "shape": {"circle": {"radius": 0.3}}, "density": 100,
+             "position": [0.5, 1.2], "angle": 20, "look": {"colour": "#336699", "opacity": 0.5}},
             {"name": "arm", "tag": "leg", "shape": {"capsule": {"length": 0.5, "radius": 0.1}}, "density": 100,
              "position": [0.9, 1], "angle": 130},
             {"name": "hand", "tag": "leg", "shape": {"box": {"width": 0.3, "height": 0.1}}, "density": 100,
              "position": [1.2, 0.7], "angle": -10, "look": {"layer": -1, "corner_radius": 0.03}}
         ],
         "joints": [
-            {"parent": "hub", "child": "arm", "anchor": [0.7, 1.15], "limits": [-90, 90], "motor": {"top_speed": 5, "top_torque": 50}},
-            {"parent": "arm", "child": "hand", "anchor": [1.1, 0.8], "limits": [-150, 170], "motor": {"top_speed": 5, "top_torque": 50}}
+            {"parent": "hub", "child": "arm", "anchor": [0.7, 1.15], "limits": [-90, 90],
+             "motor": {"top_speed": 5, "top_torque": 50}},
+            {"parent": "arm", "child": "hand", "anchor": [1.1, 0.8], "limits": [-150, 170],
+             "motor": {"top_speed": 5, "top_torque": 50}}
         ]
     }"##;
     creatures::Creature::from_json(text).expect("a creature")

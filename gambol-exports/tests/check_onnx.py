@@ -1,7 +1,8 @@
 """Computes an ONNX model over a golden trace, and compares: check_onnx.py MODEL TRACE [TOLERANCE]
 
-MODEL is what `gambol export --to onnx` writes, TRACE what `--to trace` writes for the same champion. Needs the packages onnx,
-onnxruntime and numpy. Prints the greatest difference of all outputs, and fails if it is greater than the tolerance, 1e-4.
+MODEL is what `gambol export --to onnx` writes, TRACE what `--to trace` writes for the same champion. Needs the packages
+onnx, onnxruntime and numpy. Prints the greatest difference of all outputs, and fails if it is greater than the
+tolerance, 1e-4.
 Both compute with 32 bits, but sum in another order: with great weights both are some 1e-5 away from what is exact.
 """
 

@@ -1,6 +1,5 @@
 //! What a body is told to do, moment by moment.
 
-use crate::trials::LESSONS;
 use ne_core::{Purpose, Seed, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
@@ -20,6 +19,9 @@ const JUMPS_APART: [f32; 2] = [1.0, 2.0];
 const FIRST_JUMP: f32 = 0.5;
 /// The most changes of a given schedule.
 const MOST_CHANGES: usize = 10_000;
+
+/// Trials that are lessons are of so many kinds, by turns.
+pub(crate) const LESSONS: usize = 3;
 
 /// What a body is told to do at a moment.
 #[derive(Clone, Copy, Debug, PartialEq)]

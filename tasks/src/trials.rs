@@ -1,4 +1,4 @@
-use crate::Movement;
+use crate::{Movement, commands::LESSONS};
 use ne_core::{Evaluation, Failure, Measurements, SettingError};
 use serde::{Deserialize, Serialize};
 
@@ -118,9 +118,6 @@ pub struct Tally {
     objectives: Vec<f64>,
     measurements: Measurements,
 }
-
-/// The trials of a body that is told random commands are of so many kinds, by turns.
-pub(crate) const LESSONS: usize = 3;
 
 impl Tally {
     /// Of no trials yet.

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 /// Where a bone is: x and y, px, down, and how it is turned, clockwise, degrees.
 type Place = [f64; 3];
 
-/// The bones in the world at a frame, as the format's description says: what a frame says is added to the rest. Without a frame
-/// at rest.
+/// The bones in the world at a frame, as the format's description says: what a frame says is added to the rest. Without
+/// a frame at rest.
 fn bones(armature: &Value, frame: Option<u64>) -> BTreeMap<String, Place> {
     let mut world = BTreeMap::new();
     let animation = &armature["animation"][0];

@@ -49,7 +49,8 @@ fn filled(points: Vec<[f32; 2]>, colour: &Colour) -> Paint {
     Paint { colour: rgb(colour), triangles: triangulated(&points), points }
 }
 
-/// Cuts ears off a polygon, until nothing is left. Where it crosses itself there may be no ear: then any corner is cut off.
+/// Cuts ears off a polygon, until nothing is left. Where it crosses itself there may be no ear: then any corner is cut
+/// off.
 fn triangulated(points: &[[f32; 2]]) -> Vec<[usize; 3]> {
     let mut rest: Vec<usize> = (0..points.len()).collect();
     let corner = |[a, b, c]: [usize; 3]| cross(points[a], points[b], points[c]);

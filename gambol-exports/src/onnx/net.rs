@@ -5,7 +5,8 @@ use crate::ExportError;
 use ne_net::{Activation, NetView, NeuronView};
 use std::{collections::BTreeSet, ops::Range};
 
-/// The most numbers of all weights together, with the zeros of those that are not there: a file holds no more than 2 GB.
+/// The most numbers of all weights together, with the zeros of those that are not there: a file holds no more than 2
+/// GB.
 const LARGEST: usize = 1 << 28;
 
 /// Nodes that are computed together.

@@ -1,5 +1,5 @@
-//! The encoding of ONNX files. A net needs next to nothing of protobuf: a crate for it, and one with all messages of ONNX
-//! generated, would be far more than these lines.
+//! The encoding of ONNX files. A net needs next to nothing of protobuf: a crate for it, and one with all messages of
+//! ONNX generated, would be far more than these lines.
 
 /// A message: its fields, each with its number.
 #[derive(Default)]
