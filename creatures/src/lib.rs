@@ -100,6 +100,7 @@ mod shape;
 #[cfg(feature = "files")]
 mod shipped;
 mod source;
+pub mod symmetry;
 #[cfg(feature = "files")]
 mod terrain;
 

@@ -159,7 +159,8 @@ impl Senses {
             Sensor::JumpClock { period } => {
                 let period = *period;
                 self.push(format!("sine of {period} s jump clock"), "", [-1.0, 1.0], Source::JumpSine { period });
-                self.push(format!("swell of {period} s jump clock"), "", [0.0, 1.0], Source::JumpSwell { period });
+                // From 0 to 1; the range has 0 in its middle, so that a net hears nothing until the button is pressed.
+                self.push(format!("swell of {period} s jump clock"), "", [-1.0, 1.0], Source::JumpSwell { period });
             }
             // Added by `add_custom`.
             Sensor::Custom(_) => {}

@@ -61,6 +61,8 @@ mod dense;
 mod error;
 #[cfg(feature = "nets")]
 mod graph;
+#[cfg(feature = "nets")]
+mod held;
 mod mathematics;
 #[cfg(feature = "nets")]
 mod network;

@@ -41,6 +41,13 @@ pub enum SharedWeight {
     Sine(Turn),
     /// The same, the one of the cosine.
     Cosine(Turn),
+    /// A constant, and the sum of genes, each times a factor.
+    Affine {
+        /// The constant.
+        constant: f32,
+        /// The genes and their factors.
+        terms: Vec<(usize, f32)>,
+    },
 }
 
 /// Two genes that weigh a clock's sine and cosine, and by how much the clock is put forward.
@@ -78,14 +85,51 @@ impl SharedWeight {
             Self::Sum(terms) => sum(terms, genes),
             Self::Sine(turn) => turn.weights(genes)[0],
             Self::Cosine(turn) => turn.weights(genes)[1],
+            Self::Affine { constant, terms } => constant + sum(terms, genes),
         };
         // Genes are finite; what is computed from huge ones must be too.
         if weight.is_nan() { 0.0 } else { weight.clamp(f32::MIN, f32::MAX) }
     }
 
+    /// A weight that no gene changes.
+    pub fn fixed(weight: f32) -> Self {
+        Self::Affine { constant: weight, terms: Vec::new() }
+    }
+
+    /// The same with some genes held; `place`: where each gene is among those that are not. `None` for a clock of which one gene is
+    /// held and the other is not.
+    pub(crate) fn held(&self, genes: &[f32], place: &[Option<usize>]) -> Option<Self> {
+        if self.genes().all(|(gene, _)| place[gene].is_none()) {
+            return Some(Self::fixed(self.weight(genes)));
+        }
+        // What the held genes add, and the others.
+        let split = |terms: &[(usize, f32)]| {
+            let (held, free): (Vec<_>, Vec<_>) = terms.iter().copied().partition(|&(gene, _)| place[gene].is_none());
+            let free = free.into_iter().filter_map(|(gene, factor)| Some((place[gene]?, factor))).collect::<Vec<_>>();
+            (sum(&held, genes), free)
+        };
+        let turned = |turn: &Turn| {
+            let [sine, cosine] = turn.genes.map(|gene| place[gene]);
+            let (held, phase_genes) = split(&turn.phase_genes);
+            Some(Turn { genes: [sine?, cosine?], phase: turn.phase + held, phase_genes, factor: turn.factor })
+        };
+        Some(match self {
+            Self::Sum(terms) => match split(terms) {
+                (_, free) if free.len() == terms.len() => Self::Sum(free),
+                (constant, terms) => Self::Affine { constant, terms },
+            },
+            Self::Affine { constant, terms } => {
+                let (held, terms) = split(terms);
+                Self::Affine { constant: constant + held, terms }
+            }
+            Self::Sine(turn) => Self::Sine(turned(turn)?),
+            Self::Cosine(turn) => Self::Cosine(turned(turn)?),
+        })
+    }
+
     fn genes(&self) -> impl Iterator<Item = (usize, f32)> + '_ {
         let (terms, turn) = match self {
-            Self::Sum(terms) => (terms.as_slice(), None),
+            Self::Sum(terms) | Self::Affine { terms, .. } => (terms.as_slice(), None),
             Self::Sine(turn) | Self::Cosine(turn) => (turn.phase_genes.as_slice(), Some(turn)),
         };
         terms.iter().copied().chain(turn.into_iter().flat_map(|turn| turn.genes.map(|gene| (gene, turn.factor))))
@@ -139,6 +183,11 @@ impl SharedShape {
                 && !turn.phase.is_finite()
             {
                 return Err(SettingError::new(format!("weights[{index}].phase"), turn.phase, "finite"));
+            }
+            if let SharedWeight::Affine { constant, .. } = tie
+                && !constant.is_finite()
+            {
+                return Err(SettingError::new(format!("weights[{index}].constant"), constant, "finite"));
             }
         }
         Ok(())

@@ -160,9 +160,13 @@ impl Character {
     /// What the game has to measure every frame, in the order in which [`Player::tick`](crate::Player::tick) takes it; nothing
     /// for most characters.
     pub fn outside(&self) -> impl Iterator<Item = Outside> + '_ {
-        self.inputs.iter().filter_map(|probe| match probe.source {
+        self.outside_facing(self.facing)
+    }
+
+    pub(crate) fn outside_facing(&self, facing: Facing) -> impl Iterator<Item = Outside> + '_ {
+        self.inputs.iter().filter_map(move |probe| match probe.source {
             Source::Ray { angle, length } => {
-                let angle = if self.facing == Facing::Left { PI - angle } else { angle };
+                let angle = if facing == Facing::Left { PI - angle } else { angle };
                 Some(Outside::Ray { angle, length })
             }
             Source::GapDistance { length } => Some(Outside::GapDistance { length }),

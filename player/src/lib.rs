@@ -47,6 +47,7 @@ mod champion;
 mod character;
 mod error;
 mod example;
+mod facing;
 mod file;
 mod net;
 mod player;
@@ -55,7 +56,7 @@ mod state;
 #[cfg(feature = "champion")]
 pub use champion::{ChampionError, CharacterParts};
 pub use character::{Character, Facing, Hinge, Medium, Motor, Outside, Part, World};
-pub use creatures::{Actuation, Probe, Shape, Source};
+pub use creatures::{Actuation, Probe, Shape, Source, symmetry::Asymmetry};
 pub use error::{FileError, TickError, VERSION};
 #[doc(hidden)]
 pub use example::example;

@@ -1,11 +1,12 @@
 //! One body that is played.
 
 use crate::{
-    Character, Command, Facing, FileError, PartState, TickError,
+    Character, Command, Facing, FileError, Outside, PartState, TickError,
     body::{Body, Rest},
+    facing::View,
 };
 use alloc::{sync::Arc, vec, vec::Vec};
-use creatures::{Drive, Landings, Source, limit};
+use creatures::{Drive, Landings, Source, limit, symmetry::Asymmetry};
 
 /// One body that is played: the state of its controller, which is a function of what it was told since it began.
 ///
@@ -15,6 +16,7 @@ pub struct Player {
     character: Arc<Character>,
     rest: Arc<Rest>,
     drives: Vec<Drive>,
+    view: View,
     /// How high the ground is, m.
     ground: f32,
     /// Inputs, and what each neuron put out last.
@@ -49,6 +51,7 @@ impl Player {
         let mut player = Self {
             rest: Arc::new(rest),
             drives: character.drives().map(|(drive, _)| drive).collect(),
+            view: View::new(character.facing),
             ground: 0.0,
             nodes: vec![0.0; character.net.nodes()],
             parts: vec![PartState::default(); character.parts.len()],
@@ -73,8 +76,9 @@ impl Player {
         other
     }
 
-    /// Begins anew: clocks at 0, the net without memory. Call it when the body was put back into its start pose.
+    /// Begins anew: clocks at 0, the net without memory, facing as it was built. Call it when the body was put back into its start pose.
     pub fn reset(&mut self) {
+        self.view = View::new(self.character.facing);
         self.nodes.fill(0.0);
         self.speeds.fill(0.0);
         (self.seconds, self.landings) = (0.0, Landings::default());
@@ -90,6 +94,29 @@ impl Player {
     /// torso goes by it.
     pub fn set_ground(&mut self, height: f32) {
         self.ground = height;
+    }
+
+    /// Turns round, from the next frame on: a body that looks [the same from both sides](Character::symmetry) runs the other way
+    /// with the same net, and what it is told is meant the way it faces. A body that stands turns best; one that runs is told
+    /// to stand first. Allocates when it turns away from how it was built.
+    ///
+    /// # Errors
+    /// If the body does not look the same from both sides; it goes on as it was.
+    pub fn face(&mut self, facing: Facing) -> Result<(), Asymmetry> {
+        if facing != self.view.facing() {
+            self.view = View::turned(&self.character, facing)?;
+        }
+        Ok(())
+    }
+
+    /// Which way it faces.
+    pub fn facing(&self) -> Facing {
+        self.view.facing()
+    }
+
+    /// What the game has to measure every frame, as [`Character::outside`], the way it faces now.
+    pub fn outside(&self) -> impl Iterator<Item = Outside> + '_ {
+        self.character.outside_facing(self.facing())
     }
 
     /// Since the start, s.
@@ -180,10 +207,7 @@ impl Player {
         if !parts.iter().all(PartState::is_finite) || !outside.iter().chain([&command.speed]).all(is_finite) {
             return Err(TickError::NotFinite);
         }
-        let left = character.facing == Facing::Left;
-        for (own, &part) in self.parts.iter_mut().zip(parts) {
-            *own = if left { part.mirrored() } else { part };
-        }
+        self.view.see(parts, &mut self.parts);
         self.rest.joint_angles(&self.parts, &mut self.joint_angles);
         let time = self.seconds as f32;
         self.landings.observe(self.parts.iter().any(|part| part.touching != 0), time);
@@ -193,12 +217,13 @@ impl Player {
         self.sense(outside, time);
         self.character.net.activate(&mut self.nodes);
         let actuation = self.character.actuation;
-        for ((speed, drive), &node) in self.speeds.iter_mut().zip(&self.drives).zip(self.character.net.outputs()) {
+        for (output, (drive, &node)) in self.drives.iter().zip(self.character.net.outputs()).enumerate() {
             let asked = drive.speed(actuation, self.nodes[usize::from(node)], || self.joint_angles[drive.hinge]);
             if !asked.is_finite() {
                 return Err(TickError::NotFinite);
             }
-            *speed = if left { -asked } else { asked };
+            let (place, speed) = self.view.drive(output, asked);
+            self.speeds[place] = speed;
         }
         self.seconds += f64::from(seconds);
         Ok(())

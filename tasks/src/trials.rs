@@ -11,9 +11,8 @@ pub struct Trials {
     pub count: u32,
     /// How the values of the trials become one fitness; default mean.
     pub combine: Combine,
-    /// Whether the trials of a body that is told [random commands](crate::RandomCommands) are lessons: of every three the first
-    /// has nothing but jumps out of standing, the second no jumps, and the third a jump in every hold, none of them standing.
-    /// Default `false`.
+    /// Whether the trials of a body that is told [random commands](crate::RandomCommands) are lessons: of every two the first
+    /// has nothing but jumps out of standing, and the second a jump in every hold. Default `false`.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub lessons: bool,
 }

@@ -47,6 +47,9 @@ pub enum Transferred {
     Population,
     /// The champion's weights, from which the new search begins; the net keeps its shape, and limbs their common genes.
     Champion,
+    /// The champion's net, whose weights are held as they are: what the search is for are the weights of inputs, outputs and
+    /// neurons that are new.
+    Held,
     /// The champion's net: its topology is kept, every weight of it is free, and the search begins at the champion's.
     Topology,
     /// Nothing.
@@ -58,6 +61,7 @@ impl fmt::Display for Transferred {
         f.write_str(match self {
             Self::Population => "population",
             Self::Champion => "champion",
+            Self::Held => "held",
             Self::Topology => "topology",
             Self::Nothing => "nothing",
         })
@@ -72,6 +76,7 @@ impl fmt::Display for Origin {
             Transferred::Nothing => return write!(f, "begins anew after {source}: nothing is kept"),
             Transferred::Population => write!(f, "goes on with the population of {source} (generation {generation})")?,
             Transferred::Champion => write!(f, "goes on from the champion of {source} (generation {generation})")?,
+            Transferred::Held => write!(f, "holds the net of the champion of {source} (generation {generation})")?,
             Transferred::Topology => {
                 write!(f, "goes on with the net of the champion of {source} (generation {generation})")?;
             }

@@ -1,7 +1,7 @@
 //! Doing as it is told.
 
 use super::{BodyFacts, MovementDefaults, terms, with};
-use crate::config::StageSettings;
+use crate::config::{StageSettings, Transferred};
 use creatures::Sensor;
 use ne_core::promotion::PromotionRule;
 use serde_json::{Map, Value, json};
@@ -18,6 +18,9 @@ const MOST_STEPS: u64 = 200_000_000;
 /// The turn of the jump clock, s: within half a second of the press a body has to crouch and to push off. With 1 s one search in
 /// four finds a jump in 12 million steps, with 0.5 or 0.65 s all do (tetrapod-2, four seeds each).
 const JUMP_CLOCK: f32 = 0.6;
+
+/// How long the jump has the body, s: until it has landed.
+const JUMP_TURN: f32 = 1.2;
 
 /// First it learns to move as fast as it is told and to stand, by a clock that swings with the speed; and then to jump, by a
 /// clock that a press starts. What learns both at once learns one: what can jump stays where it is, and what runs does
@@ -54,9 +57,11 @@ fn follow() -> StageSettings {
 fn jump() -> StageSettings {
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
-        "trials": { "count": 12, "lessons": true, "combine": "worst-lesson" }
+        "movement": { "settings": { "jump": 4.0 } },
+        "trials": { "count": 8, "lessons": true }
     });
-    StageSettings { add_sensors: vec![Sensor::JumpClock { period: JUMP_CLOCK }], ..stage("jump", changes) }
+    let add_sensors = [JUMP_CLOCK, JUMP_TURN].map(|period| Sensor::JumpClock { period }).into();
+    StageSettings { add_sensors, transfer: Some(Transferred::Held), ..stage("jump", changes) }
 }
 
 fn stage(name: &str, changes: Value) -> StageSettings {

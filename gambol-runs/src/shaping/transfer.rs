@@ -112,7 +112,7 @@ impl PreparedTransfer {
             config.topology.clone_from(&from.topology);
         }
         let net = match transferred {
-            Transferred::Champion => Some(source.champion(false)?),
+            Transferred::Champion | Transferred::Held => Some(source.champion(false)?),
             Transferred::Topology => Some(source.champion(true)?),
             Transferred::Population | Transferred::Nothing => None,
         };
@@ -130,7 +130,7 @@ impl PreparedTransfer {
             let allow_loss = how.allow_loss || to.topology.is_none();
             config.topology = Some(frozen.remapped(bare.inputs(), bare.outputs(), allow_loss));
         }
-        let setup = Setup::new(&config, registry)?;
+        let mut setup = Setup::new(&config, registry)?;
         let [inputs, outputs] = [0, 1].map(|which| match &source.kind {
             Kind::Run { setup: old, .. } => TopologyMap::by_name(&old.searched[which], &setup.searched[which]),
             Kind::Champion(_) => TopologyMap::by_name(&names_of(&before[which]), &setup.searched[which]),
@@ -142,6 +142,13 @@ impl PreparedTransfer {
         };
         let weights = net.as_ref().map_or_else(Vec::new, |net| genes.transfer(&net.weights, 0.0));
         let finds_topology = entry.finds_topology();
+        if transferred == Transferred::Held {
+            check_new(&genes)?;
+            let [inputs, outputs] = [setup.inputs(), setup.outputs()].map(channel_names);
+            let net = setup.topology.held(&weights, |gene| genes.origins()[gene].is_none())?;
+            config.topology = Some(FrozenTopology { inputs, outputs, net });
+            setup = Setup::new(&config, registry)?;
+        }
         let mut departure =
             Self { config, setup, finds_topology, source, transferred, genes, inputs, outputs, weights };
         let origin = departure.origin(net.as_ref())?;
@@ -169,6 +176,7 @@ impl PreparedTransfer {
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
             (Transferred::Nothing, _) => strategies.build(settings, topology),
+            (Transferred::Held, _) => strategies.build(settings, topology),
             _ => strategies.begin_at(settings, topology, &self.weights),
         };
         Ok(begun.map_err(SetupError::from)?)
@@ -260,6 +268,9 @@ pub(super) fn check_planned(
             return Err(TransferError::Lost { what, allow: ALLOW_LOSS });
         }
     }
+    if transferred == Transferred::Held {
+        check_new(&genes)?;
+    }
     if transferred != Transferred::Population {
         return Ok(());
     }
@@ -269,6 +280,18 @@ pub(super) fn check_planned(
     let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;
     search.transfer(from_settings, &transfer)?;
     Ok(())
+}
+
+/// Checks that something is left to be searched for where all that was learned is held.
+fn check_new(genes: &TopologyMap) -> Result<(), TransferError> {
+    match genes.gained() {
+        0 => Err(TransferError::Impossible(
+            "the champion is held, and the new net has no weights but those of the champion: add a sensor, or transfer the \
+             champion"
+                .into(),
+        )),
+        _ => Ok(()),
+    }
 }
 
 fn channel_names(channels: &[Channel]) -> Vec<String> {
@@ -305,15 +328,15 @@ fn check_possible(
             from.name(),
             to.name()
         ),
-        (Transferred::Champion | Transferred::Topology, _) if to.finds_topology() => format!(
+        (Transferred::Champion | Transferred::Held | Transferred::Topology, _) if to.finds_topology() => format!(
             "{0} goes on from a population of its own, and from no single net: choose another strategy, or go on from a \
              run with {0}",
             to.name()
         ),
-        (Transferred::Champion, None) => format!(
+        (Transferred::Champion | Transferred::Held, None) => format!(
             "{source} holds a net, and not the genes it was made from: transfer its topology, or name the folder of its run"
         ),
-        (Transferred::Champion, Some(from)) if from.finds_topology() => {
+        (Transferred::Champion | Transferred::Held, Some(from)) if from.finds_topology() => {
             format!("a net that {} has found is transferred with its topology", from.name())
         }
         _ => return Ok(()),

@@ -7,8 +7,10 @@
 //! along the body a limb hangs shifts its thresholds.
 
 mod copies;
+mod gates;
 
 pub(crate) use copies::{LimbCopies, copies};
+use gates::{Gates, SILENCE};
 
 use crate::config::{ControllerSettings, LimbPhases};
 use creatures::{Blueprint, Motors, Senses, Source};
@@ -71,6 +73,23 @@ enum Sight {
     Feet(f32),
 }
 
+/// Hidden neurons of a limb that have the body together.
+#[derive(Clone, Copy, Debug)]
+struct Module {
+    /// What they are called in the names of genes.
+    name: &'static str,
+    /// The gate that is open while it is not their turn.
+    silenced_by: Option<usize>,
+    /// Whether they hear jump clocks.
+    jumps: bool,
+}
+
+impl Module {
+    fn neuron(&self, index: usize) -> String {
+        format!("{} {index}", self.name)
+    }
+}
+
 /// The genes of the copies of one net, handed out in order.
 #[derive(Default)]
 struct Genes {
@@ -123,75 +142,119 @@ pub(crate) fn topology(
     let mut output_of = vec![0; motors.len()];
     let inputs = senses.len();
     let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
+    let gates = Gates::add(senses, controller, &mut neurons, &mut weights);
+    // Which hidden neurons there are, what silences them, and whether they hear jump clocks.
+    let modules = match gates {
+        None => vec![Module { name: "hidden", silenced_by: None, jumps: false }],
+        Some(Gates { jumping, striding }) => vec![
+            Module { name: "hidden", silenced_by: Some(jumping), jumps: false },
+            Module { name: "jump hidden", silenced_by: Some(striding), jumps: true },
+        ],
+    };
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
         let (joints, kind_name) = (copies[0].1.hinges.len(), copies[0].1.kind_name());
-        let sights: Vec<Sights> = copies.iter().map(|(_, limb)| sees(limb, senses, together)).collect();
+        let sights: Vec<Sights> =
+            copies.iter().map(|(_, limb)| sees(limb, senses, together, gates.is_some())).collect();
         // A copy may lack a sense that another has, but slots are the same in all of them.
         let longest = sights.iter().max_by_key(|sights| sights.slots.len());
         let slots = longest.map_or(&[][..], |sights| &sights.slots);
         let jumps = longest.map_or(&[][..], |sights| &sights.jumps);
-        let jumps: Vec<&String> = jumps.iter().map(|&input| &senses.channels()[input].name).collect();
-        let own = ["threshold", "place"].into_iter().chain(slots.iter().map(String::as_str));
-        let neuron = |target: &str| {
-            let own = own.clone().map(|source| format!("{kind_name}, {target}: {source}"));
-            own.collect::<Vec<_>>()
+        let jumps = jumps.iter().map(|&input| &senses.channels()[input].name);
+        let jumps: Vec<String> = jumps.flat_map(|name| [name.clone(), by_place(name)]).collect();
+        let neuron = |target: &str, more: &[String]| {
+            let own = ["threshold", "place"].into_iter().chain(slots.iter().chain(more).map(String::as_str));
+            own.map(|source| format!("{kind_name}, {target}: {source}")).collect::<Vec<_>>()
         };
         let hears = |joint: usize| {
             let target = format!("joint {joint}");
             if hidden == 0 {
-                return neuron(&target);
+                return neuron(&target, &[]);
             }
-            let heard = (0..hidden).map(|index| format!("hidden {index}"));
-            let jumps = jumps.iter().flat_map(|name| [name.to_string(), by_place(name)]);
-            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard).chain(jumps);
+            let heard = modules.iter().flat_map(|module| (0..hidden).map(|index| module.neuron(index)));
+            let of_jump = gates.iter().flat_map(|_| ["jump threshold", "jump place"].map(str::to_owned));
+            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard).chain(of_jump);
+            let sources = sources.chain(jumps.clone());
             sources.map(|source| format!("{kind_name}, {target}: {source}")).collect()
         };
-        let hidden_genes: Vec<usize> =
-            (0..hidden).map(|index| genes.group(neuron(&format!("hidden {index}")))).collect();
+        let mut hidden_genes: Vec<(usize, Module)> = Vec::new();
+        for &module in &modules {
+            let more = if module.jumps { &jumps[..] } else { &[] };
+            hidden_genes.extend((0..hidden).map(|index| (genes.group(neuron(&module.neuron(index), more)), module)));
+        }
         let output_genes: Vec<usize> = (0..joints).map(|joint| genes.group(hears(joint))).collect();
-        for ((limb_index, limb), Sights { seen: sights, jumps, .. }) in copies.iter().zip(&sights) {
-            let first_hidden_node = inputs + neurons.len();
-            let turn = |gene: usize| Turn {
+        for ((limb_index, limb), Sights { seen, jumps, .. }) in copies.iter().zip(&sights) {
+            let turn = |gene: usize, factor| Turn {
                 genes: [gene, gene + 1],
-                factor: 1.0,
+                factor,
                 phase: limb.phase,
                 phase_genes: vec![(wave, PI * limb.place), (offsets + limb_index, 1.0)],
             };
-            let mut neuron = |first: usize, hidden_sources: usize, activation, sign: f32| {
-                let sights: &[(usize, Sight, usize)] = if hidden_sources > 0 { &[] } else { sights };
-                let mut sources: Vec<usize> = sights.iter().map(|&(input, _, _)| input).collect();
-                weights.push(SharedWeight::Sum(vec![(first, sign), (first + 1, sign * limb.place)]));
-                for &(_, sight, slot) in sights {
+            // The sources of a neuron whose genes begin at `first`, with their weights.
+            let threshold =
+                |first: usize, sign: f32| SharedWeight::Sum(vec![(first, sign), (first + 1, sign * limb.place)]);
+            let sees = |first: usize, sign: f32| {
+                let source = move |&(input, sight, slot): &(usize, Sight, usize)| {
                     let gene = first + 2 + slot;
-                    let turn_of = |gene| Turn { factor: sign, ..turn(gene) };
-                    weights.push(match sight {
-                        Sight::ClockSine => SharedWeight::Sine(turn_of(gene)),
-                        Sight::ClockCosine => SharedWeight::Cosine(turn_of(gene - 1)),
+                    let weight = match sight {
+                        Sight::ClockSine => SharedWeight::Sine(turn(gene, sign)),
+                        Sight::ClockCosine => SharedWeight::Cosine(turn(gene - 1, sign)),
                         Sight::Joint => SharedWeight::Sum(vec![(gene, sign * limb.sign)]),
                         Sight::Whole | Sight::Foot => SharedWeight::Sum(vec![(gene, sign)]),
                         Sight::Tilt => SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
                         Sight::Feet(share) => SharedWeight::Sum(vec![(gene, sign * share)]),
-                    });
-                }
-                for index in 0..hidden_sources {
-                    sources.push(first_hidden_node + index);
-                    weights.push(SharedWeight::Sum(vec![(first + 2 + index, sign)]));
-                }
-                let jumps = if hidden_sources > 0 { &jumps[..] } else { &[] };
-                for (index, &input) in jumps.iter().enumerate() {
-                    let gene = first + 2 + hidden_sources + 2 * index;
-                    sources.push(input);
-                    weights.push(SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]));
-                }
+                    };
+                    (input, weight)
+                };
+                seen.iter().map(source).collect::<Vec<_>>()
+            };
+            let hears_jumps = |first: usize, sign: f32| {
+                (first..).step_by(2).zip(jumps).map(move |(gene, &input)| {
+                    (input, SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]))
+                })
+            };
+            let mut add = |activation, threshold: SharedWeight, sources: Vec<(usize, SharedWeight)>| {
+                let (sources, weighed): (Vec<usize>, Vec<SharedWeight>) = sources.into_iter().unzip();
+                weights.push(threshold);
+                weights.extend(weighed);
                 neurons.push(GraphNeuron { activation, bias: true, sources });
                 inputs + neurons.len() - 1
             };
-            for &first in &hidden_genes {
-                neuron(first, 0, controller.hidden_activation, 1.0);
+            let mut hidden_nodes = Vec::with_capacity(hidden_genes.len());
+            for &(first, module) in &hidden_genes {
+                let mut sources = sees(first, 1.0);
+                if module.jumps {
+                    sources.extend(hears_jumps(first + 2 + slots.len(), 1.0));
+                }
+                sources.extend(module.silenced_by.map(|gate| (gate, SharedWeight::fixed(SILENCE))));
+                hidden_nodes.push(add(controller.hidden_activation, threshold(first, 1.0), sources));
             }
             for (joint, &first) in output_genes.iter().enumerate() {
-                let node = neuron(first, hidden, controller.output_activation, limb.sign);
+                let sign = limb.sign;
+                let mut sources: Vec<(usize, SharedWeight)> = match hidden {
+                    0 => sees(first, sign),
+                    _ => {
+                        let heard = (first + 2..).zip(&hidden_nodes);
+                        heard.map(|(gene, &node)| (node, SharedWeight::Sum(vec![(gene, sign)]))).collect()
+                    }
+                };
+                // A neuron that is silenced puts out 1; it is to count as 0. And the jump has thresholds of its own.
+                let own = first + 2 + hidden_nodes.len();
+                for (number, module) in modules.iter().enumerate() {
+                    let Some(gate) = module.silenced_by else { continue };
+                    let silenced = first + 2 + number * hidden;
+                    let mut terms: Vec<(usize, f32)> =
+                        (silenced..silenced + hidden).map(|gene| (gene, -sign)).collect();
+                    if !module.jumps {
+                        let by_place = sign * limb.place;
+                        terms.extend([(first, -sign), (first + 1, -by_place), (own, sign), (own + 1, by_place)]);
+                    }
+                    sources.push((gate, SharedWeight::Sum(terms)));
+                }
+                if hidden > 0 {
+                    sources.extend(hears_jumps(if gates.is_some() { own + 2 } else { own }, sign));
+                }
+                let node = add(controller.output_activation, threshold(first, sign), sources);
                 if let Some(output) = motors.drives().iter().position(|drive| drive.hinge == limb.hinges[joint]) {
                     output_of[output] = node;
                 }
@@ -231,7 +294,7 @@ impl Sights {
 const FEET_FELT_ALONE: usize = 4;
 
 /// What a limb sees of what is sensed; `together`: how many feet there are, if all legs act together.
-fn sees(limb: &Limb, senses: &Senses, together: Option<usize>) -> Sights {
+fn sees(limb: &Limb, senses: &Senses, together: Option<usize>, gated: bool) -> Sights {
     let mut sights = Sights::default();
     let (mut angles, mut speeds, mut feet, mut slips) = (None, None, None, None);
     for (input, (probe, channel)) in senses.probes().iter().zip(senses.channels()).enumerate() {
@@ -271,7 +334,10 @@ fn sees(limb: &Limb, senses: &Senses, together: Option<usize>) -> Sights {
             }
             Source::JumpSine { .. } | Source::JumpSwell { .. } => {
                 sights.jumps.push(input);
-                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)])))
+                match gated {
+                    true => None,
+                    false => Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)]))),
+                }
             }
             _ => Some((Sight::Whole, sights.add([channel.name.clone()]))),
         };

@@ -256,7 +256,7 @@ impl Train {
     /// What was asked to be transferred.
     fn transferred(&self) -> Result<Option<Transferred>, String> {
         let Some(name) = &self.transfer else { return Ok(None) };
-        let all = [Transferred::Population, Transferred::Champion, Transferred::Topology];
+        let all = [Transferred::Population, Transferred::Champion, Transferred::Held, Transferred::Topology];
         let names = all.map(|transferred| transferred.to_string());
         let found = all.into_iter().find(|transferred| transferred.to_string() == *name);
         found

@@ -12,10 +12,10 @@ use serde::Deserialize;
 /// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about.
 ///
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
-/// ground within 0.5 s and its centre of mass rises by 0.35 start heights above its start (0.3 body lengths if it has no legs),
+/// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
 /// so that a search is drawn towards a push-off before anything leaves the ground. Of legs that leave the ground one after the other less counts: nothing where they do so
-/// 0.4 s apart; and of a jump in which anything but a foot touches the ground 0.4.
+/// 0.25 s apart; and of a jump in which anything but a foot touches the ground 0.4.
 #[derive(Clone, Debug)]
 pub struct Playing {
     jump_worth: f64,
@@ -78,7 +78,7 @@ const JUMP_SECONDS: f64 = 1.5;
 /// By when the body has to leave the ground, s.
 const ANSWER: f64 = 0.5;
 /// The rise of a whole jump, in start heights; of a body without legs in body lengths.
-const ENOUGH: f64 = 0.35;
+const ENOUGH: f64 = 0.42;
 const ENOUGH_LEGLESS: f64 = 0.3;
 /// m.
 const LEAST_RISE: f64 = 0.06;
@@ -87,9 +87,9 @@ const PROMISED: f64 = 0.4;
 /// What counts of a jump in which a part that is no foot touches the ground.
 const BRUSHED: f64 = 0.4;
 /// Legs that push off within this of each other push off together, s...
-const TOGETHER: f64 = 0.12;
+const TOGETHER: f64 = 0.1;
 /// ...and so far apart they do not jump.
-const APART: f64 = 0.4;
+const APART: f64 = 0.25;
 /// At this speed of its fastest part, in body lengths a second, a standing body is half as still as can be.
 const RESTLESS: f64 = 0.3;
 

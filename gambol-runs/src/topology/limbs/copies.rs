@@ -38,7 +38,7 @@ pub(crate) fn copies(
     let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
     let places = places(&limbs);
     let sensed: Vec<Vec<(String, CopySense)>> =
-        limbs.iter().map(|limb| senses_of(limb, &sees(limb, senses, together), places)).collect();
+        limbs.iter().map(|limb| senses_of(limb, &sees(limb, senses, together, false), places)).collect();
     let mut inputs: Vec<String> = Vec::new();
     for (name, _) in sensed.iter().flatten() {
         if !inputs.contains(name) {

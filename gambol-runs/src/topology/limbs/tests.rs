@@ -119,7 +119,7 @@ fn has_foot(blueprint: &Blueprint, limb: &Limb) -> bool {
 fn mentions(tie: &SharedWeight, gene: usize) -> bool {
     let has = |terms: &[(usize, f32)]| terms.iter().any(|&(mine, _)| mine == gene);
     match tie {
-        SharedWeight::Sum(terms) => has(terms),
+        SharedWeight::Sum(terms) | SharedWeight::Affine { terms, .. } => has(terms),
         SharedWeight::Sine(turn) | SharedWeight::Cosine(turn) => turn.genes.contains(&gene) || has(&turn.phase_genes),
     }
 }
@@ -382,4 +382,55 @@ fn arms_are_limbs_with_weights_of_their_own() {
     unique.sort();
     unique.dedup();
     assert_eq!(unique.len(), names.len(), "a name is one gene's");
+}
+
+/// What the motors are asked for at a time after the press, with genes for which `changed` holds drawn anew.
+fn jumper(swell: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
+    let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
+    let sensors = [
+        Sensor::TorsoRotation,
+        Sensor::JointAngles,
+        Sensor::StrideClock { period: 0.5, top: 1.5 },
+        Sensor::JumpClock { period: 0.6 },
+        Sensor::JumpClock { period: 1.2 },
+    ];
+    let senses = Senses::new(&blueprint, &sensors, 3.0).expect("it has what is sensed");
+    let motors = Motors::new(&blueprint);
+    let config = Registry::default().config("default", blueprint.creature().clone(), "playing").expect("a preset");
+    let Limbs { topology: shape, names } =
+        topology(&blueprint, &senses, &motors, &config.controller, LimbPhases::Alternating);
+    assert_eq!((shape.validate(), names.len()), (Ok(()), shape.gene_count()));
+    let gene = |(index, name): (usize, &String)| {
+        let of = index as f32 * 0.9 + if changed(name) { 2.0 } else { 0.0 };
+        libm::sinf(of)
+    };
+    let genes: Vec<f32> = names.iter().enumerate().map(gene).collect();
+    let inputs: Vec<f32> = senses
+        .probes()
+        .iter()
+        .enumerate()
+        .map(|(index, probe)| match probe.source {
+            Source::JumpSwell { .. } => probe.scale(swell, 3.0),
+            Source::JumpSine { .. } => probe.scale(if swell > 0.0 { 0.5 } else { 0.0 }, 3.0),
+            _ => libm::cosf(index as f32),
+        })
+        .collect();
+    let mut outputs = vec![0.0; motors.len()];
+    Topology::from(shape).network(&genes).activate(&inputs, &mut outputs);
+    outputs
+}
+
+/// What is learned of the jump does not change the stride, and of the stride not the jump.
+#[test]
+fn stride_and_jump_each_have_the_body_alone() {
+    let of_jump = |name: &str| name.contains("jump");
+    let of_stride = |name: &str| name.contains("hidden") && !of_jump(name);
+    let same = |swell: f32, changed: &dyn Fn(&str) -> bool| {
+        let (one, other) = (jumper(swell, |_| false), jumper(swell, changed));
+        one.iter().zip(&other).all(|(one, other)| (one - other).abs() < 1e-4)
+    };
+    assert!(same(0.0, &of_jump), "before the press nothing of the jump counts");
+    assert!(!same(0.0, &of_stride), "but the stride");
+    assert!(same(0.5, &of_stride), "after it nothing of the stride");
+    assert!(!same(0.5, &of_jump), "but the jump");
 }
