@@ -1,7 +1,8 @@
 //! A creature that has been checked and resolved.
 
 use crate::body_part::{BodyPart, Hinge};
-use crate::{Creature, CreatureError, check, legs, parse};
+use crate::symmetry::{Asymmetry, SymmetryHinge, SymmetryPart, twins};
+use crate::{Creature, CreatureError, Problem, check, legs, parse};
 
 /// A checked creature in the form engines want: SI units, radians, indices for names, anchors in the parts' own
 /// frames. Its users need not validate anything.
@@ -30,7 +31,43 @@ impl Blueprint {
         if !problems.is_empty() {
             return Err(CreatureError::Invalid(problems));
         }
-        Ok(Self::resolve(creature))
+        let blueprint = Self::resolve(creature);
+        match blueprint.symmetry().filter(|_| blueprint.creature.symmetric) {
+            Some(asymmetry) => Err(CreatureError::Invalid(vec![blueprint.problem_of(asymmetry)])),
+            None => Ok(blueprint),
+        }
+    }
+
+    /// Why it does not look the same from both sides; `None` if it does.
+    pub fn symmetry(&self) -> Option<Asymmetry> {
+        let part = |part: &BodyPart| SymmetryPart {
+            shape: part.shape,
+            x: part.x,
+            y: part.y,
+            angle: part.angle,
+            density: part.density,
+            friction: part.friction,
+        };
+        let hinge = |hinge: &Hinge| SymmetryHinge {
+            parent: hinge.parent,
+            child: hinge.child,
+            parent_anchor: hinge.parent_anchor,
+            child_anchor: hinge.child_anchor,
+            limits: hinge.limits,
+            motor: hinge.motor.map(|motor| [motor.top_speed, motor.top_torque]),
+            actuated: hinge.actuated,
+        };
+        let parts: Vec<SymmetryPart> = self.parts.iter().map(part).collect();
+        let hinges: Vec<SymmetryHinge> = self.hinges.iter().map(hinge).collect();
+        twins(&parts, &hinges).err()
+    }
+
+    fn problem_of(&self, asymmetry: Asymmetry) -> Problem {
+        let (part, what) = match asymmetry {
+            Asymmetry::Part(part) => (part, "the mirror image"),
+            Asymmetry::Hinge(part) => (part, "the hinge of the mirror image"),
+        };
+        Problem::NotSymmetric { part: self.parts[part].name.clone(), what }
     }
 
     /// Reads, checks and resolves a creature file.

@@ -47,6 +47,10 @@ pub struct Creature {
     /// Whether its parts collide with each other (parts held by a common joint never do); default false.
     #[serde(default)]
     pub self_collision: bool,
+    /// Whether it looks the same from both sides, so that it runs both ways with one net; default false. It is proved: each part
+    /// must have a mirror image across the upright line through the torso, with the same hinge and motor.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub symmetric: bool,
 }
 
 /// A rigid body of a creature.
@@ -131,6 +135,7 @@ impl Creature {
             actuated_tags: default_actuated_tags(),
             sensors: Sensor::defaults(),
             self_collision: false,
+            symmetric: false,
         }
     }
 

@@ -48,6 +48,16 @@ pub enum Problem {
         /// The number.
         found: f32,
     },
+    /// A body that is said to look the same from both sides and does not.
+    #[error(
+        "symmetric: {what} of `{part}` on the other side is missing or differs; correct it, or leave `symmetric` out"
+    )]
+    NotSymmetric {
+        /// The part.
+        part: String,
+        /// What of it: the mirror image, or the hinge of the mirror image.
+        what: &'static str,
+    },
     /// Too small (zero and negative included) or too large.
     #[error("{path}: expected {min} to {max}{}{unit}, found {found}", if .unit.is_empty() { "" } else { " " })]
     OutOfRange {

@@ -272,7 +272,7 @@ impl FrozenTopology {
     pub fn of(champion: &Champion) -> Self {
         let names = |channels: &[ChannelRecord]| channels.iter().map(|channel| channel.name.clone()).collect();
         let (inputs, outputs) = (names(&champion.inputs), names(&champion.outputs));
-        Self { inputs, outputs, net: champion.network.topology() }
+        Self { inputs, outputs, net: champion.network.topology(), genes: Vec::new() }
     }
 }
 

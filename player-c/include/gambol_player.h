@@ -38,8 +38,10 @@ typedef enum GambolStatus {
   GAMBOL_STATUS_CUT = 10,
   // A number or a text of the file is not allowed.
   GAMBOL_STATUS_FIELD = 11,
+  // The body does not look the same from both sides, and cannot turn round.
+  GAMBOL_STATUS_ASYMMETRIC = 12,
   // What a newer library says.
-  GAMBOL_STATUS_OTHER = 12,
+  GAMBOL_STATUS_OTHER = 13,
 } GambolStatus;
 
 // A body and the controller that moves it.
@@ -277,6 +279,15 @@ void gambol_player_free(struct GambolPlayer *player);
 // # Safety
 // `player` is null or is new and not given back.
 enum GambolStatus gambol_player_reset(struct GambolPlayer *player);
+
+// Turns round, from the next frame on: `left` is 1 to face smaller x, 0 to face greater x. A body that stands turns best. Rays that the
+// character wants measured look along π less their angle when it does not face as it was built. A body that does not look the
+// same from both sides is `GAMBOL_STATUS_ASYMMETRIC`, and goes on as it was.
+//
+// # Safety
+// `player` is null or is new and not given back.
+enum GambolStatus gambol_player_face(struct GambolPlayer *player,
+                                     uint32_t left);
 
 // How high the ground is where the body stands, m; 0 until it is said.
 //

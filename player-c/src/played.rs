@@ -3,7 +3,7 @@
 use crate::{GambolCharacter, GambolStatus};
 use alloc::boxed::Box;
 use core::{ptr, slice};
-use player::{Command, PartState, Player};
+use player::{Command, Facing, PartState, Player};
 
 /// One body that is played.
 #[derive(Debug)]
@@ -43,6 +43,22 @@ pub unsafe extern "C" fn gambol_player_reset(player: *mut GambolPlayer) -> Gambo
     let Some(GambolPlayer(player)) = (unsafe { player.as_mut() }) else { return GambolStatus::NullPointer };
     player.reset();
     GambolStatus::Ok
+}
+
+/// Turns round, from the next frame on: `left` is 1 to face smaller x, 0 to face greater x. A body that stands turns best. Rays that the
+/// character wants measured look along π less their angle when it does not face as it was built. A body that does not look the
+/// same from both sides is `GAMBOL_STATUS_ASYMMETRIC`, and goes on as it was.
+///
+/// # Safety
+/// `player` is null or is new and not given back.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn gambol_player_face(player: *mut GambolPlayer, left: u32) -> GambolStatus {
+    // SAFETY: the caller promises it.
+    let Some(GambolPlayer(player)) = (unsafe { player.as_mut() }) else { return GambolStatus::NullPointer };
+    match player.face(if left == 0 { Facing::Right } else { Facing::Left }) {
+        Ok(()) => GambolStatus::Ok,
+        Err(_) => GambolStatus::Asymmetric,
+    }
 }
 
 /// How high the ground is where the body stands, m; 0 until it is said.

@@ -31,8 +31,10 @@ pub enum GambolStatus {
     Cut = 10,
     /// A number or a text of the file is not allowed.
     Field = 11,
+    /// The body does not look the same from both sides, and cannot turn round.
+    Asymmetric = 12,
     /// What a newer library says.
-    Other = 12,
+    Other = 13,
 }
 
 impl From<FileError> for GambolStatus {
@@ -76,6 +78,7 @@ pub extern "C" fn gambol_status_text(status: u32) -> *const c_char {
         9 => c"the digest does not fit: the file was changed after it was written",
         10 => c"the file does not end with its last field",
         11 => c"a number or a text of the file is not allowed",
+        12 => c"the body does not look the same from both sides, and cannot turn round",
         _ => c"this player does not know what is wrong",
     };
     text.as_ptr()

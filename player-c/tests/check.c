@@ -72,6 +72,9 @@ static int check_calls(const GambolCharacter *character, GambolPlayer *player, c
         != GAMBOL_STATUS_NULL_POINTER) return fail("null parts");
     if (gambol_player_tick(NULL, parts, part_count, outside, outside_count, 0, 0, 0.02f, speeds, count)
         != GAMBOL_STATUS_NULL_POINTER) return fail("a null player");
+    if (gambol_player_face(NULL, 1) != GAMBOL_STATUS_NULL_POINTER) return fail("nobody turns");
+    GambolStatus turned = gambol_player_face(player, 1);
+    if (turned != GAMBOL_STATUS_OK && turned != GAMBOL_STATUS_ASYMMETRIC) return fail("to turn round");
     if (gambol_player_reset(player) != GAMBOL_STATUS_OK) return fail("reset");
     return 0;
 }

@@ -162,6 +162,11 @@ function classes(library) {
       this.#seconds = 0;
     }
 
+    /** Turns round: "left" or "right". A body that stands turns best; one that does not look the same from both sides throws. */
+    face(facing) {
+      check(library.gambol_player_face(this.#place, facing === "left" ? 1 : 0));
+    }
+
     /** How high the ground is where the body stands, m; 0 until it is said. */
     setGround(height) {
       check(library.gambol_player_set_ground(this.#place, height));

@@ -287,7 +287,7 @@ mod tests {
         assert_eq!(said(|config| config.strategy = neat(true)), fact("Topology", "evolves, recurrent"));
         let frozen = |config: &mut RunConfig| {
             let net = DenseShape::new(3, vec![2], 4).into();
-            config.topology = Some(FrozenTopology { inputs: Vec::new(), outputs: Vec::new(), net });
+            config.topology = Some(FrozenTopology { inputs: Vec::new(), outputs: Vec::new(), net, genes: Vec::new() });
         };
         assert_eq!(said(frozen), fact("Topology", "frozen: 3-2-4"));
     }

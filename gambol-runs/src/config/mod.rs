@@ -143,6 +143,21 @@ pub struct FrozenTopology {
     pub outputs: Vec<String>,
     /// The net.
     pub net: Topology,
+    /// If a part of it is [held](Transferred::Held): all genes of the whole net, in order, so that a later stage can search
+    /// for all of them again.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub genes: Vec<GeneRecord>,
+}
+
+/// A gene of a net of which a part is held.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GeneRecord {
+    /// What it is for.
+    pub name: String,
+    /// Its value, if it is held.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub held: Option<f32>,
 }
 
 /// What is written down during a run.

@@ -19,6 +19,9 @@ const MOST_STEPS: u64 = 200_000_000;
 /// four finds a jump in 12 million steps, with 0.5 or 0.65 s all do (tetrapod-2, four seeds each).
 const JUMP_CLOCK: f32 = 0.6;
 
+/// The fewest and the most steps in which it learns to jump.
+const JUMP_STEPS: [u64; 2] = [60_000_000, 150_000_000];
+
 /// How long the jump has the body, s: until it has landed.
 const JUMP_TURN: f32 = 1.2;
 
@@ -41,7 +44,7 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![follow(), jump()],
+        stages: vec![follow(), jump(), polish()],
         ..unknown
     }
 }
@@ -54,6 +57,7 @@ fn follow() -> StageSettings {
     StageSettings { promotion: Some(PromotionRule::Any(either)), ..stage("follow", json!({})) }
 }
 
+/// With the stride held, jumps are all there is to learn.
 fn jump() -> StageSettings {
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
@@ -61,7 +65,18 @@ fn jump() -> StageSettings {
         "trials": { "count": 8, "lessons": true }
     });
     let add_sensors = [JUMP_CLOCK, JUMP_TURN].map(|period| Sensor::JumpClock { period }).into();
-    StageSettings { add_sensors, transfer: Some(Transferred::Held), ..stage("jump", changes) }
+    let either = vec![
+        PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(JUMP_STEPS[0])]),
+        PromotionRule::Steps(JUMP_STEPS[1]),
+    ];
+    let promotion = Some(PromotionRule::Any(either));
+    StageSettings { add_sensors, promotion, transfer: Some(Transferred::Held), ..stage("jump", changes) }
+}
+
+/// All of it together: a stride that has never landed learns to go on from there.
+fn polish() -> StageSettings {
+    let changes = json!({ "trials": { "count": 8, "lessons": false } });
+    StageSettings { transfer: Some(Transferred::Champion), ..stage("polish", changes) }
 }
 
 fn stage(name: &str, changes: Value) -> StageSettings {

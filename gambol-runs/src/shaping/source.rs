@@ -102,10 +102,17 @@ impl Source {
                 let weights = champion.network.weights().to_vec();
                 Ok(ChampionNet { topology, weights, names, generation: champion.generation })
             }
-            Kind::Run { folder, setup, strategy, .. } => {
+            Kind::Run { folder, config, setup, strategy } => {
                 let found = read_champion(strategy, folder, expressed)?;
                 let (topology, weights, generation) =
                     found.ok_or_else(|| TransferError::NoChampion { source_name: self.name.clone() })?;
+                if let Some(frozen) = config.topology.as_ref().filter(|frozen| !expressed && !frozen.genes.is_empty()) {
+                    // The whole net: what is held, and what was found.
+                    let mut found = weights.into_iter();
+                    let whole = frozen.genes.iter().filter_map(|gene| gene.held.or_else(|| found.next()));
+                    let names = frozen.genes.iter().map(|gene| gene.name.clone()).collect();
+                    return Ok(ChampionNet { topology, weights: whole.collect(), names, generation });
+                }
                 let names = match topology == setup.topology {
                     true => setup.weight_names.clone(),
                     false => topology::of_weights(&topology, &inputs, &outputs),

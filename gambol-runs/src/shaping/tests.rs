@@ -84,7 +84,7 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     neurons.extend((0..outputs.len()).map(|index| neuron(vec![first + 1, index])));
     let nodes = (first + 2..first + 2 + outputs.len()).collect();
     let net = GraphShape { inputs: first, recurrent: false, neurons, outputs: nodes };
-    let frozen = FrozenTopology { inputs, outputs, net: net.into() };
+    let frozen = FrozenTopology { inputs, outputs, net: net.into(), genes: Vec::new() };
     let old = RunConfig { topology: Some(frozen.clone()), ..old };
     let more = setup(&RunConfig { topology: None, ..with_more_senses(&old) });
     let grown = frozen.remapped(more.inputs(), more.outputs(), false);

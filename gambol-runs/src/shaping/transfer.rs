@@ -4,7 +4,7 @@ use super::source::{ChampionNet, Kind, Source, names_of, read_checkpoint};
 use crate::{
     Registry,
     champion::ChannelRecord,
-    config::{FrozenTopology, Origin, RunConfig, StrategySettings, Transferred},
+    config::{FrozenTopology, GeneRecord, Origin, RunConfig, StrategySettings, Transferred},
     episode_parts::SetupError,
     run_folder::FolderError,
     setup::Setup,
@@ -109,7 +109,10 @@ impl PreparedTransfer {
         if let (Kind::Run { config: from, .. }, None, true) =
             (&source.kind, &to.topology, transferred != Transferred::Nothing)
         {
-            config.topology.clone_from(&from.topology);
+            // What is held is free again, unless the search itself goes on.
+            let kept = from.topology.as_ref();
+            config.topology =
+                kept.filter(|kept| kept.genes.is_empty() || transferred == Transferred::Population).cloned();
         }
         let net = match transferred {
             Transferred::Champion | Transferred::Held => Some(source.champion(false)?),
@@ -121,7 +124,7 @@ impl PreparedTransfer {
             && let Some(net) = &net
         {
             let [inputs, outputs] = before.each_ref().map(|channels| names_of(channels));
-            config.topology = Some(FrozenTopology { inputs, outputs, net: net.topology.clone() });
+            config.topology = Some(FrozenTopology { inputs, outputs, net: net.topology.clone(), genes: Vec::new() });
         }
         if let Some(frozen) = &config.topology {
             // The body's channels are known once it is built; the net has to wait for them.
@@ -145,8 +148,14 @@ impl PreparedTransfer {
         if transferred == Transferred::Held {
             check_new(&genes)?;
             let [inputs, outputs] = [setup.inputs(), setup.outputs()].map(channel_names);
-            let net = setup.topology.held(&weights, |gene| genes.origins()[gene].is_none())?;
-            config.topology = Some(FrozenTopology { inputs, outputs, net });
+            let is_new = |gene: usize| genes.origins()[gene].is_none();
+            let net = setup.topology.held(&weights, is_new)?;
+            let records = setup.weight_names.iter().zip(&weights).enumerate();
+            let records = records.map(|(gene, (name, &weight))| GeneRecord {
+                name: name.clone(),
+                held: (!is_new(gene)).then_some(weight),
+            });
+            config.topology = Some(FrozenTopology { inputs, outputs, net, genes: records.collect() });
             setup = Setup::new(&config, registry)?;
         }
         let mut departure =

@@ -23,6 +23,17 @@ impl FrozenTopology {
                 return Err(SetupError::Topology(difference));
             }
         }
+        let (free, searched) = (self.genes.iter().filter(|gene| gene.held.is_none()).count(), self.net.weight_count());
+        if !self.genes.is_empty() && free != searched {
+            let allowed = format!("{searched} that are not held, as many as the net has weights");
+            let found = format!("{free} genes that are not held");
+            return Err(SettingError::new("genes", found, allowed).within("topology").into());
+        }
+        if let Some(index) = self.genes.iter().position(|gene| gene.held.is_some_and(|held| !held.is_finite())) {
+            return Err(SettingError::new(format!("genes[{index}].held"), "NaN or infinite", "finite")
+                .within("topology")
+                .into());
+        }
         Ok(self.net.clone())
     }
 }

@@ -23,7 +23,7 @@ impl FrozenTopology {
             Topology::Graph(shape) => self.remapped_graph(shape, &inputs, &outputs).into(),
             other => other.clone(),
         };
-        Self { inputs, outputs, net }
+        Self { inputs, outputs, net, genes: self.genes.clone() }
     }
 
     fn remapped_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {

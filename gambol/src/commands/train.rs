@@ -68,7 +68,8 @@ pub(crate) struct Train {
     /// senses, another body. Without --config, sensors and controller are those it learned with, but for what --set changes
     #[arg(long, value_name = "RUN|CHAMPION", conflicts_with = "topology_from")]
     from: Option<PathBuf>,
-    /// What to take along from there: population, champion or topology [default: as much as can be]
+    /// What to take along from there: population, champion, held (the champion, to which only what is new is searched for) or
+    /// topology [default: as much as can be]
     #[arg(long, value_name = "WHAT", requires = "from")]
     transfer: Option<String>,
     /// Let inputs, outputs and weights go that the new controller does not have

@@ -23,6 +23,7 @@ mod further_bodies;
 mod gait;
 mod going_on;
 mod help;
+mod holding;
 mod hostile;
 mod interrupted;
 mod killed;

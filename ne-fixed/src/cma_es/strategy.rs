@@ -114,8 +114,8 @@ impl CmaEs {
         })
     }
 
-    /// The same search, beginning at these weights, those of the best net of several: a champion to be made better, or moved
-    /// to another task. Restarts begin elsewhere. Without effect once a generation was asked.
+    /// The same search, beginning at these weights, those of the best net of several, with 0.3 of the first step size: a
+    /// champion to be made better, or moved to another task. Restarts begin elsewhere. Without effect once a generation was asked.
     ///
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[0]`.
@@ -190,7 +190,9 @@ impl CmaEs {
             }
         };
         let covariance = Covariance::identity(self.settings.covariance, mean.len(), 1.0);
-        Distribution::new(mean.into_iter().map(f64::from).collect(), self.restarts.step_size, covariance)
+        // What is good already is not thrown away by the first generation.
+        let near = if self.start.is_some() && self.restarts.count == 0 { REVIVED } else { 1.0 };
+        Distribution::new(mean.into_iter().map(f64::from).collect(), near * self.restarts.step_size, covariance)
     }
 
     /// Whether the present search has nothing more to give.
