@@ -92,6 +92,7 @@ impl Topology {
 mod tests {
     use super::*;
     use crate::{Activation, DenseShape, Turn};
+    use ne_core::Phenotype;
 
     fn genes(count: usize) -> Vec<f32> {
         (0..count).map(|gene| (gene as f32 * 0.7).sin()).collect()
@@ -125,9 +126,13 @@ mod tests {
                 let held = whole.held(&genes, |gene| free.contains(&gene)).expect("something is free");
                 let of_free: Vec<f32> = free.iter().map(|&gene| genes[gene]).collect();
                 assert_eq!(held.weight_count(), free.len());
-                let (found, expected) = (held.network(&of_free), whole.network(&genes));
-                let close = found.weights().iter().zip(expected.weights()).all(|(a, b)| (a - b).abs() < 1e-6);
-                assert!(close && found.weights().len() == expected.weights().len(), "{free:?}");
+                let outputs = [held.network(&of_free), whole.network(&genes)].map(|mut net| {
+                    let mut outputs = vec![0.0; whole.outputs()];
+                    net.activate(&[0.7, -0.4], &mut outputs);
+                    outputs
+                });
+                let close = outputs[0].iter().zip(&outputs[1]).all(|(found, whole)| (found - whole).abs() < 1e-6);
+                assert!(close, "{free:?}: {outputs:?}");
                 let json = serde_json::to_string(&held).expect("serialises");
                 assert_eq!(serde_json::from_str::<Topology>(&json).expect("deserialises"), held);
             }
