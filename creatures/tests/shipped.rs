@@ -119,3 +119,27 @@ fn far_legs_are_drawn_first() {
     let order: Vec<&str> = creature.drawing_order().iter().map(|&part| creature.parts[part].name.as_str()).collect();
     assert_eq!(order, ["far front leg", "far back leg", "near front leg", "near back leg", "case"]);
 }
+
+/// What a file says of its symmetry is proved.
+#[test]
+fn shipped_creatures_look_the_same_from_both_sides_and_one_that_does_not_is_refused() {
+    for shipped in creatures::shipped() {
+        let mut creature = creatures::find(shipped.name).expect("shipped");
+        creature.symmetric = true;
+        let blueprint = Blueprint::new(creature.clone()).expect("it is symmetric");
+        assert_eq!(blueprint.symmetry(), None, "{}", shipped.name);
+        if let Some(part) = creature.parts.last_mut() {
+            part.density *= 2.0;
+        }
+        let heavier = Blueprint::new(creature.clone());
+        // Of two legs in the middle each is its own mirror image.
+        if heavier.is_err() {
+            let said = heavier.expect_err("one leg is heavier").to_string();
+            assert!(said.contains("symmetric: the mirror image of `"), "{said}");
+        } else {
+            assert!(shipped.name.starts_with("biped"), "{}", shipped.name);
+        }
+        creature.symmetric = false;
+        assert!(Blueprint::new(creature).is_ok(), "{}: it does not say so", shipped.name);
+    }
+}

@@ -3,8 +3,8 @@
 //! | module | what it is |
 //! |---|---|
 //! | [`body`] | a character in rapier: what every game that has one must do |
-//! | [`race`] | track, hurdles, clock, and who is where |
-//! | [`pilot`] | how those that are not yours decide what to do |
+//! | [`race`] | the track, its hurdles, the clock, and the positions of the runners |
+//! | [`pilot`] | what the computer tells its runners |
 //!
 //! What is drawn, and the keys, are in `main.rs`.
 

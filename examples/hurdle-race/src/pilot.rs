@@ -1,4 +1,4 @@
-//! How those that are not yours decide what to do.
+//! What the computer tells its runners.
 
 use player::Command;
 

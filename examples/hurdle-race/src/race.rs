@@ -1,4 +1,4 @@
-//! Track, hurdles, clock, and who is where.
+//! The track, its hurdles, the clock, and the positions of the runners.
 
 use crate::body::{Body, GROUND};
 use player::{Character, Command, FileError, PartState};

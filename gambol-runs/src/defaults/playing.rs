@@ -27,8 +27,8 @@ const JUMP_TURN: f32 = 1.2;
 
 /// First it learns to move as fast as it is told and to stand, by a clock that swings with the speed; and then to jump, by a
 /// clock that a press starts. What learns both at once learns one: what can jump stays where it is, and what runs does
-/// not dare to jump. And what learns to jump may forget to run, as long as the one is worth more than the other: so the
-/// lesson that goes worst counts for half.
+/// not dare to jump. And what learns to jump may forget to run: so the stride is held meanwhile. In the end all of it is searched,
+/// since a stride that is held has never landed.
 pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let unknown = MovementDefaults::unknown(body);
     let mut wanted = vec![with(TermSpec::new("no-exploits", 0.0), "ends", true)];

@@ -3,7 +3,7 @@
 use super::*;
 use crate::Registry;
 use crate::{
-    config::{FrozenTopology, RunConfig},
+    config::{FrozenTopology, GeneRecord, RunConfig},
     setup::Setup,
     training::TrainError,
 };
@@ -90,6 +90,22 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     let grown = frozen.remapped(more.inputs(), more.outputs(), false);
     let new = RunConfig { topology: Some(grown.clone()), ..with_more_senses(&old) };
     assert_same_behaviour("frozen", &setup(&old), &setup(&new));
+    // One that says what is held says it of all its weights.
+    let gene = |held| GeneRecord { name: "gene".into(), held };
+    let refusal = |genes| {
+        let topology = Some(FrozenTopology { genes, ..frozen.clone() });
+        let refused = Setup::new(&RunConfig { topology, ..old.clone() }, &Registry::default());
+        refused.err().map(|error| error.to_string()).unwrap_or_default()
+    };
+    let searched = frozen.net.weight_count();
+    assert_eq!(
+        refusal(vec![gene(None), gene(Some(1.0))]),
+        format!(
+            "topology.genes = 1 genes that are not held: must be {searched} that are not held, as many as the net has weights"
+        )
+    );
+    let infinite = (0..searched).map(|_| gene(None)).chain([gene(Some(f32::INFINITY))]).collect();
+    assert!(refusal(infinite).contains(&format!("topology.genes[{searched}].held")));
     // It gives up what it has gained only if it may.
     assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), true), frozen);
     assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), false), grown);

@@ -121,8 +121,8 @@ pub(crate) struct Limbs {
 /// The topology of a controller for this creature: for each limb a copy of one net.
 ///
 /// The last layer sees the hidden neurons alone, if there are any: with fewer genes, and joints that move by the same few
-/// signals, searches find gaits much sooner. A jump clock it sees as well: a jump is a movement of all limbs at once, beside
-/// the stride that the hidden neurons are busy with.
+/// signals, searches find gaits much sooner. A jump clock it sees as well. With one, hidden neurons of their own drive the jump:
+/// see [`gates`].
 pub(crate) fn topology(
     blueprint: &Blueprint,
     senses: &Senses,

@@ -343,3 +343,16 @@ fn a_long_run_has_no_larger_checkpoint() {
     let (short, long) = (saved_bytes(&settings, 100), saved_bytes(&settings, 10_000));
     assert!(long as f64 <= 1.2 * short as f64, "{short} bytes after 100 generations, {long} after 10,000");
 }
+
+/// A champion is not thrown away by the first generation.
+#[test]
+fn a_search_that_begins_at_a_champion_begins_with_shorter_steps() {
+    let begun = |mut search: CmaEs| -> Option<f64> {
+        search.ask(Seed::of_run(1));
+        search.statistics().into_iter().find(|statistic| statistic.name == "step_size").map(|step| step.value)
+    };
+    let first = CmaEsSettings::default().step_size;
+    let at_champion = new(CmaEsSettings::default()).with_start(&[vec![0.5; 26]]).expect("26 weights");
+    assert_eq!(begun(new(CmaEsSettings::default())), Some(first));
+    assert_eq!(begun(at_champion), Some(0.3 * first));
+}

@@ -1,9 +1,9 @@
-//! Two nets in one, of which each has the body for a while: from a press on the jump clock's turn is the jump's, all else the stride's.
+//! Gates: the hidden neurons of the jump drive the joints for one turn of the jump clock after a press, those of the stride
+//! the rest of the time.
 //!
-//! What a body does while it strides is no good while it jumps, and what is changed for the jump must not change the stride. So
-//! with a jump clock each limb has hidden neurons for the stride and others for the jump, and two neurons of fixed weights
-//! silence those whose turn it is not: they add so much to their sums that they put out 1 whatever they hear, and what that
-//! makes in a joint they take away again.
+//! A search for the jump must not change the stride, and a stride in progress must not disturb the jump. So with a jump clock each
+//! limb has hidden neurons for either, and two neurons of fixed weights, the gates. A gate adds [`SILENCE`] to the sums of the
+//! hidden neurons it silences, which then put out 1; each joint subtracts that 1 again, times their weights.
 
 use crate::config::ControllerSettings;
 use creatures::{Senses, Source};
