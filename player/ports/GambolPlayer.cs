@@ -230,7 +230,7 @@ namespace Gambol
     public sealed class Character
     {
         /// <summary>The version of the format that is read.</summary>
-        public const int Version = 1;
+        public const int Version = 2;
 
         /// <summary>The name of the creature, and what it has learned: "running", "playing".</summary>
         public string Name, Movement;
@@ -327,12 +327,15 @@ namespace Gambol
     {
         private const int Header = 24, MostNodes = 65536;
         // The shortest records, in bytes: a count that promises more than the file holds is not believed.
-        private const int ShortestPart = 31, ShortestHinge = 29, Output = 4, Input = 19, ShortestNeuron = 11, SourceSize = 6;
+        private const int Number = 4, ShortestPart = 10, ShortestHinge = 9, ShortestOutput = 2, ShortestInput = 6;
+        private const int ShortestNeuron = 4, ShortestSource = 2;
 
         private readonly byte[] bytes;
         private int at;
         /// <summary>What is read, for errors.</summary>
         private string field = "header";
+        /// <summary>The numbers that the rest of the file points at.</summary>
+        private float[] numbers = { };
 
         private Reader(byte[] bytes)
         {
@@ -392,22 +395,32 @@ namespace Gambol
             return bytes[at++];
         }
 
+        /// <summary>Seven bits a byte, the lowest first; the eighth says that another byte follows.</summary>
         private ushort U16()
         {
-            Need(2);
-            at += 2;
-            return (ushort)(bytes[at - 2] | bytes[at - 1] << 8);
+            var whole = 0;
+            for (var place = 0; place < 3; place++)
+            {
+                var next = U8();
+                whole |= (next & 0x7f) << 7 * place;
+                if (next < 0x80 && whole < 65536) return (ushort)whole;
+            }
+            throw new FileError($"{field}, number 0: must be of whole numbers from 0 to 65535, in at most three bytes");
         }
 
         private uint U32()
         {
             Need(4);
-            return U16() | (uint)U16() << 16;
+            at += 4;
+            return bytes[at - 4] | (uint)bytes[at - 3] << 8 | (uint)bytes[at - 2] << 16 | (uint)bytes[at - 1] << 24;
         }
 
+        /// <summary>One of the numbers at the beginning.</summary>
         private float F32()
         {
-            return BitConverter.ToSingle(BitConverter.GetBytes(U32()), 0);
+            int index = U16();
+            Check(index < numbers.Length, field, 0, "of numbers that are listed");
+            return numbers[index];
         }
 
         private float[] F32s(int count)
@@ -468,6 +481,7 @@ namespace Gambol
         private Character ReadCharacter()
         {
             var character = new Character();
+            numbers = List(Count("numbers", Number), _ => BitConverter.ToSingle(BitConverter.GetBytes(U32()), 0));
             field = "name";
             character.Name = Text(0);
             field = "movement";
@@ -487,7 +501,7 @@ namespace Gambol
             field = "input range";
             character.InputRange = F32();
             Within(character.InputRange, 0.001f, 1000f, field, 0, "from 0.001 to 1000");
-            character.Inputs = Some("inputs", Input, index => ReadProbe(index, character));
+            character.Inputs = Some("inputs", ShortestInput, index => ReadProbe(index, character));
             character.Neurons = List(Count("neurons", ShortestNeuron), ReadNeuron);
             var nodes = character.Inputs.Length + character.Neurons.Length;
             var named = character.OutputNodes.Concat(character.Neurons.SelectMany(neuron => neuron.Sources));
@@ -499,7 +513,7 @@ namespace Gambol
 
         private void Outputs(Character character)
         {
-            var records = Some("outputs", Output, _ => new int[] { U16(), U16() });
+            var records = Some("outputs", ShortestOutput, _ => new int[] { U16(), U16() });
             character.Outputs = records.Select(record => record[0]).ToArray();
             character.OutputNodes = records.Select(record => record[1]).ToArray();
             var free = character.Hinges.Select(hinge => hinge.Motor != null).ToArray();
@@ -623,7 +637,7 @@ namespace Gambol
         {
             var activation = (Activation)Code(index, 9, "an activation that this player knows");
             var neuron = new Neuron { Activation = activation, Scale = F32(), Bias = F32() };
-            var count = Count("neurons", SourceSize);
+            var count = Count("neurons", ShortestSource);
             neuron.Sources = new int[count];
             neuron.Weights = new float[count];
             for (var source = 0; source < count; source++)

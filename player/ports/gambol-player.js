@@ -14,7 +14,7 @@
 // to 32 bits where the original rounds them; only exp, tanh, sin, cos and atan2 are the language's own.
 
 /** The version of the format that this file reads. */
-export const VERSION = 1;
+export const VERSION = 2;
 
 /** Why bytes are not a character. */
 export class FileError extends Error {
@@ -30,7 +30,9 @@ const MAGIC = "GAMBOLPL";
 const HEADER = 24;
 const MOST_NODES = 65536;
 // The shortest records, in bytes: a count that promises more than the file holds is not believed.
-const [SHORTEST_PART, SHORTEST_HINGE, OUTPUT, INPUT, SHORTEST_NEURON, SOURCE] = [31, 29, 4, 19, 11, 6];
+const NUMBER = 4;
+const [SHORTEST_PART, SHORTEST_HINGE, SHORTEST_OUTPUT] = [10, 9, 2];
+const [SHORTEST_INPUT, SHORTEST_NEURON, SHORTEST_SOURCE] = [6, 4, 2];
 const SHAPES = ["box", "circle", "capsule"];
 const ACTIVATIONS = [
   "logistic", "tanh", "rationalTanh", "relu", "linear", "sine", "gaussian", "steepLogistic", "steepTanh",
@@ -84,7 +86,9 @@ class Reader {
     this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     this.at = 0;
     /** What is read, for errors. */
-    this.field = "name";
+    this.field = "numbers";
+    /** The numbers that the rest of the file points at. */
+    this.numbers = [];
   }
 
   /** Where the next bytes are. */
@@ -104,12 +108,22 @@ class Reader {
     return this.bytes[this.take(1)];
   }
 
+  /** Seven bits a byte, the lowest first; the eighth says that another byte follows. */
   u16() {
-    return this.view.getUint16(this.take(2), true);
+    let whole = 0;
+    for (let place = 0; place < 3; place += 1) {
+      const byte = this.u8();
+      whole |= (byte & 0x7f) << (7 * place);
+      if (byte < 0x80 && whole < 65536) return whole;
+    }
+    return check(false, this.field, 0, "of whole numbers from 0 to 65535, in at most three bytes");
   }
 
+  /** One of the numbers at the beginning. */
   f32() {
-    return this.view.getFloat32(this.take(4), true);
+    const index = this.u16();
+    check(index < this.numbers.length, this.field, 0, "of numbers that are listed");
+    return this.numbers[index];
   }
 
   f32s(count) {
@@ -232,7 +246,7 @@ class Reader {
   neuron(index) {
     const activation = ACTIVATIONS[this.code(index, ACTIVATIONS.length, "an activation that this player knows")];
     const [scale, bias] = finite(this.f32s(2), "neurons", index);
-    const count = this.count("neurons", SOURCE);
+    const count = this.count("neurons", SHORTEST_SOURCE);
     const [sources, weights] = [new Uint16Array(count), new Float32Array(count)];
     for (let source = 0; source < count; source += 1) {
       [sources[source], weights[source]] = [this.u16(), this.f32()];
@@ -287,6 +301,9 @@ export class Character {
   }
 
   static #fromContent(file) {
+    const numbers = file.count("numbers", NUMBER);
+    file.numbers = Array.from({ length: numbers }, () => file.view.getFloat32(file.take(4), true));
+    file.field = "name";
     const name = file.text(0);
     file.field = "movement";
     const movement = file.text(0);
@@ -301,7 +318,7 @@ export class Character {
     const isAngle = file.code(0, 2, "0 (speed) or 1 (angle)") === 1;
     const gain = file.f32();
     const actuation = isAngle ? { gain: within(gain, 0.1, 50, "actuation", 0, "with a gain from 0.1 to 50") } : null;
-    const records = file.list("outputs", OUTPUT, () => [file.u16(), file.u16()]);
+    const records = file.list("outputs", SHORTEST_OUTPUT, () => [file.u16(), file.u16()]);
     const [outputs, outputNodes] = [records.map(([hinge]) => hinge), records.map(([, node]) => node)];
     outputs.forEach((hinge, index) => {
       const free = hinge < hinges.length && hinges[hinge].motor !== null && outputs.indexOf(hinge) === index;
@@ -309,7 +326,7 @@ export class Character {
     });
     file.field = "input range";
     const inputRange = within(file.f32(), 0.001, 1000, "input range", 0, "from 0.001 to 1000");
-    const inputs = file.list("inputs", INPUT, (index) => file.input(index, parts.length, hinges.length));
+    const inputs = file.list("inputs", SHORTEST_INPUT, (index) => file.input(index, parts.length, hinges.length));
     const neuronCount = file.count("neurons", SHORTEST_NEURON);
     const neurons = Array.from({ length: neuronCount }, (_, index) => file.neuron(index));
     const nodes = inputs.length + neurons.length;

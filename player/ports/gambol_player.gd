@@ -21,18 +21,19 @@
 # built for vectors of 64 bits does not round all of them.
 
 # The version of the format that this file reads.
-const VERSION = 1
+const VERSION = 2
 
 const HEADER = 24
 const MOST_NODES = 65536
 const MAGIC = [0x47, 0x41, 0x4d, 0x42, 0x4f, 0x4c, 0x50, 0x4c]
 # The shortest records, in bytes: a count that promises more than the file holds is not believed.
-const SHORTEST_PART = 31
-const SHORTEST_HINGE = 29
-const OUTPUT = 4
-const INPUT = 19
-const SHORTEST_NEURON = 11
-const SOURCE = 6
+const NUMBER = 4
+const SHORTEST_PART = 10
+const SHORTEST_HINGE = 9
+const SHORTEST_OUTPUT = 2
+const SHORTEST_INPUT = 6
+const SHORTEST_NEURON = 4
+const SHORTEST_SOURCE = 2
 
 # What an input shows, with its number in a file.
 enum Source {
@@ -157,6 +158,7 @@ class Reader:
 	var field = "name"
 	var bytes
 	var _stream = StreamPeerBuffer.new()
+	var _numbers = []
 	var _rest = 0
 
 	func _init(bytes_):
@@ -204,14 +206,30 @@ class Reader:
 	func u8():
 		return _stream.get_u8() if _take(1) else 0
 
+	# Seven bits a byte, the lowest first; the eighth says that another byte follows.
 	func u16():
-		return _stream.get_u16() if _take(2) else 0
+		var whole = 0
+		for place in range(3):
+			var byte = u8()
+			whole |= (byte & 0x7f) << (7 * place)
+			if byte < 0x80 and whole < 65536:
+				return whole
+		check(false, field, 0, "of whole numbers from 0 to 65535, in at most three bytes")
+		return 0
 
 	func u32():
 		return _stream.get_u32() if _take(4) else 0
 
+	# The numbers that the rest of the file points at.
+	func list_numbers():
+		for _index in range(count("numbers", NUMBER)):
+			_numbers.append(_stream.get_float() if _take(4) else 0.0)
+
+	# One of them.
 	func f32():
-		return _stream.get_float() if _take(4) else 0.0
+		var index = u16()
+		check(index < _numbers.size(), field, 0, "of numbers that are listed")
+		return _numbers[index] if index < _numbers.size() else 0.0
 
 	func f32s(count):
 		var numbers = []
@@ -397,7 +415,7 @@ class Reader:
 		var found = {"activation": code(index, 9, "an activation that this player knows"), "scale": f32(), "bias": f32()}
 		found.sources = []
 		found.weights = []
-		for _source in range(count("neurons", SOURCE)):
+		for _source in range(count("neurons", SHORTEST_SOURCE)):
 			found.sources.append(u16())
 			found.weights.append(f32())
 		finite([found.scale, found.bias], "neurons", index)
@@ -442,6 +460,8 @@ class Character:
 	func read(bytes):
 		var file = Reader.new(bytes)
 		file.header()
+		file.list_numbers()
+		file.field = "name"
 		name = file.text(0)
 		file.field = "movement"
 		movement = file.text(0)
@@ -457,7 +477,7 @@ class Character:
 		input_range = file.f32()
 		file.within(input_range, 0.001, 1000.0, "input range", 0, "from 0.001 to 1000")
 		inputs = []
-		for index in range(file.some("inputs", INPUT)):
+		for index in range(file.some("inputs", SHORTEST_INPUT)):
 			if file.is_sound():
 				inputs.append(file.input(index, parts.size(), hinges.size()))
 		neurons = []
@@ -487,7 +507,7 @@ class Character:
 	func _read_outputs(file):
 		outputs = []
 		output_nodes = []
-		for index in range(file.some("outputs", OUTPUT)):
+		for index in range(file.some("outputs", SHORTEST_OUTPUT)):
 			var hinge = file.u16()
 			var is_free = hinge < hinges.size() and hinges[hinge].motor != null and not outputs.has(hinge)
 			file.check(is_free, "outputs", index, "a hinge with a motor, listed once")

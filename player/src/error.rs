@@ -3,7 +3,7 @@
 use core::fmt;
 
 /// The version of the file's format that this crate writes and reads.
-pub const VERSION: u32 = 1;
+pub const VERSION: u32 = 2;
 
 /// Why bytes are not a character.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

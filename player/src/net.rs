@@ -21,26 +21,39 @@ pub struct Neuron {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
     inputs: usize,
-    neurons: Vec<Flat>,
-    /// Of all neurons, one after the other.
-    sources: Vec<(u16, f32)>,
-    outputs: Vec<u16>,
-    /// Neurons that stand side by side, are alike and do not hear each other: how many.
+    /// What the output of each neuron is multiplied by.
+    scales: Vec<f32>,
     groups: Vec<Group>,
+    blocks: Vec<Block>,
+    /// Of all blocks, one after the other.
+    sources: Vec<Source>,
+    outputs: Vec<u16>,
 }
 
-/// A neuron without its sources.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Flat {
-    scale: f32,
-    bias: f32,
-    sources: u32,
-}
-
+/// Neurons that stand side by side, are alike and do not hear each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Group {
     activation: Activation,
     neurons: u32,
+    blocks: u32,
+}
+
+/// So many sums are computed at once.
+const LANES: usize = 4;
+
+/// Up to [`LANES`] neurons of a group that hear the same nodes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Block {
+    neurons: u8,
+    sources: u32,
+    biases: [f32; LANES],
+}
+
+/// A node, and its weight in each neuron of a block; 0 where there is none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Source {
+    node: u16,
+    weights: [f32; LANES],
 }
 
 /// Nodes are numbered with 16 bits.
@@ -55,17 +68,40 @@ impl Net {
         if !sources_are_nodes || !outputs.iter().copied().all(is_node) {
             return None;
         }
-        let flat = |neuron: &Neuron| {
-            let sources = u32::try_from(neuron.sources.len()).ok()?;
-            Some(Flat { scale: neuron.scale, bias: neuron.bias, sources })
-        };
-        Some(Self {
-            inputs,
-            neurons: neurons.iter().map(flat).collect::<Option<_>>()?,
-            sources: neurons.iter().flat_map(|neuron| neuron.sources.iter().copied()).collect(),
-            outputs,
-            groups: groups(inputs, neurons),
-        })
+        let scales = neurons.iter().map(|neuron| neuron.scale).collect();
+        let mut net =
+            Self { inputs, scales, groups: Vec::new(), blocks: Vec::new(), sources: Vec::new(), outputs };
+        let mut first = 0;
+        while first < neurons.len() {
+            let group = group(inputs, neurons, first);
+            let last = first + group;
+            let before = net.blocks.len();
+            while first < last {
+                first += net.add_block(&neurons[first..last])?;
+            }
+            let (activation, blocks) = (neurons[last - 1].activation, net.blocks.len() - before);
+            let [neurons, blocks] = [group, blocks].map(u32::try_from);
+            net.groups.push(Group { activation, neurons: neurons.ok()?, blocks: blocks.ok()? });
+        }
+        Some(net)
+    }
+
+    /// As many of these neurons as hear the same nodes as the first; how many.
+    fn add_block(&mut self, neurons: &[Neuron]) -> Option<usize> {
+        let nodes = |neuron: &'_ Neuron| neuron.sources.iter().map(|&(node, _)| node).collect::<Vec<u16>>();
+        let first = neurons.first()?;
+        let heard = nodes(first);
+        let alike = neurons.iter().take(LANES).take_while(|neuron| nodes(neuron) == heard).count();
+        let mut biases = [0.0; LANES];
+        biases.iter_mut().zip(&neurons[..alike]).for_each(|(bias, neuron)| *bias = neuron.bias);
+        self.sources.extend(heard.iter().enumerate().map(|(index, &node)| {
+            let mut weights = [0.0; LANES];
+            weights.iter_mut().zip(&neurons[..alike]).for_each(|(weight, neuron)| *weight = neuron.sources[index].1);
+            Source { node, weights }
+        }));
+        let sources = u32::try_from(heard.len()).ok()?;
+        self.blocks.push(Block { neurons: alike as u8, sources, biases });
+        Some(alike)
     }
 
     /// The number of inputs.
@@ -75,7 +111,7 @@ impl Net {
 
     /// The number of inputs and neurons.
     pub fn nodes(&self) -> usize {
-        self.inputs + self.neurons.len()
+        self.inputs + self.scales.len()
     }
 
     /// The node of each output.
@@ -88,48 +124,58 @@ impl Net {
         let activations =
             self.groups.iter().flat_map(|group| core::iter::repeat_n(group.activation, group.neurons as usize));
         let mut rest = self.sources.as_slice();
-        self.neurons.iter().zip(activations).map(move |(neuron, activation)| {
-            let (own, later) = rest.split_at(neuron.sources as usize);
+        let places = self.blocks.iter().flat_map(move |block| {
+            let (sources, later) = rest.split_at(block.sources as usize);
             rest = later;
-            Neuron { activation, scale: neuron.scale, bias: neuron.bias, sources: own.to_vec() }
+            (0..usize::from(block.neurons)).map(move |lane| (block.biases[lane], lane, sources))
+        });
+        places.zip(activations).zip(&self.scales).map(|(((bias, lane, sources), activation), &scale)| {
+            let sources = sources.iter().map(|source| (source.node, source.weights[lane])).collect();
+            Neuron { activation, scale, bias, sources }
         })
     }
 
     /// Computes every neuron. `nodes` holds the inputs, and for each neuron what it put out in the frame before.
     pub(crate) fn activate(&self, nodes: &mut [f32]) {
-        let (mut first, mut source) = (self.inputs, 0);
-        let mut neurons = self.neurons.iter();
+        let mut first = self.inputs;
+        let (mut blocks, mut sources) = (self.blocks.as_slice(), self.sources.as_slice());
         for group in &self.groups {
             let last = first + group.neurons as usize;
-            for (node, neuron) in (first..last).zip(neurons.by_ref()) {
-                let next = source + neuron.sources as usize;
-                let sum = |sum, &(source, weight): &(u16, f32)| sum + weight * nodes[usize::from(source)];
-                nodes[node] = self.sources[source..next].iter().fold(neuron.bias, sum);
-                source = next;
+            let mut node = first;
+            let (own, later) = blocks.split_at(group.blocks as usize);
+            blocks = later;
+            for block in own {
+                let (own, later) = sources.split_at(block.sources as usize);
+                sources = later;
+                // Each neuron's sum in its own order: the bits are those it would have alone.
+                let mut sums = block.biases;
+                for source in own {
+                    let value = nodes[usize::from(source.node)];
+                    for (sum, weight) in sums.iter_mut().zip(source.weights) {
+                        *sum += weight * value;
+                    }
+                }
+                let next = node + usize::from(block.neurons);
+                nodes[node..next].iter_mut().zip(sums).for_each(|(node, sum)| *node = sum);
+                node = next;
             }
-            // Gives the bits that each alone would have.
             group.activation.apply_all(&mut nodes[first..last]);
-            let scales = &self.neurons[first - self.inputs..last - self.inputs];
-            nodes[first..last].iter_mut().zip(scales).for_each(|(node, neuron)| *node *= neuron.scale);
+            let scales = &self.scales[first - self.inputs..last - self.inputs];
+            nodes[first..last].iter_mut().zip(scales).for_each(|(node, scale)| *node *= scale);
             first = last;
         }
     }
 }
 
-/// As long as possible. A neuron hears no other of its group, so that sums may stand where outputs will.
-fn groups(inputs: usize, neurons: &[Neuron]) -> Vec<Group> {
-    let mut groups: Vec<Group> = Vec::new();
-    for (index, neuron) in neurons.iter().enumerate() {
-        let node = inputs + index;
+/// How many neurons from this one on make up a group: as many as possible. A neuron hears no other of its group, so that sums
+/// may stand where outputs will.
+fn group(inputs: usize, neurons: &[Neuron], first: usize) -> usize {
+    let activation = neurons[first].activation;
+    let belongs = |&(index, neuron): &(usize, &Neuron)| {
         // What the group has computed so far, and what it has not and must not lose.
-        let hears =
-            |first: usize| neuron.sources.iter().any(|&(source, _)| (first..=node).contains(&usize::from(source)));
-        match groups.last_mut() {
-            Some(group) if group.activation == neuron.activation && !hears(node - group.neurons as usize) => {
-                group.neurons += 1;
-            }
-            _ => groups.push(Group { activation: neuron.activation, neurons: 1 }),
-        }
-    }
-    groups
+        let own = inputs + first..=inputs + index;
+        neuron.activation == activation
+            && (index == first || !neuron.sources.iter().any(|&(source, _)| own.contains(&usize::from(source))))
+    };
+    neurons.iter().enumerate().skip(first).take_while(belongs).count()
 }

@@ -126,7 +126,7 @@ internal static class Check
         }
         AssertRefused(bytes.Take(bytes.Length - 1).ToArray(), "the file was cut or added to");
         AssertRefused(bytes.Take(20).ToArray(), "not a character of Gambol");
-        AssertRefused(Changed(bytes, 8, 3), "version 2 of the format; this player reads version 1");
+        AssertRefused(Changed(bytes, 8, 1), "version 3 of the format; this player reads version 2");
     }
 
     /// <summary>The mirror image does the same the other way.</summary>

@@ -136,7 +136,7 @@ func _check_damage():
 	_assert("cut or added to" in _refusal(_bytes.subarray(0, _bytes.size() - 2)), "a file that was cut is played")
 	_assert("not a character" in _refusal(_bytes.subarray(0, 19)), "half a header is played")
 	_assert("not a character" in _refusal(PoolByteArray()), "nothing is played")
-	_assert_equal(_refusal(_flipped(8, 3)), "version 2 of the format; this player reads version 1")
+	_assert_equal(_refusal(_flipped(8, 1)), "version 3 of the format; this player reads version 2")
 
 
 func _mirrored(part):

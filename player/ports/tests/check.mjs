@@ -73,8 +73,8 @@ function checkDamage() {
   assertRefused(bytes.subarray(0, bytes.length - 1), "the file was cut or added to");
   assertRefused(bytes.subarray(0, 20), "not a character of Gambol");
   const newer = bytes.slice();
-  newer[8] = 2;
-  assertRefused(newer, "version 2 of the format; this player reads version 1");
+  newer[8] = 3;
+  assertRefused(newer, "version 3 of the format; this player reads version 2");
 }
 
 /** The mirror image does the same the other way. */

@@ -6,7 +6,7 @@ use creatures::{Actuation, Probe, Shape};
 /// Reads a character's file.
 pub(super) fn read(bytes: &[u8]) -> Result<Character, FileError> {
     let (header, content) = bytes.split_at_checked(HEADER).ok_or(FileError::NotACharacter)?;
-    let mut file = Reader { rest: header, field: "header" };
+    let mut file = Reader { rest: header, field: "header", numbers: Vec::new() };
     if file.array::<8>()? != MAGIC {
         return Err(FileError::NotACharacter);
     }
@@ -21,7 +21,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Character, FileError> {
     if u64::from_le_bytes(file.array()?) != digest(content) {
         return Err(FileError::Digest);
     }
-    let mut file = Reader { rest: content, field: "name" };
+    let mut file = Reader { rest: content, field: "numbers", numbers: Vec::new() };
     let character = file.character()?;
     if !file.rest.is_empty() {
         return Err(FileError::Cut { field: "neurons" });
@@ -30,19 +30,24 @@ pub(super) fn read(bytes: &[u8]) -> Result<Character, FileError> {
     Ok(character)
 }
 
+const WHOLE: &str = "of whole numbers from 0 to 65535, in at most three bytes";
+
 struct Reader<'a> {
     rest: &'a [u8],
     /// What is read, for errors.
     field: &'static str,
+    /// The numbers that the rest of the file points at.
+    numbers: Vec<f32>,
 }
 
 /// The shortest records, in bytes: a count that promises more than the file holds is not believed.
-const SHORTEST_PART: usize = 31;
-const SHORTEST_HINGE: usize = 29;
-const OUTPUT: usize = 4;
-const INPUT: usize = 19;
-const SHORTEST_NEURON: usize = 11;
-const SOURCE: usize = 6;
+const NUMBER: usize = 4;
+const SHORTEST_PART: usize = 10;
+const SHORTEST_HINGE: usize = 9;
+const SHORTEST_OUTPUT: usize = 2;
+const SHORTEST_INPUT: usize = 6;
+const SHORTEST_NEURON: usize = 4;
+const SHORTEST_SOURCE: usize = 2;
 
 impl<'a> Reader<'a> {
     fn bytes(&mut self, count: usize) -> Result<&'a [u8], FileError> {
@@ -60,12 +65,24 @@ impl<'a> Reader<'a> {
         self.array().map(|[byte]| byte)
     }
 
+    /// Seven bits a byte, the lowest first; the eighth says that another byte follows.
     fn u16(&mut self) -> Result<u16, FileError> {
-        self.array().map(u16::from_le_bytes)
+        let mut whole = 0;
+        for place in 0..3 {
+            let byte = u32::from(self.u8()?);
+            whole |= (byte & 0x7f) << (7 * place);
+            if byte < 0x80 {
+                return u16::try_from(whole).or_else(|_| self.wrong(0, WHOLE));
+            }
+        }
+        self.wrong(0, WHOLE)
     }
 
+    /// One of the numbers at the beginning.
     fn f32(&mut self) -> Result<f32, FileError> {
-        self.array().map(f32::from_le_bytes)
+        let index = self.u16()?;
+        let number = self.numbers.get(usize::from(index)).copied();
+        number.map_or_else(|| self.wrong(0, "of numbers that are listed"), Ok)
     }
 
     fn f32s<const N: usize>(&mut self) -> Result<[f32; N], FileError> {
@@ -114,6 +131,8 @@ impl<'a> Reader<'a> {
     }
 
     fn character(&mut self) -> Result<Character, FileError> {
+        self.numbers = self.list("numbers", NUMBER, |file, _| file.array().map(f32::from_le_bytes))?;
+        self.field = "name";
         let name = self.text(0)?;
         self.field = "movement";
         let movement = self.text(0)?;
@@ -126,10 +145,10 @@ impl<'a> Reader<'a> {
             (1, gain) => Actuation::Angle { gain },
             _ => return self.wrong(0, "0 (speed) or 1 (angle)"),
         };
-        let outputs = self.list("outputs", OUTPUT, |file, _| Ok((file.u16()?, file.u16()?)))?;
+        let outputs = self.list("outputs", SHORTEST_OUTPUT, |file, _| Ok((file.u16()?, file.u16()?)))?;
         self.field = "input range";
         let input_range = self.f32()?;
-        let inputs = self.list("inputs", INPUT, Self::input)?;
+        let inputs = self.list("inputs", SHORTEST_INPUT, Self::input)?;
         let neurons = self.list("neurons", SHORTEST_NEURON, Self::neuron)?;
         let (outputs, nodes): (Vec<u16>, Vec<u16>) = outputs.into_iter().unzip();
         let Some(net) = Net::new(inputs.len(), &neurons, nodes) else {
@@ -195,7 +214,7 @@ impl<'a> Reader<'a> {
             return self.wrong(index, "an activation that this player knows");
         };
         let [scale, bias] = self.f32s()?;
-        let sources = self.list("neurons", SOURCE, |file, _| Ok((file.u16()?, file.f32()?)))?;
+        let sources = self.list("neurons", SHORTEST_SOURCE, |file, _| Ok((file.u16()?, file.f32()?)))?;
         Ok(Neuron { activation, scale, bias, sources })
     }
 }

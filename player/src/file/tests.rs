@@ -39,24 +39,52 @@ fn each_damage_is_named() {
         FileError::Length { expected: bytes.len() - 24, found: bytes.len() - 25 }
     );
     let mut newer = bytes.clone();
-    newer[8] = 2;
-    assert_eq!(error(&newer), FileError::Version { found: 2 });
+    newer[8] = 3;
+    assert_eq!(error(&newer), FileError::Version { found: 3 });
     let mut flipped = bytes.clone();
     flipped[60] ^= 4;
     assert_eq!(error(&flipped), FileError::Digest);
     assert_eq!(error(&with_content(|content| content.push(0))), FileError::Cut { field: "neurons" });
-    assert_eq!(error(&with_content(|content| content.truncate(3))), FileError::Cut { field: "name" });
-    for text in [error(b""), FileError::Version { found: 2 }, FileError::Digest, FileError::Cut { field: "name" }] {
+    assert_eq!(error(&with_content(|content| content.truncate(3))), FileError::Cut { field: "numbers" });
+    for text in [error(b""), FileError::Version { found: 3 }, FileError::Digest, FileError::Cut { field: "name" }] {
         assert!(!text.to_string().is_empty());
     }
 }
 
 #[test]
 fn counts_that_promise_too_much_are_not_believed() {
-    // The count of parts: behind name, movement and world.
-    let parts = 1 + "hopper".len() + 1 + "running".len() + 24 + 2;
-    let error = Character::from_bytes(&with_content(|content| content[parts..parts + 2].fill(0xff)));
-    assert_eq!(error, Err(FileError::Cut { field: "parts" }));
+    let content = example::example()[HEADER..].to_vec();
+    let numbers = usize::from(content[0]);
+    let count = |place: usize, bytes: &[u8]| {
+        let bytes = with_content(|content| {
+            content.splice(place..=place, bytes.iter().copied());
+        });
+        Character::from_bytes(&bytes).expect_err("damaged")
+    };
+    assert_eq!(count(0, &[0xff, 0xff, 3]), FileError::Cut { field: "numbers" });
+    // Behind the numbers, name, movement and world.
+    let parts = 1 + 4 * numbers + 1 + "hopper".len() + 1 + "running".len() + 6 + 2;
+    assert_eq!(count(parts, &[0xff, 0xff, 3]), FileError::Cut { field: "parts" });
+    for beyond in [&[0x80, 0x80, 4][..], &[0xff, 0xff, 0xff, 1]] {
+        let error = count(parts, beyond).to_string();
+        assert!(error.contains("parts") && error.contains("from 0 to 65535"), "{error}");
+    }
+    // The world's first number is none of those that are listed.
+    let error = count(parts - 8, &[numbers as u8]).to_string();
+    assert!(error.contains("world") && error.contains("listed"), "{error}");
+}
+
+/// Each number stands in the file once, and those that stand in most places have the shortest indices.
+#[test]
+fn numbers_are_listed_once() {
+    let bytes = example::example();
+    let [count, listed @ ..] = &bytes[HEADER..] else { panic!("there is content") };
+    let numbers: Vec<&[u8]> = listed.chunks(4).take((*count).into()).collect();
+    let mut distinct = numbers.clone();
+    distinct.sort_unstable();
+    distinct.dedup();
+    assert_eq!(distinct.len(), numbers.len());
+    assert!(numbers.contains(&&9.81_f32.to_le_bytes()[..]));
 }
 
 proptest! {

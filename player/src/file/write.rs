@@ -1,6 +1,7 @@
 use super::{HEADER, MAGIC, codes, digest};
 use crate::{Character, Facing, FileError, Hinge, Medium, Neuron, Part, VERSION};
-use alloc::vec::Vec;
+use alloc::{collections::BTreeMap, vec::Vec};
+use core::cmp::Reverse;
 use creatures::{Actuation, Probe, Shape};
 
 /// Writes a character's file.
@@ -9,7 +10,7 @@ pub(super) fn write(character: &Character) -> Result<Vec<u8>, FileError> {
     if character.facing == Facing::Left {
         return Err(FileError::Field { field: "facing", index: 0, allowed: "right, as it was trained" });
     }
-    let mut file = Writer(Vec::new());
+    let mut file = Writer::default();
     file.text(&character.name);
     file.text(&character.movement);
     file.world(character);
@@ -32,7 +33,7 @@ pub(super) fn write(character: &Character) -> Result<Vec<u8>, FileError> {
     }
     file.count(character.net.nodes() - character.net.inputs());
     character.net.neurons().for_each(|neuron| file.neuron(&neuron));
-    let content = file.0;
+    let content = file.content()?;
     let length = u32::try_from(content.len());
     let length = length.map_err(|_| FileError::Field { field: "file", index: 0, allowed: "below 4 GiB" })?;
     let mut whole = Vec::with_capacity(HEADER + content.len());
@@ -44,20 +45,58 @@ pub(super) fn write(character: &Character) -> Result<Vec<u8>, FileError> {
     Ok(whole)
 }
 
-struct Writer(Vec<u8>);
+/// The fields of a file before its numbers are listed.
+#[derive(Default)]
+struct Writer(Vec<Token>);
+
+enum Token {
+    Byte(u8),
+    Whole(u16),
+    /// The bits of a number that is listed.
+    Number(u32),
+}
 
 impl Writer {
+    /// The list of numbers, those first that stand in most places and so get the shortest indices, and all fields.
+    fn content(self) -> Result<Vec<u8>, FileError> {
+        let mut places: BTreeMap<u32, usize> = BTreeMap::new();
+        for token in &self.0 {
+            if let Token::Number(bits) = token {
+                *places.entry(*bits).or_default() += 1;
+            }
+        }
+        let mut listed: Vec<(u32, usize)> = places.into_iter().collect();
+        listed.sort_by_key(|&(bits, places)| (Reverse(places), bits));
+        let allowed = "at most 65535 that differ";
+        let length =
+            u16::try_from(listed.len()).map_err(|_| FileError::Field { field: "numbers", index: 0, allowed })?;
+        let index: BTreeMap<u32, u16> = listed.iter().map(|&(bits, _)| bits).zip(0..).collect();
+        let mut content = Vec::new();
+        push_whole(&mut content, length);
+        listed.iter().for_each(|(bits, _)| content.extend(bits.to_le_bytes()));
+        for token in self.0 {
+            match token {
+                Token::Byte(byte) => content.push(byte),
+                Token::Whole(whole) => push_whole(&mut content, whole),
+                Token::Number(bits) => push_whole(&mut content, index[&bits]),
+            }
+        }
+        Ok(content)
+    }
+
     fn bytes(&mut self, bytes: &[u8]) -> &mut Self {
-        self.0.extend_from_slice(bytes);
+        self.0.extend(bytes.iter().copied().map(Token::Byte));
         self
     }
 
-    fn u16(&mut self, number: u16) -> &mut Self {
-        self.bytes(&number.to_le_bytes())
+    fn u16(&mut self, whole: u16) -> &mut Self {
+        self.0.push(Token::Whole(whole));
+        self
     }
 
     fn f32(&mut self, number: f32) -> &mut Self {
-        self.bytes(&number.to_le_bytes())
+        self.0.push(Token::Number(number.to_bits()));
+        self
     }
 
     fn f32s<const N: usize>(&mut self, numbers: [f32; N]) -> &mut Self {
@@ -122,4 +161,13 @@ impl Writer {
             self.u16(node).f32(weight);
         }
     }
+}
+
+/// Seven bits a byte, the lowest first; the eighth says that another byte follows.
+fn push_whole(bytes: &mut Vec<u8>, mut whole: u16) {
+    while whole >= 0x80 {
+        bytes.push(whole as u8 | 0x80);
+        whole >>= 7;
+    }
+    bytes.push(whole as u8);
 }
