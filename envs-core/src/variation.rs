@@ -207,6 +207,12 @@ impl Variation {
         Self { pushes: 0.3, ..Self::NONE }
     }
 
+    /// The world of the settings with pushes of 0.4 m/s in the mean, between two thirds and four thirds of it: what a character of a
+    /// game has to bear.
+    pub const fn shoved() -> Self {
+        Self { pushes: 1.6 / 3.0, ..Self::NONE }
+    }
+
     /// Whether every trial has the same world.
     pub fn is_none(&self) -> bool {
         *self == Self::default()

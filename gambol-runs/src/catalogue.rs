@@ -121,6 +121,7 @@ impl Default for Catalogue<Variation> {
             .add("none", "every trial has the world of the settings", Variation::default())
             .add("near", "worlds about one per cent away", Variation::near())
             .add("pushed", "pushes of up to 0.3 m/s", Variation::pushed())
+            .add("shoved", "pushes of 0.27 to 0.53 m/s", Variation::shoved())
             .add("light", "friction, mass, start pose, pushes, and the hard half of other engines", Variation::light())
             .add("bumpy", "as light, with bumps of up to 2 cm and up to 8 solver iterations", Variation::bumpy())
             .add("strong", "more than bumpy, in everything", Variation::strong())

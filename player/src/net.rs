@@ -69,8 +69,7 @@ impl Net {
             return None;
         }
         let scales = neurons.iter().map(|neuron| neuron.scale).collect();
-        let mut net =
-            Self { inputs, scales, groups: Vec::new(), blocks: Vec::new(), sources: Vec::new(), outputs };
+        let mut net = Self { inputs, scales, groups: Vec::new(), blocks: Vec::new(), sources: Vec::new(), outputs };
         let mut first = 0;
         while first < neurons.len() {
             let group = group(inputs, neurons, first);

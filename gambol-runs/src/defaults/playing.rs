@@ -7,28 +7,30 @@ use ne_core::promotion::PromotionRule;
 use serde_json::{Map, Value, json};
 use tasks::{Commands, RandomCommands, TermSpec};
 
-/// 20 s, of which training has 10.
-const STEPS: (Option<u32>, Option<u32>) = (Some(1000), Some(500));
+/// 40 s, of which training has 10: a champion that falls after half a minute is none.
+const STEPS: (Option<u32>, Option<u32>) = (Some(2000), Some(500));
 
-/// What follows soundly after fewer steps of training is a lucky one.
-const LEAST_STEPS: u64 = 80_000_000;
-/// What does not follow after so many goes on all the same.
-const MOST_STEPS: u64 = 200_000_000;
+/// The fewest and the most steps in which it learns to move, to follow and to jump. What is usable after fewer is a lucky one; what
+/// is not after so many goes on all the same.
+const MOVE_STEPS: [u64; 2] = [20_000_000, 80_000_000];
+const FOLLOW_STEPS: [u64; 2] = [20_000_000, 150_000_000];
+const JUMP_STEPS: [u64; 2] = [20_000_000, 40_000_000];
+
+/// The share of holds in which it is told to stand, once it can move.
+const STANDING: f32 = 0.25;
 
 /// The turn of the jump clock, s: within half a second of the press a body has to crouch and to push off. With 1 s one search in
 /// four finds a jump in 12 million steps, with 0.5 or 0.65 s all do (tetrapod-2, four seeds each).
 const JUMP_CLOCK: f32 = 0.6;
 
-/// The fewest and the most steps in which it learns to jump.
-const JUMP_STEPS: [u64; 2] = [60_000_000, 150_000_000];
-
 /// How long the jump has the body, s: until it has landed.
 const JUMP_TURN: f32 = 1.2;
 
-/// First it learns to move as fast as it is told and to stand, by a clock that swings with the speed; and then to jump, by a
-/// clock that a press starts. What learns both at once learns one: what can jump stays where it is, and what runs does
-/// not dare to jump. And what learns to jump may forget to run: so the stride is held meanwhile. In the end all of it is searched,
-/// since a stride that is held has never landed.
+/// First it learns to move as fast as it is told, and nothing else: a body that has to balance, and may also stand, stands. Then it
+/// learns to stop and to stand, by a clock that swings with the speed; and then to jump, by a clock that a press starts. What
+/// learns both at once learns one: what can jump stays where it is, and what runs does not dare to jump. And what learns to jump
+/// may forget to run: so the stride is held meanwhile. In the end all of it is searched, since a stride that is held has never
+/// landed.
 pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let unknown = MovementDefaults::unknown(body);
     let mut wanted = vec![with(TermSpec::new("no-exploits", 0.0), "ends", true)];
@@ -44,17 +46,19 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![follow(), jump(), polish()],
+        stages: vec![move_on(), follow(), jump(), polish()],
         ..unknown
     }
 }
 
+fn move_on() -> StageSettings {
+    let changes = json!({ "commands": { "random": { "standing": 0.0 } } });
+    StageSettings { promotion: usable_within(MOVE_STEPS), ..stage("move", changes) }
+}
+
 fn follow() -> StageSettings {
-    let either = vec![
-        PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(LEAST_STEPS)]),
-        PromotionRule::Steps(MOST_STEPS),
-    ];
-    StageSettings { promotion: Some(PromotionRule::Any(either)), ..stage("follow", json!({})) }
+    let changes = json!({ "commands": { "random": { "standing": STANDING } } });
+    StageSettings { promotion: usable_within(FOLLOW_STEPS), ..stage("follow", changes) }
 }
 
 /// With the stride held, jumps are all there is to learn.
@@ -65,11 +69,7 @@ fn jump() -> StageSettings {
         "trials": { "count": 8, "lessons": true }
     });
     let add_sensors = [JUMP_CLOCK, JUMP_TURN].map(|period| Sensor::JumpClock { period }).into();
-    let either = vec![
-        PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(JUMP_STEPS[0])]),
-        PromotionRule::Steps(JUMP_STEPS[1]),
-    ];
-    let promotion = Some(PromotionRule::Any(either));
+    let promotion = usable_within(JUMP_STEPS);
     StageSettings { add_sensors, promotion, transfer: Some(Transferred::Held), ..stage("jump", changes) }
 }
 
@@ -77,6 +77,12 @@ fn jump() -> StageSettings {
 fn polish() -> StageSettings {
     let changes = json!({ "trials": { "count": 8, "lessons": false } });
     StageSettings { transfer: Some(Transferred::Champion), ..stage("polish", changes) }
+}
+
+/// Once the champion is usable, but not before the fewest of these steps; at the latest after the most.
+fn usable_within([fewest, most]: [u64; 2]) -> Option<PromotionRule> {
+    let usable = PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(fewest)]);
+    Some(PromotionRule::Any(vec![usable, PromotionRule::Steps(most)]))
 }
 
 fn stage(name: &str, changes: Value) -> StageSettings {

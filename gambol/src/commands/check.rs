@@ -89,6 +89,9 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
     if let Err(refusal) = LaneEngine::new(&blueprint, &world.0, &world.1, &world.2) {
         say!("  note: {refusal}; train it with --engine rapier")?;
     }
+    if blueprint.symmetry().is_none() {
+        say!("  note: it looks the same from both sides: what it learns one way, a game can play the other way")?;
+    }
     for warning in balance::warnings(&blueprint) {
         say!("  warning: {warning}")?;
     }

@@ -14,6 +14,7 @@ Examples:
   gambol robust runs/biped-1-running
   gambol robust champion.json --perturbations 1000 --seed 7 --json
   gambol robust runs/over-gaps --variation light
+  gambol robust runs/tetrapod-2-playing --variation shoved
 
 Worlds take turns in what is changed:
   bumps      mounds on the ground, up to 2 cm high; a terrain has none, and is laid out anew in every world

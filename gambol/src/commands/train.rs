@@ -78,7 +78,7 @@ pub(crate) struct Train {
     /// What steps the creatures in training: lanes (many at once) or rapier (one at a time); both give the same bits
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
-    /// How the world varies in training: none, near, pushed, physics, light (friction, mass, start pose, pushes, and the
+    /// How the world varies in training: none, near, pushed, shoved, physics, light (friction, mass, start pose, pushes, and the
     /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for two to
     /// four legs that run, else light; none with --preset thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]

@@ -19,7 +19,7 @@ const FLAGS: &[(&[&str], &[&str])] = &[
     (&["--target", "NaN"],       &["stop.target = NaN: must be a finite number"]),
     (&["--target", "-inf"],      &["stop.target = -inf: must be a finite number"]),
     (&["--engine", "lnaes"],     &["there is no engine \"lnaes\"; did you mean \"lanes\"? (there are: lanes, rapier)"]),
-    (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, near, pushed, light, bumpy, strong, physics)"]),
+    (&["--variation", "lihgt"],  &["there is no variation \"lihgt\"; did you mean \"light\"? (there are: none, near, pushed, shoved, light, bumpy, strong, physics)"]),
     (&["--terrain", "gasp"],     &["there is no terrain \"gasp\"; did you mean \"gaps\"? (there are: flat, gaps, "]),
     (&["--terrain", "gaps:2"],   &["terrain.difficulty = 2: must be from 0 to 1"]),
     (&["--terrain", "gaps:x"],   &["terrain \"gaps:x\": \"x\" is no difficulty; write it as in gaps:0.5"]),

@@ -9,7 +9,9 @@ use serde::Deserialize;
 /// Each moment counts from 0 to 1. Half of it is for the way to go: it falls in proportion to the error, to 0 at an error of 1
 /// body length a second plus the commanded speed. The other half is for being there: it is 1 without an error, and a half of
 /// that at 0.1 body lengths a second plus a tenth of the commanded speed. The speed is that of the torso, forwards, smoothed over
-/// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about.
+/// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about. And a body on legs that carries
+/// its torso at 0.85 of its start height or higher, on flat ground, counts double one that has bent them to 0.6: what crouches
+/// has nothing left to jump with.
 ///
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
@@ -28,6 +30,8 @@ pub struct Playing {
     enough: f64,
     /// m/s².
     gravity: f64,
+    /// Height of the torso at the start, m; `None` where it may be carried at any height.
+    tall: Option<f64>,
     /// Height of the centre of mass at the start, and now, m.
     rest: f64,
     centre: f64,
@@ -92,6 +96,10 @@ const TOGETHER: f64 = 0.1;
 const APART: f64 = 0.25;
 /// At this speed of its fastest part, in body lengths a second, a standing body is half as still as can be.
 const RESTLESS: f64 = 0.3;
+/// A torso at this share of its start height is carried high enough...
+const TALL: f64 = 0.85;
+/// ...and at this one, on legs that are bent, it counts half.
+const BENT: f64 = 0.6;
 
 impl Default for Playing {
     fn default() -> Self {
@@ -103,6 +111,7 @@ impl Default for Playing {
             others: Vec::new(),
             enough: ENOUGH,
             gravity: 9.81,
+            tall: None,
             rest: 0.0,
             centre: 0.0,
             time: 0.0,
@@ -133,7 +142,15 @@ impl Playing {
         let near = 1.0 - error / (1.0 + wanted.abs());
         let there = error / (0.1 + 0.1 * wanted.abs());
         let follows = 0.5 * near.max(0.0) + 0.5 / (1.0 + there * there);
-        if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) } else { follows }
+        let follows = if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) } else { follows };
+        follows * self.carried(now)
+    }
+
+    /// What counts of a moment with the torso at its height, 0.5 to 1.
+    fn carried(&self, now: &Snapshot) -> f64 {
+        let Some(tall) = self.tall else { return 1.0 };
+        let share = f64::from(now.torso().y) / tall;
+        0.5 + 0.5 * ((share - BENT) / (TALL - BENT)).clamp(0.0, 1.0)
     }
 
     /// The jump that is due if the button was pressed at this moment.
@@ -203,6 +220,7 @@ impl Movement for Playing {
         self.masses = body.parts.iter().map(|part| part.mass.into()).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
         self.others = if body.legless { Vec::new() } else { body.parts_without_feet() };
+        self.tall = (!body.legless && !body.uneven_ground).then_some(body.start_height.into());
         self.left = vec![f64::INFINITY; self.feet.len()];
         let enough = match body.legless {
             true => ENOUGH_LEGLESS * self.body_length,
@@ -264,8 +282,11 @@ mod tests {
     const STEP: f32 = 0.02;
 
     /// What a body of one part does that moves at this speed and this height above its start, told this, at each step.
-    fn played(seconds: f32, mut at: impl FnMut(f32) -> (f32, f32, Command)) -> f64 {
-        let mut movement = Playing::default();
+    fn played(seconds: f32, at: impl FnMut(f32) -> (f32, f32, Command)) -> f64 {
+        played_by(Playing::default(), seconds, at)
+    }
+
+    fn played_by(mut movement: Playing, seconds: f32, mut at: impl FnMut(f32) -> (f32, f32, Command)) -> f64 {
         let mut x = 0.0;
         let mut snapshot = |step: u32| {
             let time = step as f32 * STEP;
@@ -300,6 +321,24 @@ mod tests {
             let of = |error: f32| played(5.0, |_| (wanted + error, 0.0, told(wanted)));
             let worths: Vec<f64> = [0.0, 0.05, 0.1, 0.3, 0.6, 1.0].map(of).to_vec();
             assert!(worths.is_sorted_by(|one, other| one > other), "{wanted}: {worths:?}");
+        }
+    }
+
+    /// On flat ground, by a body that starts at a height of 1 m.
+    #[test]
+    fn a_body_on_bent_legs_counts_half() {
+        let stands = |at: f32, body: &Body| {
+            let mut movement = Playing::default();
+            movement.bind(body);
+            played_by(movement, 5.0, |_| (0.0, at - 1.0, told(0.0)))
+        };
+        let body = Body { body_length: 1.0, start_height: 1.0, ..Body::default() };
+        let worths = [1.0, 0.85, 0.725, 0.6, 0.3].map(|at| stands(at, &body) / stands(1.0, &body));
+        for (worth, wanted) in worths.iter().zip([1.0, 1.0, 0.75, 0.5, 0.5]) {
+            assert!((worth - wanted).abs() < 1e-3, "{worths:?}");
+        }
+        for other in [Body { uneven_ground: true, ..body.clone() }, Body { legless: true, ..body.clone() }] {
+            assert_eq!(stands(0.5, &other), stands(1.0, &other));
         }
     }
 

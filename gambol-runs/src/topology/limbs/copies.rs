@@ -34,7 +34,7 @@ pub(crate) fn copies(
     controller: &ControllerSettings,
     phases: LimbPhases,
 ) -> LimbCopies {
-    let limbs = limbs(blueprint, phases);
+    let limbs = limbs(blueprint, senses, phases);
     let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
     let places = places(&limbs);
     let sensed: Vec<Vec<(String, CopySense)>> =

@@ -1,4 +1,4 @@
-use super::*;
+use super::{limb::phases_of, *};
 use crate::Registry;
 use creatures::{Creature, Joint, Motor, Part, Sensor, Shape};
 use ne_core::Phenotype;
@@ -47,7 +47,8 @@ impl Made {
         let config = Registry::default().config("default", blueprint.creature().clone(), "running").expect("a preset");
         let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
         let Limbs { topology: shape, names } = topology(blueprint, &senses, &motors, &controller, phases);
-        Self { name: blueprint.name().into(), senses, motors, limbs: limbs(blueprint, phases), shape, names }
+        let limbs = limbs(blueprint, &senses, phases);
+        Self { name: blueprint.name().into(), senses, motors, limbs, shape, names }
     }
 
     /// The ties of each limb's copy, as they follow each other.
@@ -257,6 +258,25 @@ fn legs_beside_each_other_and_next_to_each_other_along_the_body_are_half_a_turn_
     assert_eq!(phases_of(&[back, front], LimbPhases::Alternating, true), [0.0, 0.0]);
 }
 
+/// Otherwise both legs of a biped do the same when it is told to stand.
+#[test]
+fn where_the_clock_stops_legs_that_hang_from_one_place_are_told_apart() {
+    let places = |name: &str, clock: Sensor| {
+        let blueprint = Blueprint::new(creatures::find(name).expect("shipped")).expect("valid");
+        let senses = Senses::new(&blueprint, &[clock], 1.0).expect("every body can hear a clock");
+        let limbs = limbs(&blueprint, &senses, LimbPhases::Alternating);
+        limbs.iter().map(|limb| limb.place).collect::<Vec<f32>>()
+    };
+    let (stops, runs_on) = (Sensor::StrideClock { period: 0.5, top: 1.5 }, Sensor::Clock { period: 0.5 });
+    for biped in ["biped-1", "biped-2"] {
+        assert_eq!(places(biped, stops.clone()), [-1.0, 1.0], "{biped}");
+        assert_eq!(places(biped, runs_on.clone()), [0.0, 0.0], "{biped}");
+    }
+    for other in ["tetrapod-1", "decapod-2", "apod"] {
+        assert_eq!(places(other, stops.clone()), places(other, runs_on.clone()), "{other}: places differ");
+    }
+}
+
 /// What bends a caterpillar up before its middle turns the other way behind it.
 #[test]
 fn the_joints_of_apods_behind_the_torso_are_mirrored() {
@@ -307,11 +327,10 @@ fn hanging(chain: &[(&str, &str, &str, bool)]) -> Blueprint {
 /// The hinges of each limb, and the names of its parts.
 fn limbs_of(blueprint: &Blueprint) -> Vec<(Vec<usize>, Vec<&str>, usize)> {
     let names = |parts: &[usize]| parts.iter().map(|&part| blueprint.parts()[part].name.as_str()).collect();
-    let limbs = limbs(blueprint, LimbPhases::Alternating);
     let made = Made::new(blueprint, LimbPhases::Alternating);
     assert_eq!(made.shape.validate(), Ok(()));
     assert!(made.shape.net.outputs.iter().all(|&output| output >= made.shape.net.inputs));
-    limbs.iter().map(|limb| (limb.hinges.clone(), names(&limb.parts), limb.kind)).collect()
+    made.limbs.iter().map(|limb| (limb.hinges.clone(), names(&limb.parts), limb.kind)).collect()
 }
 
 #[test]

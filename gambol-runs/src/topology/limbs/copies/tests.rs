@@ -35,7 +35,7 @@ fn copies_sense_and_do_what_those_of_a_given_net_do() {
         for phases in [LimbPhases::Alternating, LimbPhases::Together] {
             let given = super::super::topology(&blueprint, &senses, &motors, &controller, phases);
             let found = copies(&blueprint, &senses, &motors, &controller, phases);
-            let own = 1 + limbs(&blueprint, phases).len();
+            let own = 1 + limbs(&blueprint, &senses, phases).len();
             let has_places = found.inputs.iter().any(|name| name == "place");
             let is_left_out = |name: &String| name.ends_with(": place") && !has_places;
             let gene = |(index, name): (usize, &String)| match index < own || is_left_out(name) {
@@ -79,7 +79,7 @@ fn a_wave_runs_along_bodies_with_many_limbs() {
     let (senses, motors, controller) = body(&blueprint);
     let made = copies(&blueprint, &senses, &motors, &controller, LimbPhases::Together);
     let name_of = |name: &str| made.inputs.iter().position(|known| known.ends_with(name)).expect("there");
-    let limbs = limbs(&blueprint, LimbPhases::Together);
+    let limbs = limbs(&blueprint, &senses, LimbPhases::Together);
     let clock =
         senses.probes().iter().position(|probe| matches!(probe.source, Source::ClockSine { .. })).expect("a clock");
     for (limb, copy) in limbs.iter().zip(&made.topology.copies.copies) {
