@@ -1,4 +1,4 @@
-use super::{Movement, Verdict};
+use super::{Movement, Verdict, upright::Turn};
 use crate::{Body, Command, Snapshot};
 use ne_core::SettingError;
 use serde::Deserialize;
@@ -11,13 +11,13 @@ use serde::Deserialize;
 /// that at 0.1 body lengths a second plus a tenth of the commanded speed. The speed is that of the torso, forwards, smoothed over
 /// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about. And a body on legs that carries
 /// its torso at 0.85 of its start height or higher, on flat ground, counts double one that has bent them to 0.6: what crouches
-/// has nothing left to jump with.
+/// has nothing left to jump with. Likewise one whose torso is tilted by at most 20° counts double one that is tilted by 45°.
 ///
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
 /// so that a search is drawn towards a push-off before anything leaves the ground. Of legs that leave the ground one after the other less counts: nothing where they do so
-/// 0.25 s apart; and of a jump in which anything but a foot touches the ground 0.4.
+/// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
 #[derive(Clone, Debug)]
 pub struct Playing {
     jump_worth: f64,
@@ -30,8 +30,10 @@ pub struct Playing {
     enough: f64,
     /// m/s².
     gravity: f64,
+    legless: bool,
     /// Height of the torso at the start, m; `None` where it may be carried at any height.
     tall: Option<f64>,
+    turn: Turn,
     /// Height of the centre of mass at the start, and now, m.
     rest: f64,
     centre: f64,
@@ -69,8 +71,8 @@ struct Jump {
     flight: Option<f64>,
     /// What it is worth so far, 0 to 1.
     worth: f64,
-    /// Whether a part that is no foot has touched the ground.
-    brushed: bool,
+    /// Whether a part that is no foot has touched the ground, or the torso was tilted too far.
+    spoilt: bool,
     /// Whether the body has come down again.
     landed: bool,
 }
@@ -88,8 +90,10 @@ const ENOUGH_LEGLESS: f64 = 0.3;
 const LEAST_RISE: f64 = 0.06;
 /// What counts of the rise that is promised on the ground.
 const PROMISED: f64 = 0.4;
-/// What counts of a jump in which a part that is no foot touches the ground.
-const BRUSHED: f64 = 0.4;
+/// What counts of a jump in which a part that is no foot touches the ground, or the torso is tilted...
+const SPOILT: f64 = 0.4;
+/// ...by more than this, rad.
+const TILTED_JUMP: f64 = 35.0 * DEGREE;
 /// Legs that push off within this of each other push off together, s...
 const TOGETHER: f64 = 0.1;
 /// ...and so far apart they do not jump.
@@ -100,6 +104,11 @@ const RESTLESS: f64 = 0.3;
 const TALL: f64 = 0.85;
 /// ...and at this one, on legs that are bent, it counts half.
 const BENT: f64 = 0.6;
+/// A torso that is tilted by no more than this is upright, rad...
+const UPRIGHT: f64 = 20.0 * DEGREE;
+/// ...and at this it counts half.
+const TILTED: f64 = 45.0 * DEGREE;
+const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
 impl Default for Playing {
     fn default() -> Self {
@@ -111,7 +120,9 @@ impl Default for Playing {
             others: Vec::new(),
             enough: ENOUGH,
             gravity: 9.81,
+            legless: false,
             tall: None,
+            turn: Turn::default(),
             rest: 0.0,
             centre: 0.0,
             time: 0.0,
@@ -146,16 +157,24 @@ impl Playing {
         follows * self.carried(now)
     }
 
-    /// What counts of a moment with the torso at its height, 0.5 to 1.
+    /// What counts of a moment with the torso at its height and tilted as it is, 0.25 to 1.
     fn carried(&self, now: &Snapshot) -> f64 {
-        let Some(tall) = self.tall else { return 1.0 };
-        let share = f64::from(now.torso().y) / tall;
-        0.5 + 0.5 * ((share - BENT) / (TALL - BENT)).clamp(0.0, 1.0)
+        let half_at = |place: f64| 0.5 + 0.5 * place.clamp(0.0, 1.0);
+        let height = match self.tall {
+            Some(tall) => half_at((f64::from(now.torso().y) / tall - BENT) / (TALL - BENT)),
+            None => 1.0,
+        };
+        height * half_at((TILTED - self.tilt()) / (TILTED - UPRIGHT))
+    }
+
+    /// How far the torso is turned from its start, rad; 0 for a body without legs.
+    fn tilt(&self) -> f64 {
+        if self.legless { 0.0 } else { f64::from(self.turn.angle).abs() }
     }
 
     /// The jump that is due if the button was pressed at this moment.
     fn pressed(&self) -> Option<Jump> {
-        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, brushed: false, landed: false };
+        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, spoilt: false, landed: false };
         (self.command.since_press == 0.0).then_some(jump)
     }
 
@@ -180,6 +199,7 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
+        let tilted = self.tilt() > TILTED_JUMP;
         let Some(jump) = &mut self.jump else { return };
         let (share, rise) = match now.aloft() {
             true => {
@@ -198,9 +218,9 @@ impl Playing {
             }
         };
         jump.worth = jump.worth.max(share * (rise / self.enough).clamp(0.0, 1.0));
-        jump.brushed |= self.others.iter().any(|&part| now.parts[part].touching);
+        jump.spoilt |= tilted || self.others.iter().any(|&part| now.parts[part].touching);
         if time - jump.pressed >= JUMP_SECONDS {
-            self.jumped += self.jump_worth * jump.worth * if jump.brushed { BRUSHED } else { 1.0 };
+            self.jumped += self.jump_worth * jump.worth * if jump.spoilt { SPOILT } else { 1.0 };
             self.jump = None;
         }
     }
@@ -220,6 +240,7 @@ impl Movement for Playing {
         self.masses = body.parts.iter().map(|part| part.mass.into()).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
         self.others = if body.legless { Vec::new() } else { body.parts_without_feet() };
+        self.legless = body.legless;
         self.tall = (!body.legless && !body.uneven_ground).then_some(body.start_height.into());
         self.left = vec![f64::INFINITY; self.feet.len()];
         let enough = match body.legless {
@@ -235,6 +256,7 @@ impl Movement for Playing {
         self.centre = self.rest;
         (self.time, self.speed, self.command) = (start.time.into(), 0.0, start.command);
         (self.followed, self.jumped) = (0.0, 0.0);
+        self.turn = Turn::from(start.torso());
         self.jump = self.pressed();
         self.left.fill(f64::INFINITY);
     }
@@ -251,6 +273,7 @@ impl Movement for Playing {
                 *left = time;
             }
         }
+        self.turn.follow(now.torso());
         let before = self.centre;
         self.centre = self.centre_of(now);
         let upwards = if step > 0.0 { (self.centre - before) / step } else { 0.0 };
@@ -322,6 +345,27 @@ mod tests {
             let worths: Vec<f64> = [0.0, 0.05, 0.1, 0.3, 0.6, 1.0].map(of).to_vec();
             assert!(worths.is_sorted_by(|one, other| one > other), "{wanted}: {worths:?}");
         }
+    }
+
+    #[test]
+    fn a_tilted_body_counts_half() {
+        let stands = |degrees: f32, legless: bool| {
+            let mut movement = Playing::default();
+            movement.bind(&Body { body_length: 1.0, legless, uneven_ground: true, ..Body::default() });
+            let snapshot = |step: u32, degrees: f32| {
+                let (sin, cos) = degrees.to_radians().sin_cos();
+                let part = PartState { y: 1.0, cos, sin, touching: true, ..PartState::default() };
+                Snapshot { time: step as f32 * STEP, parts: vec![part], ..Snapshot::default() }
+            };
+            movement.begin(&snapshot(0, 0.0));
+            (1..=250).for_each(|step| assert_eq!(movement.observe(&snapshot(step, degrees)), Verdict::GoOn));
+            movement.value()
+        };
+        let worths = [0.0, 20.0, 32.5, -45.0, 90.0].map(|degrees| stands(degrees, false) / stands(0.0, false));
+        for (worth, wanted) in worths.iter().zip([1.0, 1.0, 0.75, 0.5, 0.5]) {
+            assert!((worth - wanted).abs() < 1e-3, "{worths:?}");
+        }
+        assert_eq!(stands(90.0, true), stands(0.0, true), "what has no legs may roll");
     }
 
     /// On flat ground, by a body that starts at a height of 1 m.
