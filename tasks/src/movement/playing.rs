@@ -9,14 +9,16 @@ use serde::Deserialize;
 /// Each moment counts from 0 to 1. Half of it is for the way to go: it falls in proportion to the error, to 0 at an error of 1
 /// body length a second plus the commanded speed. The other half is for being there: it is 1 without an error, and a half of
 /// that at 0.1 body lengths a second plus a tenth of the commanded speed. The speed is that of the torso, forwards, smoothed over
-/// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about. And a body on legs that carries
+/// 0.25 s. Told to stand, a body in which nothing moves counts double one whose parts move about. And if it has legs, one that carries
 /// its torso at 0.85 of its start height or higher, on flat ground, counts double one that has bent them to 0.6: what crouches
-/// has nothing left to jump with. Likewise one whose torso is tilted by at most 20° counts double one that is tilted by 45°.
+/// has nothing left to jump with. Standing or moving, a body on legs whose torso is tilted by at most 20° counts double one that is
+/// tilted by 45°.
 ///
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
-/// so that a search is drawn towards a push-off before anything leaves the ground. Of legs that leave the ground one after the other less counts: nothing where they do so
+/// so that a search is drawn towards a push-off before anything leaves the ground. A jump that goes on at the commanded speed counts
+/// double one that goes nowhere near it. Of legs that leave the ground one after the other less counts: nothing where they do so
 /// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
 #[derive(Clone, Debug)]
 pub struct Playing {
@@ -149,27 +151,32 @@ impl Playing {
     /// How much a moment counts, 0 to 1.
     fn follows(&self, now: &Snapshot) -> f64 {
         let wanted = f64::from(self.command.speed);
-        let error = (self.speed / self.body_length - wanted).abs();
-        let near = 1.0 - error / (1.0 + wanted.abs());
-        let there = error / (0.1 + 0.1 * wanted.abs());
-        let follows = 0.5 * near.max(0.0) + 0.5 / (1.0 + there * there);
-        let follows = if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) } else { follows };
-        follows * self.carried(now)
+        let there = self.error() / (0.1 + 0.1 * wanted.abs());
+        let follows = 0.5 * self.near() + 0.5 / (1.0 + there * there);
+        let follows = follows * half_at((TILTED - self.tilt()) / (TILTED - UPRIGHT));
+        if wanted == 0.0 { 0.5 * follows * (1.0 + self.stillness(now)) * self.tallness(now) } else { follows }
     }
 
-    /// What counts of a moment with the torso at its height and tilted as it is, 0.25 to 1.
-    fn carried(&self, now: &Snapshot) -> f64 {
-        let half_at = |place: f64| 0.5 + 0.5 * place.clamp(0.0, 1.0);
-        let height = match self.tall {
-            Some(tall) => half_at((f64::from(now.torso().y) / tall - BENT) / (TALL - BENT)),
-            None => 1.0,
-        };
-        height * half_at((TILTED - self.tilt()) / (TILTED - UPRIGHT))
+    /// What counts of standing with the torso at its height, 0.5 to 1. Not of moving: a biped that has to do it on straight legs
+    /// does not find a quick stride.
+    fn tallness(&self, now: &Snapshot) -> f64 {
+        let of = |tall: f64| half_at((f64::from(now.torso().y) / tall - BENT) / (TALL - BENT));
+        self.tall.map_or(1.0, of)
     }
 
     /// How far the torso is turned from its start, rad; 0 for a body without legs.
     fn tilt(&self) -> f64 {
         if self.legless { 0.0 } else { f64::from(self.turn.angle).abs() }
+    }
+
+    /// How near the speed is to the commanded one, 0 to 1.
+    fn near(&self) -> f64 {
+        (1.0 - self.error() / (1.0 + f64::from(self.command.speed).abs())).max(0.0)
+    }
+
+    /// How far off the commanded speed is, body lengths/s.
+    fn error(&self) -> f64 {
+        (self.speed / self.body_length - f64::from(self.command.speed)).abs()
     }
 
     /// The jump that is due if the button was pressed at this moment.
@@ -199,7 +206,7 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
-        let tilted = self.tilt() > TILTED_JUMP;
+        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, 0.5 + 0.5 * self.near());
         let Some(jump) = &mut self.jump else { return };
         let (share, rise) = match now.aloft() {
             true => {
@@ -217,13 +224,18 @@ impl Playing {
                 (PROMISED, rising)
             }
         };
-        jump.worth = jump.worth.max(share * (rise / self.enough).clamp(0.0, 1.0));
+        jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));
         jump.spoilt |= tilted || self.others.iter().any(|&part| now.parts[part].touching);
         if time - jump.pressed >= JUMP_SECONDS {
             self.jumped += self.jump_worth * jump.worth * if jump.spoilt { SPOILT } else { 1.0 };
             self.jump = None;
         }
     }
+}
+
+/// Half at 0, all at 1.
+fn half_at(place: f64) -> f64 {
+    0.5 + 0.5 * place.clamp(0.0, 1.0)
 }
 
 impl Movement for Playing {
@@ -408,6 +420,22 @@ mod tests {
         assert!((1.1..1.6).contains(&half), "{half}");
         assert!(late < 0.5 * whole, "{late}");
         assert!(none.abs() < 0.1, "{none}");
+    }
+
+    /// Told to run at 1 body length a second, and in the air from 0.2 to 0.8 s.
+    #[test]
+    fn a_jump_that_goes_on_counts_more() {
+        let flies = |speed: f32| {
+            played(1.5, |time| {
+                let place = (time - 0.2) / 0.6;
+                let aloft = (0.0..1.0).contains(&place);
+                let height = if aloft { 2.0 * place * (1.0 - place) } else { 0.0 };
+                let speed = if time > 0.9 { 1.0 } else { speed };
+                (speed, height, Command { speed: 1.0, jump: time < 0.2, since_press: time })
+            })
+        };
+        let worths = [1.0, 0.3, -0.5].map(flies);
+        assert!(worths.is_sorted_by(|one, other| one > other), "{worths:?}");
     }
 
     #[test]
