@@ -178,3 +178,52 @@ fn group(inputs: usize, neurons: &[Neuron], first: usize) -> usize {
     };
     neurons.iter().enumerate().skip(first).take_while(belongs).count()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec;
+    use proptest::prelude::*;
+
+    const INPUTS: usize = 3;
+
+    /// Neurons of which many hear the same nodes, some nodes that are computed later, and themselves.
+    fn neurons() -> impl Strategy<Value = Vec<Neuron>> {
+        let activation = prop_oneof![Just(Activation::Tanh), Just(Activation::Tanh), Just(Activation::Relu)];
+        let neuron = (activation, 0..3_usize, prop::collection::vec(-1.0..1.0_f32, 6));
+        prop::collection::vec(neuron, 1..20).prop_map(|made| {
+            let nodes = (INPUTS + made.len()) as u16;
+            let heard = |kind: usize| [vec![0, 1, 2], vec![2, nodes / 2, nodes - 1], vec![nodes - 1, 0]][kind].clone();
+            let neuron = |(activation, kind, numbers): (Activation, usize, Vec<f32>)| Neuron {
+                activation,
+                scale: 1.0 + numbers[0],
+                bias: numbers[1],
+                sources: heard(kind).into_iter().zip(numbers[2..].iter().copied()).collect(),
+            };
+            made.into_iter().map(neuron).collect()
+        })
+    }
+
+    proptest! {
+        /// However they are put together, they put out the bits that each alone would, one after the other.
+        #[test]
+        fn neurons_are_computed_as_if_one_after_the_other(neurons in neurons(), inputs in prop::array::uniform3(-1.0..1.0_f32)) {
+            let net = Net::new(INPUTS, &neurons, vec![0]).expect("the sources are nodes");
+            prop_assert_eq!(net.neurons().collect::<Vec<_>>(), neurons.clone());
+            let mut found = vec![0.0; net.nodes()];
+            let mut expected = found.clone();
+            for frame in 0..4 {
+                for nodes in [&mut found, &mut expected] {
+                    nodes[..INPUTS].copy_from_slice(&inputs.map(|input| input * (1 + frame) as f32));
+                }
+                net.activate(&mut found);
+                for (index, neuron) in neurons.iter().enumerate() {
+                    let sum = |sum: f32, &(node, weight): &(u16, f32)| sum + weight * expected[usize::from(node)];
+                    let sum = neuron.sources.iter().fold(neuron.bias, sum);
+                    expected[INPUTS + index] = neuron.scale * neuron.activation.apply(sum);
+                }
+                prop_assert_eq!(&found, &expected);
+            }
+        }
+    }
+}

@@ -163,6 +163,9 @@ fn pushes_go_either_way_from_half_to_full_size_every_two_to_four_seconds() {
         }
     }
     assert!(forwards.abs() < 200, "of 2000, {forwards} more forwards than backwards");
+    let shoves = Variation::shoved().draw(Seed::of_run(1), 1).pushes;
+    let mean = shoves.iter().map(|push| push.velocity.abs()).sum::<f32>() / shoves.len() as f32;
+    assert!((0.35..0.45).contains(&mean), "{mean} m/s in the mean");
 }
 
 #[test]

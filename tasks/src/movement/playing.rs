@@ -25,6 +25,7 @@ pub struct Playing {
     jump_worth: f64,
     body_length: f64,
     masses: Vec<f64>,
+    /// Empty for a body without legs.
     feet: Vec<usize>,
     /// Parts that are no feet, of a body with legs.
     others: Vec<usize>,
@@ -32,7 +33,6 @@ pub struct Playing {
     enough: f64,
     /// m/s².
     gravity: f64,
-    legless: bool,
     /// Height of the torso at the start, m; `None` where it may be carried at any height.
     tall: Option<f64>,
     turn: Turn,
@@ -122,7 +122,6 @@ impl Default for Playing {
             others: Vec::new(),
             enough: ENOUGH,
             gravity: 9.81,
-            legless: false,
             tall: None,
             turn: Turn::default(),
             rest: 0.0,
@@ -166,7 +165,7 @@ impl Playing {
 
     /// How far the torso is turned from its start, rad; 0 for a body without legs.
     fn tilt(&self) -> f64 {
-        if self.legless { 0.0 } else { f64::from(self.turn.angle).abs() }
+        if self.feet.is_empty() { 0.0 } else { f64::from(self.turn.angle).abs() }
     }
 
     /// How near the speed is to the commanded one, 0 to 1.
@@ -252,8 +251,8 @@ impl Movement for Playing {
         self.masses = body.parts.iter().map(|part| part.mass.into()).collect();
         self.feet = if body.legless { Vec::new() } else { body.feet().collect() };
         self.others = if body.legless { Vec::new() } else { body.parts_without_feet() };
-        self.legless = body.legless;
-        self.tall = (!body.legless && !body.uneven_ground).then_some(body.start_height.into());
+        let height = f64::from(body.start_height);
+        self.tall = (!body.legless && !body.uneven_ground && height > 0.0).then_some(height);
         self.left = vec![f64::INFINITY; self.feet.len()];
         let enough = match body.legless {
             true => ENOUGH_LEGLESS * self.body_length,
@@ -363,7 +362,8 @@ mod tests {
     fn a_tilted_body_counts_half() {
         let stands = |degrees: f32, legless: bool| {
             let mut movement = Playing::default();
-            movement.bind(&Body { body_length: 1.0, legless, uneven_ground: true, ..Body::default() });
+            let parts = vec![crate::BodyPart::default()];
+            movement.bind(&Body { body_length: 1.0, parts, legs: vec![vec![0]], legless, ..Body::default() });
             let snapshot = |step: u32, degrees: f32| {
                 let (sin, cos) = degrees.to_radians().sin_cos();
                 let part = PartState { y: 1.0, cos, sin, touching: true, ..PartState::default() };
@@ -393,6 +393,7 @@ mod tests {
         for (worth, wanted) in worths.iter().zip([1.0, 1.0, 0.75, 0.5, 0.5]) {
             assert!((worth - wanted).abs() < 1e-3, "{worths:?}");
         }
+        assert_eq!(stands(1.0, &Body { start_height: 0.0, ..body.clone() }), stands(1.0, &body), "no height is known");
         for other in [Body { uneven_ground: true, ..body.clone() }, Body { legless: true, ..body.clone() }] {
             assert_eq!(stands(0.5, &other), stands(1.0, &other));
         }
