@@ -19,6 +19,10 @@ pub struct StageSettings {
     /// Sensors added to those of the stage before.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub add_sensors: Vec<Sensor>,
+    /// Whether the worlds of this stage vary no more than [near ones](envs_core::Variation::near), whatever the configuration says:
+    /// what is hard to find is found there first. The next stage has those of the configuration again.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub near: bool,
     /// When the stage is passed. Only the last may have none: it goes on until the run ends.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub promotion: Option<PromotionRule>,

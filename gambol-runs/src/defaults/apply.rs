@@ -35,10 +35,10 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     if let Some(variation) = defaults.variation {
         config.variation = variation;
     }
-    if let Some(step_size) = defaults.step_size
-        && config.strategy.settings().contains_key("step_size")
-    {
-        config.strategy.set("step_size", step_size);
+    for (name, value) in defaults.strategy {
+        if config.strategy.settings().contains_key(&name) {
+            config.strategy.set(&name, value);
+        }
     }
     // What lanes refuse is trained in rapier rather than not at all.
     if config.creature.self_collision {

@@ -2,6 +2,7 @@
 
 use super::{BodyFacts, MovementDefaults, terms, with};
 use crate::config::LimbPhases;
+use serde_json::Map;
 
 /// 5 s: a jump and its landing.
 pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
@@ -20,7 +21,7 @@ pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
         terms,
         // Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves
         // the ground and lands.
-        step_size: Some(0.2),
+        strategy: Map::from_iter([("step_size".to_owned(), 0.2.into())]),
         // Two legs without knees take off as they have landed, and no two of their jumps last equally long: the next begins
         // when they have landed, and not by the clock. Knees make up for it by themselves, and more legs, whose clocks run
         // ahead of each other by genes, get worse by it.

@@ -18,6 +18,7 @@ pub use apply::{apply, steps};
 
 use crate::config::{LimbPhases, StageSettings};
 use envs_rapier::Variation;
+use serde_json::{Map, Value};
 use std::{collections::BTreeMap, fmt, sync::Arc};
 use tasks::{Commands, TermSpec};
 
@@ -72,8 +73,8 @@ pub struct MovementDefaults {
     pub stages: Vec<StageSettings>,
     /// In place of the preset's variation between trials.
     pub variation: Option<Variation>,
-    /// In place of the strategy's first mutation strength, if it has a setting `step_size`.
-    pub step_size: Option<f64>,
+    /// In place of the strategy's own settings of these names, where it has them.
+    pub strategy: Map<String, Value>,
 }
 
 impl MovementDefaults {
@@ -93,7 +94,7 @@ impl MovementDefaults {
             trials: None,
             stages: Vec::new(),
             variation: None,
-            step_size: None,
+            strategy: Map::new(),
         }
     }
 }

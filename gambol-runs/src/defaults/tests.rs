@@ -78,11 +78,15 @@ fn two_legs_without_knees_that_jump_have_a_clock_that_begins_anew_when_they_land
 
 /// What docs/playing.md says of it.
 #[test]
-fn what_plays_is_told_what_to_do_in_four_stages_and_chosen_over_eight_schedules() {
+fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules() {
     for creature in ["biped-1", "tetrapod-2", "apod"] {
         let config = config(creature, "playing");
         let stages: Vec<&str> = config.stages.iter().map(|stage| stage.name.as_str()).collect();
-        assert_eq!((stages, config.trials.count), (vec!["move", "follow", "jump", "polish"], 6), "{creature}");
+        assert_eq!(
+            (stages, config.trials.count),
+            (vec!["move", "follow", "jump", "polish", "harden"], 6),
+            "{creature}"
+        );
         let sensors = config.sensors.iter().flatten();
         let told =
             sensors.filter(|sensor| matches!(sensor, Sensor::CommandedSpeed { .. } | Sensor::StrideClock { .. }));

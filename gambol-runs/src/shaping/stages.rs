@@ -10,6 +10,7 @@ use crate::{
     setup::Setup,
 };
 use creatures::Sensor;
+use envs_core::Variation;
 use ne_core::{
     SettingError,
     promotion::{Decision, Promotion, PromotionRule, StageState},
@@ -70,7 +71,8 @@ impl Stages {
         for (index, settings) in config.stages.iter().enumerate() {
             let wrong = |problem: StageProblem| StageError { index, name: settings.name.clone(), problem };
             check_name(settings, &stages).map_err(|error| wrong(error.into()))?;
-            let resolved = resolve(&before, settings, registry).map_err(wrong)?;
+            let changed = resolve(&before, settings, registry).map_err(wrong)?;
+            let resolved = within(&changed, settings);
             let setup = Setup::new(&resolved, registry).map_err(|error| wrong(error.into()))?;
             let place = (index == 0, index + 1 == config.stages.len());
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
@@ -84,8 +86,8 @@ impl Stages {
                 }
             }
             setup_before = Some(setup);
-            stages.push((settings.clone(), resolved.clone()));
-            before = resolved;
+            stages.push((settings.clone(), resolved));
+            before = changed;
         }
         Ok(Self { stages })
     }
@@ -194,6 +196,12 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         sensors.extend(settings.add_sensors.iter().cloned());
     }
     Ok(config)
+}
+
+/// The configuration of a stage in its worlds.
+fn within(config: &RunConfig, settings: &StageSettings) -> RunConfig {
+    let variation = if settings.near && !config.variation.is_none() { Variation::near() } else { config.variation };
+    RunConfig { variation, ..config.clone() }
 }
 
 fn check_name(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {

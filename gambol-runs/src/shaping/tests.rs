@@ -138,6 +138,26 @@ fn a_stage_changes_what_it_names_and_keeps_the_rest() {
     assert_eq!((&configs[2].movement, configs[2].training_steps), (&jumping.movement, jumping.training_steps));
 }
 
+/// And of a configuration without variation, none.
+#[test]
+fn a_stage_may_have_near_worlds_and_the_next_has_those_of_the_configuration() {
+    let list = json!([
+        { "name": "calm", "near": true, "promotion": { "generations": 1 } },
+        { "name": "still-calm", "near": true, "changes": { "variation": { "friction": 0.2 } }, "promotion": { "generations": 1 } },
+        { "name": "wild" }
+    ]);
+    let variations = |variation: Variation| -> Vec<Variation> {
+        let settings = serde_json::from_value(list.clone()).expect("stages");
+        let config = RunConfig { stages: settings, variation, ..config("tetrapod-1") };
+        let stages = Stages::new(&config, &Registry::default()).expect("valid");
+        stages.configs().map(|(_, config)| config.variation).collect()
+    };
+    let wild = Variation { friction: 0.2, ..Variation::light() };
+    assert_eq!(variations(Variation::light()), [Variation::near(), Variation::near(), wild]);
+    let none = Variation { friction: 0.2, ..Variation::default() };
+    assert_eq!(variations(Variation::default()), [Variation::default(), Variation::near(), none]);
+}
+
 #[test]
 fn water_comes_with_swimming_and_goes_with_it() {
     let stages = stages(json!([

@@ -9,50 +9,25 @@
 mod copies;
 mod gates;
 mod limb;
+mod modules;
+mod sight;
 
 pub(crate) use copies::{LimbCopies, copies};
 use gates::{Gates, SILENCE};
 use limb::{Limb, limbs};
+use modules::Module;
+use sight::{Answers, Sight, Sights, sees};
 
 use crate::config::{ControllerSettings, LimbPhases};
-use creatures::{Blueprint, Motors, Senses, Source};
-use ne_net::{GraphNeuron, GraphShape, SharedShape, SharedWeight, Turn};
+use creatures::{Blueprint, Motors, Senses};
+use ne_net::{Activation, GraphNeuron, GraphShape, SharedShape, SharedWeight, Turn};
 use std::f32::consts::PI;
 
-/// What a copy of the net sees.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Sight {
-    /// The sine of a clock whose cosine is the next input.
-    ClockSine,
-    ClockCosine,
-    /// Something of the whole body.
-    Whole,
-    /// How the body tilts, or that it jumps, where limbs before and behind have to answer differently: its next slot is the answer's share
-    /// that goes with the place of the limb.
-    Tilt,
-    /// The sign of a limb's joints goes with it.
-    Joint,
-    Foot,
-    /// All feet as one, each of them so much of it.
-    Feet(f32),
-}
+/// Genes, each with its factor.
+type Terms = Vec<(usize, f32)>;
 
-/// Hidden neurons of a limb that have the body together.
-#[derive(Clone, Copy, Debug)]
-struct Module {
-    /// What they are called in the names of genes.
-    name: &'static str,
-    /// The gate that is open while it is not their turn.
-    silenced_by: Option<usize>,
-    /// Whether they hear jump clocks.
-    jumps: bool,
-}
-
-impl Module {
-    fn neuron(&self, index: usize) -> String {
-        format!("{} {index}", self.name)
-    }
-}
+/// Inputs and neurons that a neuron hears, each with its weight.
+type Sources = Vec<(usize, SharedWeight)>;
 
 /// The genes of the copies of one net, handed out in order.
 #[derive(Default)]
@@ -85,8 +60,8 @@ pub(crate) struct Limbs {
 /// The topology of a controller for this creature: for each limb a copy of one net.
 ///
 /// The last layer sees the hidden neurons alone, if there are any: with fewer genes, and joints that move by the same few
-/// signals, searches find gaits much sooner. A jump clock it sees as well. With one, hidden neurons of their own drive the jump:
-/// see [`gates`].
+/// signals, searches find gaits much sooner. With a jump clock hidden neurons of their own drive each phase of the jump: see
+/// [`gates`].
 pub(crate) fn topology(
     blueprint: &Blueprint,
     senses: &Senses,
@@ -95,219 +70,180 @@ pub(crate) fn topology(
     phases: LimbPhases,
 ) -> Limbs {
     let limbs = limbs(blueprint, senses, phases);
-    let hidden: usize = controller.hidden.iter().sum();
     let mut genes = Genes::default();
     let wave = genes.group(["wave".to_owned()]);
     let name_of = |limb: &Limb| &blueprint.parts()[limb.parts[0]].name;
     let offsets = genes.group(limbs.iter().map(|limb| format!("clock of {}", name_of(limb))));
     let kinds = limbs.iter().map(|limb| limb.kind).max().map_or(0, |kind| kind + 1);
-    let mut neurons = Vec::new();
-    let mut weights = Vec::new();
-    let mut output_of = vec![0; motors.len()];
-    let inputs = senses.len();
-    let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
+    let (mut neurons, mut weights) = (Vec::new(), Vec::new());
     let gates = Gates::add(senses, controller, &mut neurons, &mut weights);
-    // Which hidden neurons there are, what silences them, and whether they hear jump clocks.
-    let modules = match gates {
-        None => vec![Module { name: "hidden", silenced_by: None, jumps: false }],
-        Some(Gates { jumping, striding }) => vec![
-            Module { name: "hidden", silenced_by: Some(jumping), jumps: false },
-            Module { name: "jump hidden", silenced_by: Some(striding), jumps: true },
-        ],
-    };
+    let mut net = Net { inputs: senses.len(), wave, offsets, neurons, weights, output_of: vec![0; motors.len()] };
+    let modules = Module::all(controller.hidden.iter().sum(), gates.as_ref());
+    let feet = blueprint.feet().len();
+    let of_stride = Answers::new(phases, feet, gates.is_some());
+    let answers = [of_stride, of_stride.of_jump(feet)];
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
-        let (joints, kind_name) = (copies[0].1.hinges.len(), copies[0].1.kind_name());
-        let sights: Vec<Sights> =
-            copies.iter().map(|(_, limb)| sees(limb, senses, together, gates.is_some())).collect();
-        // A copy may lack a sense that another has, but slots are the same in all of them.
-        let longest = sights.iter().max_by_key(|sights| sights.slots.len());
-        let slots = longest.map_or(&[][..], |sights| &sights.slots);
-        let jumps = longest.map_or(&[][..], |sights| &sights.jumps);
-        let jumps = jumps.iter().map(|&input| &senses.channels()[input].name);
-        let jumps: Vec<String> = jumps.flat_map(|name| [name.clone(), by_place(name)]).collect();
-        let neuron = |target: &str, more: &[String]| {
-            let own = ["threshold", "place"].into_iter().chain(slots.iter().chain(more).map(String::as_str));
-            own.map(|source| format!("{kind_name}, {target}: {source}")).collect::<Vec<_>>()
-        };
-        let hears = |joint: usize| {
-            let target = format!("joint {joint}");
-            if hidden == 0 {
-                return neuron(&target, &[]);
-            }
-            let heard = modules.iter().flat_map(|module| (0..hidden).map(|index| module.neuron(index)));
-            let of_jump = gates.iter().flat_map(|_| ["jump threshold", "jump place"].map(str::to_owned));
-            let sources = ["threshold", "place"].into_iter().map(str::to_owned).chain(heard).chain(of_jump);
-            let sources = sources.chain(jumps.clone());
-            sources.map(|source| format!("{kind_name}, {target}: {source}")).collect()
-        };
-        let mut hidden_genes: Vec<(usize, Module)> = Vec::new();
-        for &module in &modules {
-            let more = if module.jumps { &jumps[..] } else { &[] };
-            hidden_genes.extend((0..hidden).map(|index| (genes.group(neuron(&module.neuron(index), more)), module)));
-        }
-        let output_genes: Vec<usize> = (0..joints).map(|joint| genes.group(hears(joint))).collect();
-        for ((limb_index, limb), Sights { seen, jumps, .. }) in copies.iter().zip(&sights) {
-            let turn = |gene: usize, factor| Turn {
-                genes: [gene, gene + 1],
-                factor,
-                phase: limb.phase,
-                phase_genes: vec![(wave, PI * limb.place), (offsets + limb_index, 1.0)],
-            };
-            // The sources of a neuron whose genes begin at `first`, with their weights.
-            let threshold =
-                |first: usize, sign: f32| SharedWeight::Sum(vec![(first, sign), (first + 1, sign * limb.place)]);
-            let sees = |first: usize, sign: f32| {
-                let source = move |&(input, sight, slot): &(usize, Sight, usize)| {
-                    let gene = first + 2 + slot;
-                    let weight = match sight {
-                        Sight::ClockSine => SharedWeight::Sine(turn(gene, sign)),
-                        Sight::ClockCosine => SharedWeight::Cosine(turn(gene - 1, sign)),
-                        Sight::Joint => SharedWeight::Sum(vec![(gene, sign * limb.sign)]),
-                        Sight::Whole | Sight::Foot => SharedWeight::Sum(vec![(gene, sign)]),
-                        Sight::Tilt => SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
-                        Sight::Feet(share) => SharedWeight::Sum(vec![(gene, sign * share)]),
-                    };
-                    (input, weight)
-                };
-                seen.iter().map(source).collect::<Vec<_>>()
-            };
-            let hears_jumps = |first: usize, sign: f32| {
-                (first..).step_by(2).zip(jumps).map(move |(gene, &input)| {
-                    (input, SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]))
-                })
-            };
-            let mut add = |activation, threshold: SharedWeight, sources: Vec<(usize, SharedWeight)>| {
-                let (sources, weighed): (Vec<usize>, Vec<SharedWeight>) = sources.into_iter().unzip();
-                weights.push(threshold);
-                weights.extend(weighed);
-                neurons.push(GraphNeuron { activation, bias: true, sources });
-                inputs + neurons.len() - 1
-            };
-            let mut hidden_nodes = Vec::with_capacity(hidden_genes.len());
-            for &(first, module) in &hidden_genes {
-                let mut sources = sees(first, 1.0);
-                if module.jumps {
-                    sources.extend(hears_jumps(first + 2 + slots.len(), 1.0));
-                }
-                sources.extend(module.silenced_by.map(|gate| (gate, SharedWeight::fixed(SILENCE))));
-                hidden_nodes.push(add(controller.hidden_activation, threshold(first, 1.0), sources));
-            }
-            for (joint, &first) in output_genes.iter().enumerate() {
-                let sign = limb.sign;
-                let mut sources: Vec<(usize, SharedWeight)> = match hidden {
-                    0 => sees(first, sign),
-                    _ => {
-                        let heard = (first + 2..).zip(&hidden_nodes);
-                        heard.map(|(gene, &node)| (node, SharedWeight::Sum(vec![(gene, sign)]))).collect()
-                    }
-                };
-                // A neuron that is silenced puts out 1; it is to count as 0. And the jump has thresholds of its own.
-                let own = first + 2 + hidden_nodes.len();
-                for (number, module) in modules.iter().enumerate() {
-                    let Some(gate) = module.silenced_by else { continue };
-                    let silenced = first + 2 + number * hidden;
-                    let mut terms: Vec<(usize, f32)> =
-                        (silenced..silenced + hidden).map(|gene| (gene, -sign)).collect();
-                    if !module.jumps {
-                        let by_place = sign * limb.place;
-                        terms.extend([(first, -sign), (first + 1, -by_place), (own, sign), (own + 1, by_place)]);
-                    }
-                    sources.push((gate, SharedWeight::Sum(terms)));
-                }
-                if hidden > 0 {
-                    sources.extend(hears_jumps(if gates.is_some() { own + 2 } else { own }, sign));
-                }
-                let node = add(controller.output_activation, threshold(first, sign), sources);
-                if let Some(output) = motors.drives().iter().position(|drive| drive.hinge == limb.hinges[joint]) {
-                    output_of[output] = node;
-                }
-            }
+        let kind = Kind::new(&copies, &modules, senses, answers, &mut genes);
+        for (place, &(index, limb)) in copies.iter().enumerate() {
+            net.add_copy(&kind, place, index, limb, motors, controller);
         }
     }
+    let Net { inputs, neurons, weights, output_of, .. } = net;
     let net = GraphShape { inputs, recurrent: false, neurons, outputs: output_of };
     Limbs { topology: SharedShape { net: net.into(), groups: genes.groups, weights }, names: genes.names }
 }
 
-/// What a limb sees.
-#[derive(Default)]
-struct Sights {
-    /// Inputs, each with its slot: the same sense has the same slot in every limb of a kind.
-    seen: Vec<(usize, Sight, usize)>,
-    /// The name of each slot.
-    slots: Vec<String>,
-    /// The inputs of jump clocks.
-    jumps: Vec<usize>,
+/// Limbs that share one net: its genes, and what each limb sees.
+struct Kind<'a> {
+    modules: &'a [Module],
+    /// What each copy sees: of the stride, and of the jump.
+    sights: Vec<[Sights; 2]>,
+    /// Of each hidden neuron its first gene, and its module.
+    hidden: Vec<(usize, Module)>,
+    /// Of each joint its first gene.
+    joints: Vec<usize>,
 }
 
-fn by_place(name: &str) -> String {
-    format!("{name}, by place")
-}
-
-impl Sights {
-    /// So many new slots; the first of them.
-    fn add<N: IntoIterator<Item = String>>(&mut self, names: N) -> usize {
-        let first = self.slots.len();
-        self.slots.extend(names);
-        first
-    }
-}
-
-/// Of more feet than these, which all come down at another moment, legs that act together feel the mean: each would fall out
-/// of step if it answered its own.
-const FEET_FELT_ALONE: usize = 4;
-
-/// What a limb sees of what is sensed; `together`: how many feet there are, if all legs act together.
-fn sees(limb: &Limb, senses: &Senses, together: Option<usize>, gated: bool) -> Sights {
-    let mut sights = Sights::default();
-    let (mut angles, mut speeds, mut feet, mut slips) = (None, None, None, None);
-    for (input, (probe, channel)) in senses.probes().iter().zip(senses.channels()).enumerate() {
-        let joints = |what: &str| (0..limb.hinges.len()).map(|joint| format!("{what} of joint {joint}")).collect();
-        let place_of = |hinge: usize| limb.hinges.iter().position(|&mine| mine == hinge);
-        let sight = match probe.source {
-            Source::JointAngle(hinge) => {
-                let first = *angles.get_or_insert_with(|| sights.add::<Vec<_>>(joints("angle")));
-                place_of(hinge).map(|joint| (Sight::Joint, first + joint))
-            }
-            Source::JointSpeed(hinge) => {
-                let first = *speeds.get_or_insert_with(|| sights.add::<Vec<_>>(joints("speed")));
-                place_of(hinge).map(|joint| (Sight::Joint, first + joint))
-            }
-            // Arms have no feet.
-            Source::Contact(_) | Source::Slip(_) if limb.arm.is_some() => None,
-            Source::Contact(_) if together.is_some_and(|feet| feet > FEET_FELT_ALONE) => {
-                let slot = *feet.get_or_insert_with(|| sights.add(["contact of feet".to_owned()]));
-                together.map(|feet| (Sight::Feet(1.0 / feet as f32), slot))
-            }
-            Source::Contact(part) => {
-                let slot = *feet.get_or_insert_with(|| sights.add(["contact of foot".to_owned()]));
-                limb.parts.contains(&part).then_some((Sight::Foot, slot))
-            }
-            Source::Slip(part) => {
-                let slot = *slips.get_or_insert_with(|| sights.add(["slip of foot".to_owned()]));
-                limb.parts.contains(&part).then_some((Sight::Foot, slot))
-            }
-            Source::ClockSine { .. } | Source::LandingSine { .. } | Source::StrideSine { .. } => {
-                Some((Sight::ClockSine, sights.add([channel.name.clone()])))
-            }
-            Source::ClockCosine { .. } | Source::LandingCosine { .. } | Source::StrideCosine { .. } => {
-                Some((Sight::ClockCosine, sights.add([channel.name.clone()])))
-            }
-            Source::TorsoRotation | Source::TorsoSpin if together.is_some() => {
-                Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)])))
-            }
-            Source::JumpSine { .. } | Source::JumpSwell { .. } => {
-                sights.jumps.push(input);
-                match gated {
-                    true => None,
-                    false => Some((Sight::Tilt, sights.add([channel.name.clone(), by_place(&channel.name)]))),
+impl<'a> Kind<'a> {
+    fn new(
+        copies: &[(usize, &Limb)],
+        modules: &'a [Module],
+        senses: &Senses,
+        answers: [Answers; 2],
+        genes: &mut Genes,
+    ) -> Self {
+        let sights: Vec<[Sights; 2]> =
+            copies.iter().map(|(_, limb)| answers.map(|answers| sees(limb, senses, answers))).collect();
+        // A copy may lack a sense that another has, but slots are the same in all of them.
+        let longest = |which: usize| sights.iter().map(|sights| &sights[which].slots).max_by_key(|slots| slots.len());
+        let slots = [0, 1].map(|which| longest(which).map_or(&[][..], Vec::as_slice));
+        let kind_name = copies[0].1.kind_name();
+        let named = |target: &str, sources: &mut dyn Iterator<Item = String>| -> Vec<String> {
+            let own = ["threshold", "place"].map(str::to_owned).into_iter();
+            own.chain(sources).map(|source| format!("{kind_name}, {target}: {source}")).collect()
+        };
+        let mut hidden = Vec::new();
+        for &module in modules {
+            let slots = slots[usize::from(module.jumps)];
+            let first = |name: String| genes.group(named(&name, &mut slots.iter().cloned()));
+            hidden.extend(module.neurons().map(first).map(|first| (first, module)));
+        }
+        let joint = |joint: usize| {
+            let target = format!("joint {joint}");
+            match hidden.is_empty() {
+                true => named(&target, &mut slots[0].iter().cloned()),
+                false => {
+                    let heard = modules.iter().flat_map(Module::neurons);
+                    let thresholds = modules.iter().flat_map(Module::thresholds);
+                    named(&target, &mut heard.chain(thresholds))
                 }
             }
-            _ => Some((Sight::Whole, sights.add([channel.name.clone()]))),
         };
-        sights.seen.extend(sight.map(|(sight, slot)| (input, sight, slot)));
+        let joints = (0..copies[0].1.hinges.len()).map(|index| genes.group(joint(index))).collect();
+        Self { modules, sights, hidden, joints }
     }
-    sights
+
+    /// The joint whose genes begin at `first`: its threshold, and what it hears of the hidden neurons.
+    fn joint(&self, first: usize, hidden: &[usize], limb: &Limb) -> (Terms, Sources) {
+        let (sign, by_place) = (limb.sign, limb.sign * limb.place);
+        let heard = (first + 2..).zip(hidden).map(|(gene, &node)| (node, SharedWeight::Sum(vec![(gene, sign)])));
+        let mut sources: Sources = heard.collect();
+        let mut thresholds = vec![(first, sign), (first + 1, by_place)];
+        let (mut neurons, mut own) = (first + 2, first + 2 + hidden.len());
+        for module in self.modules {
+            let threshold = if module.jumps { own } else { first };
+            if module.jumps {
+                thresholds.extend([(own, sign), (own + 1, by_place)]);
+                own += 2;
+            }
+            let of_module = neurons..neurons + module.hidden;
+            neurons += module.hidden;
+            // A neuron that is silenced puts out 1; it is to count as 0, and so is the threshold of its module.
+            let Some(gate) = module.silenced_by else { continue };
+            let mut terms: Terms = of_module.map(|gene| (gene, -sign)).collect();
+            terms.extend([(threshold, -sign), (threshold + 1, -by_place)]);
+            sources.push((gate, SharedWeight::Sum(terms)));
+        }
+        (thresholds, sources)
+    }
+}
+
+/// The net while copies are added to it.
+struct Net {
+    inputs: usize,
+    /// The gene of the wave along the body, and the first of the limbs' phases.
+    wave: usize,
+    offsets: usize,
+    neurons: Vec<GraphNeuron>,
+    weights: Vec<SharedWeight>,
+    /// The neuron of each motor.
+    output_of: Vec<usize>,
+}
+
+impl Net {
+    /// Adds the copy of a kind for one of its limbs; `index`: which limb of the body it is.
+    fn add_copy(
+        &mut self,
+        kind: &Kind<'_>,
+        place: usize,
+        index: usize,
+        limb: &Limb,
+        motors: &Motors,
+        controller: &ControllerSettings,
+    ) {
+        let [of_stride, of_jump] = &kind.sights[place];
+        let mut nodes = Vec::with_capacity(kind.hidden.len());
+        for &(first, module) in &kind.hidden {
+            let mut sources = self.seen(if module.jumps { of_jump } else { of_stride }, first, 1.0, index, limb);
+            sources.extend(module.silenced_by.map(|gate| (gate, SharedWeight::fixed(SILENCE))));
+            let threshold = vec![(first, 1.0), (first + 1, limb.place)];
+            nodes.push(self.add(controller.hidden_activation, threshold, sources));
+        }
+        for (joint, &first) in kind.joints.iter().enumerate() {
+            let sign = limb.sign;
+            let (threshold, mut sources) = kind.joint(first, &nodes, limb);
+            if nodes.is_empty() {
+                sources = self.seen(of_stride, first, sign, index, limb);
+            }
+            let node = self.add(controller.output_activation, threshold, sources);
+            if let Some(output) = motors.drives().iter().position(|drive| drive.hinge == limb.hinges[joint]) {
+                self.output_of[output] = node;
+            }
+        }
+    }
+
+    /// What a neuron whose genes begin at `first` sees, with the weights.
+    fn seen(&self, sights: &Sights, first: usize, sign: f32, index: usize, limb: &Limb) -> Sources {
+        let turn = |gene: usize| Turn {
+            genes: [gene, gene + 1],
+            factor: sign,
+            phase: limb.phase,
+            phase_genes: vec![(self.wave, PI * limb.place), (self.offsets + index, 1.0)],
+        };
+        let source = |&(input, sight, slot): &(usize, Sight, usize)| {
+            let gene = first + 2 + slot;
+            let weight = match sight {
+                Sight::ClockSine => SharedWeight::Sine(turn(gene)),
+                Sight::ClockCosine => SharedWeight::Cosine(turn(gene - 1)),
+                Sight::Joint => SharedWeight::Sum(vec![(gene, sign * limb.sign)]),
+                Sight::Whole | Sight::Foot => SharedWeight::Sum(vec![(gene, sign)]),
+                Sight::Tilt => SharedWeight::Sum(vec![(gene, sign), (gene + 1, sign * limb.place)]),
+                Sight::Feet(share) => SharedWeight::Sum(vec![(gene, sign * share)]),
+            };
+            (input, weight)
+        };
+        sights.seen.iter().map(source).collect()
+    }
+
+    /// Adds a neuron; its index among inputs and neurons.
+    fn add(&mut self, activation: Activation, threshold: Terms, sources: Sources) -> usize {
+        let (sources, weights): (Vec<usize>, Vec<SharedWeight>) = sources.into_iter().unzip();
+        self.weights.push(SharedWeight::Sum(threshold));
+        self.weights.extend(weights);
+        self.neurons.push(GraphNeuron { activation, bias: true, sources });
+        self.inputs + self.neurons.len() - 1
+    }
 }
 
 #[cfg(test)]

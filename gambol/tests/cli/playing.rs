@@ -24,7 +24,7 @@ fn a_character_is_trained_in_stages_judged_by_commands_and_its_champion_verified
     let config = json(&run.join("config.json"))["content"].take();
     assert_eq!(config["commands"]["random"]["jumps"], 0.0);
     let stages: Vec<_> = config["stages"].as_array().into_iter().flatten().map(|stage| &stage["name"]).collect();
-    assert_eq!(stages, ["move", "follow", "jump", "polish"]);
+    assert_eq!(stages, ["move", "follow", "jump", "polish", "harden"]);
     let champion = run.join("champion.json");
     let sensed = String::from_utf8(read(&champion))?;
     assert!(sensed.contains("commanded speed") && sensed.contains("stride clock"), "{sensed}");

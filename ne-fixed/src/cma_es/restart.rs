@@ -32,6 +32,10 @@ pub enum Restart {
     /// it. For landscapes whose best place is found early and can be made better for long, such as gaits in worlds that
     /// vary: restarts alone spend the rest of a long run in worse places.
     Returning,
+    /// As [`Returning`](Self::Returning) in a search that begins from nothing; never in one that was told where to begin, or goes on
+    /// from another task. For a task that is learned in steps: elsewhere all of them would have to be learned again, and in a long
+    /// run that is where most of it would be spent.
+    Anew,
 }
 
 /// The population grows to at most this many times the first: nine doublings, as in the papers.
@@ -62,6 +66,9 @@ pub(super) struct Restarts {
     small_evaluations: u64,
     /// How many [starts](CmaEsSettings::starts) have ended.
     pub(super) starts: usize,
+    /// Whether the first search went on from another task.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub(super) carried: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -89,6 +96,7 @@ impl Restarts {
             last_large_evaluations: 0,
             small_evaluations: 0,
             starts: 0,
+            carried: false,
         }
     }
 
@@ -115,7 +123,7 @@ impl Restarts {
     /// Begins the next search anew; `first` is the population of the first.
     pub(super) fn next(&mut self, settings: &CmaEsSettings, first: usize, stream: &mut RandomStream) {
         self.close();
-        let bipop = matches!(settings.restart, Restart::Bipop | Restart::Returning);
+        let bipop = matches!(settings.restart, Restart::Bipop | Restart::Returning | Restart::Anew);
         if bipop && self.small_evaluations < self.large_evaluations {
             // Hansen 2009, section 2: λ (½ λ_large / λ)^(U²), and 10^(−2U) times the step size.
             let (size, shrink): (f64, f64) = (stream.random(), stream.random());

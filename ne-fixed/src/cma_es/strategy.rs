@@ -149,6 +149,7 @@ impl CmaEs {
         if distribution.is_some() {
             // It has begun: there is nothing to choose from.
             restarts.starts = next.settings.starts;
+            restarts.carried = true;
         }
         Ok(Self { start, restarts, distribution, ..next })
     }
@@ -205,6 +206,15 @@ impl CmaEs {
             || self.restarts.is_over()
     }
 
+    /// Whether, and how, a search that has ended begins anew.
+    fn restart(&self) -> Restart {
+        match self.settings.restart {
+            Restart::Anew if self.start.is_some() || self.restarts.carried => Restart::None,
+            Restart::Anew => Restart::Returning,
+            restart => restart,
+        }
+    }
+
     /// Whether several starts are tried, and the one that goes on is not known yet.
     fn is_starting(&self) -> bool {
         self.start.is_none() && self.restarts.starts < self.settings.starts && self.settings.starts > 1
@@ -235,7 +245,7 @@ impl CmaEs {
 
     /// Ends a search: the next begins anew, or where the best had ended.
     fn end_search(&mut self, distribution: Distribution, seed: Seed) {
-        let returning = self.settings.restart == Restart::Returning;
+        let returning = self.restart() == Restart::Returning;
         if returning {
             self.keep(distribution);
             // Where it goes on, its history begins anew.
@@ -313,7 +323,7 @@ impl Strategy for CmaEs {
             }
             let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
             self.history.push(&ranked, n, distribution.updates);
-            if self.settings.restart == Restart::None {
+            if self.restart() == Restart::None {
                 // It is never asked whether this search stagnates.
                 self.history.shorten();
             }
@@ -321,7 +331,7 @@ impl Strategy for CmaEs {
         let share = self.settings.start_generations.saturating_mul(self.restarts.population as u64);
         if self.is_starting() && self.restarts.evaluations >= share {
             self.end_start(distribution);
-        } else if self.settings.restart != Restart::None && !self.is_starting() && self.has_ended(&distribution) {
+        } else if self.restart() != Restart::None && !self.is_starting() && self.has_ended(&distribution) {
             self.end_search(distribution, seed);
         } else {
             self.revive(&mut distribution);

@@ -330,6 +330,29 @@ fn after_a_search_elsewhere_the_best_so_far_goes_on() {
     assert_eq!(visited[..7], [0, 1, 0, 2, 3, 2, 4], "from 2 on, which got farthest, it comes back to 2");
 }
 
+/// Otherwise as one that returns.
+#[test]
+fn a_search_that_goes_on_from_another_task_does_not_begin_anew() {
+    let settings = CmaEsSettings { restart: Restart::Anew, ..Default::default() };
+    let farthest = |search: usize, _| [2.0, 1.0, 3.0, 1.0, 1.0][search.min(4)];
+    let mut visited = searches(far_apart(settings.clone()), 4000, farthest);
+    visited.dedup();
+    assert_eq!(visited[..7], [0, 1, 0, 2, 3, 2, 4], "what begins from nothing begins anew");
+    let restarts = |mut search: CmaEs| {
+        (1..=4000).for_each(|number| drop(generation(&mut search, number)));
+        search.statistics().into_iter().find(|statistic| statistic.name == "restarts").map(|restarts| restarts.value)
+    };
+    assert!(restarts(far_apart(settings.clone())).is_some_and(|restarts| restarts > 0.0));
+    let told = far_apart(settings.clone()).with_start(&[vec![2.5; 26]]).expect("26 weights");
+    assert_eq!(restarts(told), Some(0.0), "what is told where to begin goes on");
+    let mut begun = far_apart(settings.clone());
+    generation(&mut begun, 1);
+    let carried = begun.remapped(settings, dense(), &TopologyMap::none(26)).expect("grows by nothing");
+    let saved = serde_json::to_string(&carried).expect("serialises");
+    let carried: CmaEs = serde_json::from_str(&saved).expect("it was saved");
+    assert_eq!(restarts(carried), Some(0.0), "what is carried goes on, saved or not");
+}
+
 /// The bytes of a checkpoint after so many generations.
 fn saved_bytes(settings: &CmaEsSettings, generations: u64) -> usize {
     let mut strategy = new(settings.clone());

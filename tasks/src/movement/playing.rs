@@ -17,8 +17,8 @@ use serde::Deserialize;
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
-/// so that a search is drawn towards a push-off before anything leaves the ground. A jump that goes on at the commanded speed counts
-/// double one that goes nowhere near it. Of legs that leave the ground one after the other less counts: nothing where they do so
+/// so that a search is drawn towards a push-off before anything leaves the ground; of a jump that comes too late 0.15. A jump that goes
+/// nowhere near the commanded speed counts 0.2 of one that goes on at it. Of legs that leave the ground one after the other less counts: nothing where they do so
 /// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
 #[derive(Clone, Debug)]
 pub struct Playing {
@@ -92,6 +92,10 @@ const ENOUGH_LEGLESS: f64 = 0.3;
 const LEAST_RISE: f64 = 0.06;
 /// What counts of the rise that is promised on the ground.
 const PROMISED: f64 = 0.4;
+/// What counts of a jump that goes nowhere near the commanded speed.
+const ONWARDS: f64 = 0.2;
+/// What counts of a jump that comes too late.
+const LATE: f64 = 0.15;
 /// What counts of a jump in which a part that is no foot touches the ground, or the torso is tilted...
 const SPOILT: f64 = 0.4;
 /// ...by more than this, rad.
@@ -205,14 +209,14 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
-        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, 0.5 + 0.5 * self.near());
+        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, ONWARDS + (1.0 - ONWARDS) * self.near());
         let Some(jump) = &mut self.jump else { return };
+        let late = time - jump.pressed > ANSWER;
         let (share, rise) = match now.aloft() {
             true => {
                 let apart = if first.is_finite() { time - first } else { 0.0 };
-                let begins_late = time - jump.pressed > ANSWER;
-                let flight = || match begins_late {
-                    true => PROMISED,
+                let flight = || match late {
+                    true => LATE,
                     false => PROMISED + (1.0 - PROMISED) * ((APART - apart) / (APART - TOGETHER)).clamp(0.0, 1.0),
                 };
                 (*jump.flight.get_or_insert_with(flight), risen)
@@ -220,7 +224,7 @@ impl Playing {
             false => {
                 jump.landed |= jump.flight.is_some();
                 jump.flight = None;
-                (PROMISED, rising)
+                (if late { LATE } else { PROMISED }, rising)
             }
         };
         jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));

@@ -4,8 +4,8 @@
 //! a limb runs ahead, this one senses several clocks: its own, and in bodies of many limbs two that run along the body, one
 //! from each end.
 
-use super::{Limb, LimbPhases, Sight, Sights, limbs, sees};
-use crate::config::ControllerSettings;
+use super::{Answers, Limb, Sight, Sights, limbs, sees};
+use crate::config::{ControllerSettings, LimbPhases};
 use creatures::{Blueprint, Motors, Senses};
 use ne_net::{CopiedShape, Copies, CopySense, GraphNeuron, GraphShape, NetCopy};
 use std::f32::consts::PI;
@@ -35,10 +35,10 @@ pub(crate) fn copies(
     phases: LimbPhases,
 ) -> LimbCopies {
     let limbs = limbs(blueprint, senses, phases);
-    let together = (phases == LimbPhases::Together).then(|| blueprint.feet().len());
+    let answers = Answers::new(phases, blueprint.feet().len(), false);
     let places = places(&limbs);
     let sensed: Vec<Vec<(String, CopySense)>> =
-        limbs.iter().map(|limb| senses_of(limb, &sees(limb, senses, together, false), places)).collect();
+        limbs.iter().map(|limb| senses_of(limb, &sees(limb, senses, answers), places)).collect();
     let mut inputs: Vec<String> = Vec::new();
     for (name, _) in sensed.iter().flatten() {
         if !inputs.contains(name) {

@@ -1,6 +1,6 @@
 use super::{limb::phases_of, *};
 use crate::Registry;
-use creatures::{Creature, Joint, Motor, Part, Sensor, Shape};
+use creatures::{Creature, Joint, Motor, Part, Sensor, Shape, Source};
 use ne_core::Phenotype;
 use ne_net::Topology;
 
@@ -403,53 +403,90 @@ fn arms_are_limbs_with_weights_of_their_own() {
     assert_eq!(unique.len(), names.len(), "a name is one gene's");
 }
 
-/// What the motors are asked for at a time after the press, with genes for which `changed` holds drawn anew.
-fn jumper(swell: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
-    let blueprint = Blueprint::new(creatures::find("tetrapod-2").expect("shipped")).expect("valid");
-    let sensors = [
-        Sensor::TorsoRotation,
-        Sensor::JointAngles,
-        Sensor::StrideClock { period: 0.5, top: 1.5 },
-        Sensor::JumpClock { period: 0.6 },
-        Sensor::JumpClock { period: 1.2 },
-    ];
+/// A creature's senses with these jump clocks, its motors, and what its limbs are made of.
+fn jumping(creature: &str, clocks: &[f32]) -> (Senses, Motors, Limbs) {
+    let blueprint = Blueprint::new(creatures::find(creature).expect("shipped")).expect("valid");
+    let mut sensors = vec![Sensor::TorsoRotation, Sensor::JointAngles, Sensor::StrideClock { period: 0.5, top: 1.5 }];
+    sensors.extend(clocks.iter().map(|&period| Sensor::JumpClock { period }));
     let senses = Senses::new(&blueprint, &sensors, 3.0).expect("it has what is sensed");
     let motors = Motors::new(&blueprint);
     let config = Registry::default().config("default", blueprint.creature().clone(), "playing").expect("a preset");
-    let Limbs { topology: shape, names } =
-        topology(&blueprint, &senses, &motors, &config.controller, LimbPhases::Alternating);
-    assert_eq!((shape.validate(), names.len()), (Ok(()), shape.gene_count()));
+    let limbs = topology(&blueprint, &senses, &motors, &config.controller, LimbPhases::Alternating);
+    assert_eq!((limbs.topology.validate(), limbs.names.len()), (Ok(()), limbs.topology.gene_count()));
+    (senses, motors, limbs)
+}
+
+/// What the motors are asked for so long after the press, s, with genes for which `changed` holds drawn anew.
+fn jumper(clocks: &[f32], time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
+    let (senses, motors, Limbs { topology: shape, names }) = jumping("tetrapod-2", clocks);
     let gene = |(index, name): (usize, &String)| {
         let of = index as f32 * 0.9 + if changed(name) { 2.0 } else { 0.0 };
         libm::sinf(of)
     };
     let genes: Vec<f32> = names.iter().enumerate().map(gene).collect();
-    let inputs: Vec<f32> = senses
-        .probes()
-        .iter()
-        .enumerate()
-        .map(|(index, probe)| match probe.source {
-            Source::JumpSwell { .. } => probe.scale(swell, 3.0),
-            Source::JumpSine { .. } => probe.scale(if swell > 0.0 { 0.5 } else { 0.0 }, 3.0),
-            _ => libm::cosf(index as f32),
-        })
-        .collect();
+    let turn = |period: f32| if (0.0..period).contains(&time) { 2.0 * PI * time / period } else { 0.0 };
+    let input = |(index, probe): (usize, &creatures::Probe)| match probe.source {
+        Source::JumpSwell { period } => probe.scale(0.5 - 0.5 * libm::cosf(turn(period)), 3.0),
+        Source::JumpSine { period } => probe.scale(libm::sinf(turn(period)), 3.0),
+        _ => libm::cosf(index as f32),
+    };
+    let inputs: Vec<f32> = senses.probes().iter().enumerate().map(input).collect();
     let mut outputs = vec![0.0; motors.len()];
     Topology::from(shape).network(&genes).activate(&inputs, &mut outputs);
     outputs
 }
 
-/// What is learned of the jump does not change the stride, and of the stride not the jump.
+/// What is learned of the jump does not change the stride, nor of one phase another, and of the stride not the jump. At times at
+/// which games tick, 50, 60 and 120 times a second, one of them has the body.
 #[test]
-fn stride_and_jump_each_have_the_body_alone() {
-    let of_jump = |name: &str| name.contains("jump");
-    let of_stride = |name: &str| name.contains("hidden") && !of_jump(name);
-    let same = |swell: f32, changed: &dyn Fn(&str) -> bool| {
-        let (one, other) = (jumper(swell, |_| false), jumper(swell, changed));
-        one.iter().zip(&other).all(|(one, other)| (one - other).abs() < 1e-4)
+fn stride_and_phases_of_the_jump_each_have_the_body_alone() {
+    let modules = ["hidden", "crouch", "push-off", "landing"];
+    let counts = |clocks: &[f32], time: f32| -> Vec<&str> {
+        let differs = |module: &&str| {
+            let (one, other) = (jumper(clocks, time, |_| false), jumper(clocks, time, |name| name.contains(*module)));
+            one.iter().zip(&other).any(|(one, other)| (one - other).abs() > 1e-4)
+        };
+        modules.into_iter().filter(differs).collect()
     };
-    assert!(same(0.0, &of_jump), "before the press nothing of the jump counts");
-    assert!(!same(0.0, &of_stride), "but the stride");
-    assert!(same(0.5, &of_stride), "after it nothing of the stride");
-    assert!(!same(0.5, &of_jump), "but the jump");
+    for (time, module) in [
+        (-1.0, "hidden"),
+        (0.04, "crouch"),
+        (0.28, "crouch"),
+        (0.34, "push-off"),
+        (0.56, "push-off"),
+        (0.6, "landing"),
+        (0.9, "landing"),
+        (1.16, "landing"),
+        (1.2, "hidden"),
+        (3.0, "hidden"),
+    ] {
+        assert_eq!(counts(&[0.6, 1.2], time), [module], "{time} s after the press");
+        let alone = if module == "landing" { "hidden" } else { module };
+        assert_eq!(counts(&[0.6], time), [alone], "{time} s after the press, with one clock");
+    }
+    let mut several = 0;
+    for rate in [50.0, 60.0, 120.0] {
+        for tick in 0..(1.3 * rate) as u32 {
+            let found = counts(&[0.6, 1.2], tick as f32 / rate);
+            assert!(!found.is_empty(), "nothing has the body after {tick} ticks of 1/{rate} s");
+            several += usize::from(found.len() > 1);
+        }
+    }
+    // Where one follows the other, both may have it for a tick.
+    assert!(several <= 6, "two of them have the body at {several} ticks");
+}
+
+/// What a jump answers of a tilt, and whether it hears the stride.
+#[test]
+fn a_jump_of_many_legs_does_not_hear_the_stride() {
+    for (creature, heard) in [("biped-1", true), ("tetrapod-2", true), ("decapod-1", false)] {
+        let (_, _, Limbs { names, .. }) = jumping(creature, &[0.6, 1.2]);
+        let has = |phase: &str, what: &str| names.iter().any(|name| name.contains(phase) && name.contains(what));
+        for phase in ["crouch 0", "push-off 1", "landing 0"] {
+            assert_eq!(has(phase, "stride clock"), heard, "{creature}, {phase}");
+            assert!(has(phase, "rotation") && has(phase, ", by place"), "{creature}, {phase}");
+            assert!(!has(phase, "jump clock"), "{creature}, {phase}: gates hear it");
+        }
+        assert!(has("hidden 0", "stride clock") && !has("hidden 0", ", by place"), "{creature}");
+    }
 }
