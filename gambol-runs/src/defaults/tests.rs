@@ -5,7 +5,8 @@ use crate::{
     setup::Setup,
 };
 use creatures::{Actuation, Sensor};
-use ne_fixed::CmaEsSettings;
+use ne_fixed::{CmaEsSettings, Restart};
+use tasks::Commands;
 
 fn config(creature: &str, movement: &str) -> RunConfig {
     let creature = creatures::find(creature).expect("shipped");
@@ -87,6 +88,16 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             (vec!["move", "follow", "jump", "polish", "harden"], 6),
             "{creature}"
         );
+        // Only the last has the worlds of the configuration.
+        let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
+        assert_eq!(near, [true, true, true, true, false], "{creature}");
+        let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
+        assert_eq!((settings.restart, settings.starts, settings.start_generations), (Restart::Anew, 3, 40));
+        let speeds = match &config.commands {
+            Some(Commands::Random(random)) => random.speeds,
+            other => panic!("{creature}: {other:?}"),
+        };
+        assert_eq!(speeds, if creature == "biped-1" { [0.4, 1.2] } else { [0.5, 1.5] }, "{creature}");
         let sensors = config.sensors.iter().flatten();
         let told =
             sensors.filter(|sensor| matches!(sensor, Sensor::CommandedSpeed { .. } | Sensor::StrideClock { .. }));

@@ -72,7 +72,7 @@ impl Stages {
             let wrong = |problem: StageProblem| StageError { index, name: settings.name.clone(), problem };
             check_name(settings, &stages).map_err(|error| wrong(error.into()))?;
             let changed = resolve(&before, settings, registry).map_err(wrong)?;
-            let resolved = within(&changed, settings);
+            let resolved = in_its_worlds(&changed, settings);
             let setup = Setup::new(&resolved, registry).map_err(|error| wrong(error.into()))?;
             let place = (index == 0, index + 1 == config.stages.len());
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
@@ -199,7 +199,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
 }
 
 /// The configuration of a stage in its worlds.
-fn within(config: &RunConfig, settings: &StageSettings) -> RunConfig {
+fn in_its_worlds(config: &RunConfig, settings: &StageSettings) -> RunConfig {
     let variation = if settings.near && !config.variation.is_none() { Variation::near() } else { config.variation };
     RunConfig { variation, ..config.clone() }
 }

@@ -119,28 +119,20 @@ impl<'a> Kind<'a> {
         let longest = |which: usize| sights.iter().map(|sights| &sights[which].slots).max_by_key(|slots| slots.len());
         let slots = [0, 1].map(|which| longest(which).map_or(&[][..], Vec::as_slice));
         let kind_name = copies[0].1.kind_name();
-        let named = |target: &str, sources: &mut dyn Iterator<Item = String>| -> Vec<String> {
-            let own = ["threshold", "place"].map(str::to_owned).into_iter();
-            own.chain(sources).map(|source| format!("{kind_name}, {target}: {source}")).collect()
+        let named = |target: &str, sources: &[String]| -> Vec<String> {
+            let own = ["threshold", "place"].into_iter().chain(sources.iter().map(String::as_str));
+            own.map(|source| format!("{kind_name}, {target}: {source}")).collect()
         };
         let mut hidden = Vec::new();
         for &module in modules {
             let slots = slots[usize::from(module.jumps)];
-            let first = |name: String| genes.group(named(&name, &mut slots.iter().cloned()));
-            hidden.extend(module.neurons().map(first).map(|first| (first, module)));
+            hidden.extend(module.neurons().map(|name| (genes.group(named(&name, slots)), module)));
         }
-        let joint = |joint: usize| {
-            let target = format!("joint {joint}");
-            match hidden.is_empty() {
-                true => named(&target, &mut slots[0].iter().cloned()),
-                false => {
-                    let heard = modules.iter().flat_map(Module::neurons);
-                    let thresholds = modules.iter().flat_map(Module::thresholds);
-                    named(&target, &mut heard.chain(thresholds))
-                }
-            }
-        };
-        let joints = (0..copies[0].1.hinges.len()).map(|index| genes.group(joint(index))).collect();
+        let heard: Vec<String> =
+            modules.iter().flat_map(Module::neurons).chain(modules.iter().flat_map(Module::thresholds)).collect();
+        let heard = if hidden.is_empty() { slots[0] } else { &heard[..] };
+        let joint = |joint: usize| genes.group(named(&format!("joint {joint}"), heard));
+        let joints = (0..copies[0].1.hinges.len()).map(joint).collect();
         Self { modules, sights, hidden, joints }
     }
 

@@ -49,7 +49,7 @@ impl Sights {
 const FEET_FELT_ALONE: usize = 4;
 
 /// How a limb answers what is felt of the whole body.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Answers {
     /// Whether limbs before and behind answer how the body tilts differently.
     pub(super) tilt_by_place: bool,
