@@ -70,6 +70,10 @@ impl Activation {
         for block in blocks {
             self.apply_to_lanes(block);
         }
+        let (halves, rest) = rest.as_chunks_mut::<4>();
+        for half in halves {
+            self.apply_to_lanes(half);
+        }
         for sum in rest {
             *sum = self.apply(*sum);
         }

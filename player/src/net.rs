@@ -17,10 +17,20 @@ pub struct Neuron {
     pub sources: Vec<(u16, f32)>,
 }
 
+impl Neuron {
+    /// How far from 0 its output is at most; infinite where there is no bound.
+    fn bound(&self) -> f32 {
+        let (least, most) = self.activation.range();
+        self.scale.abs() * least.abs().max(most.abs())
+    }
+}
+
 /// A net of any kind, ready to be computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
     inputs: usize,
+    /// No neuron whose output is bounded puts out more than this, either way.
+    bound: f32,
     /// What the output of each neuron is multiplied by.
     scales: Vec<f32>,
     groups: Vec<Group>,
@@ -47,6 +57,47 @@ struct Block {
     neurons: u8,
     sources: u32,
     biases: [f32; LANES],
+    /// `None`: there is none.
+    gate: Option<Gate>,
+}
+
+/// A node that silences a block: where it is open, whatever else the neurons hear, all of them put out 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Gate {
+    node: u16,
+    weight: f32,
+    /// The most that the other nodes add to a sum, either way, if none is beyond ±1.
+    others: f32,
+}
+
+/// From this sum on, neurons that can be silenced put out 1, to the bit.
+const SILENT: f32 = 100.0;
+
+/// A smaller weight makes no gate.
+const GATE_WEIGHT: f32 = 500.0;
+
+impl Gate {
+    /// What silences these neurons, which hear the same nodes. `is_bounded`: whether a node is an input, or its output is bounded.
+    fn of(neurons: &[Neuron], is_bounded: impl Fn(u16) -> bool) -> Option<Self> {
+        let first = neurons.first()?;
+        let &(node, weight) = first.sources.iter().find(|&&(_, weight)| weight >= GATE_WEIGHT)?;
+        let saturates = first.activation.range().1 == 1.0 && first.activation.apply(SILENT) == 1.0;
+        let is_gate = |&(source, strength): &(u16, f32)| source == node && strength == weight;
+        let alike = neurons.iter().all(|neuron| neuron.sources.iter().filter(|source| is_gate(source)).count() == 1);
+        if !saturates || !alike || !first.sources.iter().all(|&(source, _)| is_bounded(source)) {
+            return None;
+        }
+        let others = |neuron: &Neuron| {
+            let others = neuron.sources.iter().filter(|source| !is_gate(source));
+            others.fold(neuron.bias.abs(), |sum, (_, weight)| sum + weight.abs())
+        };
+        Some(Self { node, weight, others: neurons.iter().map(others).fold(0.0, f32::max) })
+    }
+
+    /// Whether its neurons are silent, if no other node is beyond ± `largest`.
+    fn is_open(&self, nodes: &[f32], largest: f32) -> bool {
+        self.weight * nodes[usize::from(self.node)] - self.others * largest >= SILENT
+    }
 }
 
 /// A node, and its weight in each neuron of a block; 0 where there is none.
@@ -69,14 +120,19 @@ impl Net {
             return None;
         }
         let scales = neurons.iter().map(|neuron| neuron.scale).collect();
-        let mut net = Self { inputs, scales, groups: Vec::new(), blocks: Vec::new(), sources: Vec::new(), outputs };
+        let bounds: Vec<f32> = neurons.iter().map(Neuron::bound).collect();
+        let bound = bounds.iter().copied().filter(|bound| bound.is_finite()).fold(1.0, f32::max);
+        let is_bounded =
+            |node: u16| usize::from(node).checked_sub(inputs).is_none_or(|neuron| bounds[neuron].is_finite());
+        let (groups, blocks, sources) = (Vec::new(), Vec::new(), Vec::new());
+        let mut net = Self { inputs, bound, scales, groups, blocks, sources, outputs };
         let mut first = 0;
         while first < neurons.len() {
             let group = group(inputs, neurons, first);
             let last = first + group;
             let before = net.blocks.len();
             while first < last {
-                first += net.add_block(&neurons[first..last])?;
+                first += net.add_block(&neurons[first..last], is_bounded)?;
             }
             let (activation, blocks) = (neurons[last - 1].activation, net.blocks.len() - before);
             let [neurons, blocks] = [group, blocks].map(u32::try_from);
@@ -86,7 +142,7 @@ impl Net {
     }
 
     /// As many of these neurons as hear the same nodes as the first; how many.
-    fn add_block(&mut self, neurons: &[Neuron]) -> Option<usize> {
+    fn add_block(&mut self, neurons: &[Neuron], is_bounded: impl Fn(u16) -> bool) -> Option<usize> {
         let nodes = |neuron: &'_ Neuron| neuron.sources.iter().map(|&(node, _)| node).collect::<Vec<u16>>();
         let first = neurons.first()?;
         let heard = nodes(first);
@@ -99,7 +155,8 @@ impl Net {
             Source { node, weights }
         }));
         let sources = u32::try_from(heard.len()).ok()?;
-        self.blocks.push(Block { neurons: alike as u8, sources, biases });
+        let gate = Gate::of(&neurons[..alike], is_bounded);
+        self.blocks.push(Block { neurons: alike as u8, sources, biases, gate });
         Some(alike)
     }
 
@@ -134,8 +191,9 @@ impl Net {
         })
     }
 
-    /// Computes every neuron. `nodes` holds the inputs, and for each neuron what it put out in the frame before.
+    /// Computes every neuron. `nodes` holds the inputs, none of them NaN, and for each neuron what it put out in the frame before.
     pub(crate) fn activate(&self, nodes: &mut [f32]) {
+        let largest = nodes[..self.inputs].iter().fold(self.bound, |largest, input| largest.max(input.abs()));
         let mut first = self.inputs;
         let (mut blocks, mut sources) = (self.blocks.as_slice(), self.sources.as_slice());
         for group in &self.groups {
@@ -148,10 +206,14 @@ impl Net {
                 sources = later;
                 // Each neuron's sum in its own order: the bits are those it would have alone.
                 let mut sums = block.biases;
-                for source in own {
-                    let value = nodes[usize::from(source.node)];
-                    for (sum, weight) in sums.iter_mut().zip(source.weights) {
-                        *sum += weight * value;
+                if block.gate.is_some_and(|gate| gate.is_open(nodes, largest)) {
+                    sums = [SILENT; LANES];
+                } else {
+                    for source in own {
+                        let value = nodes[usize::from(source.node)];
+                        for (sum, weight) in sums.iter_mut().zip(source.weights) {
+                            *sum += weight * value;
+                        }
                     }
                 }
                 let next = node + usize::from(block.neurons);
@@ -204,7 +266,66 @@ mod tests {
         })
     }
 
+    /// One neuron after the other.
+    fn compute(neurons: &[Neuron], nodes: &mut [f32]) {
+        for (index, neuron) in neurons.iter().enumerate() {
+            let sum = |sum: f32, &(node, weight): &(u16, f32)| sum + weight * nodes[usize::from(node)];
+            let sum = neuron.sources.iter().fold(neuron.bias, sum);
+            nodes[INPUTS + index] = neuron.scale * neuron.activation.apply(sum);
+        }
+    }
+
+    #[test]
+    fn a_gate_is_found_and_skips() {
+        let silenced = |weight: f32, activation: Activation| Neuron {
+            activation,
+            scale: 1.0,
+            bias: 0.5,
+            sources: vec![(0, 1.0), (1, -2.0), (2, weight)],
+        };
+        let gate = |neurons: &[Neuron]| Net::new(INPUTS, neurons, vec![0]).expect("nodes").blocks[0].gate;
+        let found = gate(&[silenced(1000.0, Activation::Tanh)]).expect("a gate");
+        assert_eq!((found.node, found.weight, found.others), (2, 1000.0, 3.5));
+        assert!(found.is_open(&[1.0, 1.0, 1.0], 1.0) && !found.is_open(&[1.0, 1.0, 0.0], 1.0));
+        assert!(!found.is_open(&[1.0, 400.0, 1.0], 400.0), "what is far out may count for more");
+        assert_eq!(gate(&[silenced(90.0, Activation::Tanh)]), None);
+        assert_eq!(gate(&[silenced(1000.0, Activation::Relu)]), None);
+    }
+
+    /// Some neurons are silenced by what a gate puts out, which opens and closes; what they put out is as if they were not skipped.
+    fn gated() -> impl Strategy<Value = Vec<Neuron>> {
+        let silenced = (prop::sample::select(Activation::ALL.to_vec()), prop::collection::vec(-3.0..3.0_f32, 4), 0..3_usize);
+        prop::collection::vec(silenced, 1..12).prop_map(|made| {
+            let gate = |bias: f32, weight: f32| Neuron {
+                activation: Activation::Logistic,
+                scale: 1.0,
+                bias,
+                sources: vec![(0, weight)],
+            };
+            let silenced = |(activation, numbers, kind): (Activation, Vec<f32>, usize)| Neuron {
+                activation,
+                scale: 1.0,
+                bias: numbers[0],
+                sources: vec![(1, numbers[1]), (2, numbers[2]), (INPUTS as u16 + (kind % 2) as u16, [1000.0, 600.0, 90.0][kind])],
+            };
+            let gates = [gate(0.0, 40.0), gate(0.0, -40.0)];
+            gates.into_iter().chain(made.into_iter().map(silenced)).collect()
+        })
+    }
+
     proptest! {
+        #[test]
+        fn silenced_neurons_put_out_the_bits_of_any_other(neurons in gated(), inputs in prop::array::uniform3(-1.0..1.0_f32), far in 0..40_i32) {
+            let net = Net::new(INPUTS, &neurons, vec![0]).expect("the sources are nodes");
+            let mut found = vec![0.0; net.nodes()];
+            // Now and then an input that is far out, which no gate may hide.
+            found[..INPUTS].copy_from_slice(&[inputs[0], inputs[1] * 1.5_f32.powi(far), inputs[2]]);
+            let mut expected = found.clone();
+            net.activate(&mut found);
+            compute(&neurons, &mut expected);
+            prop_assert_eq!(&found, &expected);
+        }
+
         /// However they are put together, they put out the bits that each alone would, one after the other.
         #[test]
         fn neurons_are_computed_as_if_one_after_the_other(neurons in neurons(), inputs in prop::array::uniform3(-1.0..1.0_f32)) {
@@ -217,11 +338,7 @@ mod tests {
                     nodes[..INPUTS].copy_from_slice(&inputs.map(|input| input * (1 + frame) as f32));
                 }
                 net.activate(&mut found);
-                for (index, neuron) in neurons.iter().enumerate() {
-                    let sum = |sum: f32, &(node, weight): &(u16, f32)| sum + weight * expected[usize::from(node)];
-                    let sum = neuron.sources.iter().fold(neuron.bias, sum);
-                    expected[INPUTS + index] = neuron.scale * neuron.activation.apply(sum);
-                }
+                compute(&neurons, &mut expected);
                 prop_assert_eq!(&found, &expected);
             }
         }
