@@ -4,7 +4,7 @@ extern crate alloc;
 
 use crate::Shape;
 use alloc::{vec, vec::Vec};
-use core::f32::consts::PI;
+use core::f32::consts::TAU;
 
 /// A part in the start pose, as far as symmetry goes by it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -92,9 +92,9 @@ fn near(one: f32, other: f32) -> bool {
 }
 
 fn are_mirrored(one: &SymmetryPart, other: &SymmetryPart, middle: f32) -> bool {
-    let half_turns = (one.angle + other.angle) / PI;
-    // What a part looks like after half a turn is the same; that its frame is not matters to hinges, which are compared by it.
-    let turned = near((half_turns - libm::roundf(half_turns)) * PI, 0.0);
+    // After half a turn a part looks the same, but its angle, which is sensed, is not.
+    let turns = (one.angle + other.angle) / TAU;
+    let turned = near((turns - libm::roundf(turns)) * TAU, 0.0);
     one.shape == other.shape
         && near(one.x - middle, middle - other.x)
         && near(one.y, other.y)
@@ -175,6 +175,8 @@ mod tests {
         assert_eq!(changed(&|part| part.x += 0.01), Err(Asymmetry::Part(2)));
         assert_eq!(changed(&|part| part.y += 0.01), Err(Asymmetry::Part(2)));
         assert_eq!(changed(&|part| part.angle += 0.01), Err(Asymmetry::Part(2)));
+        assert_eq!(changed(&|part| part.angle += 0.5 * TAU), Err(Asymmetry::Part(2)));
+        assert_eq!(changed(&|part| part.angle += TAU), changed(&|_| {}));
         assert_eq!(changed(&|part| part.density *= 1.01), Err(Asymmetry::Part(2)));
         assert_eq!(changed(&|part| part.friction += 0.1), Err(Asymmetry::Part(2)));
         let changed = |change: &dyn Fn(&mut SymmetryHinge)| {

@@ -2,8 +2,11 @@
 #![allow(clippy::print_stderr)]
 
 mod common;
+#[path = "common/lopsided.rs"]
+mod lopsided;
 
 use common::{Outcome, library, succeed};
+use lopsided::lopsided;
 use std::{ffi::OsStr, fs, path::Path, process::Command};
 
 /// What the library may add to a program, in bytes.
@@ -46,7 +49,10 @@ fn assert_plays(program: &Path) -> Outcome {
         let file =
             |ending: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../player/fixtures/{name}.{ending}"));
         let said = succeed(Command::new(program).arg(file("player")).arg(file("trace.csv")))?;
-        assert_eq!(said, "100 rows to the bit\n", "{name}");
+        assert_eq!(said, "100 rows to the bit, both ways\n", "{name}");
+        let lopsided = lopsided(&file("player"))?;
+        let said = succeed(Command::new(program).arg(lopsided.path()).arg(file("trace.csv")))?;
+        assert_eq!(said, "100 rows to the bit, one way\n", "{name}");
     }
     Ok(())
 }

@@ -4,6 +4,10 @@
 //! `GAMBOL_CARGO_WASM` names.
 #![allow(clippy::print_stderr)]
 
+#[path = "common/lopsided.rs"]
+mod lopsided;
+
+use lopsided::lopsided;
 use std::{env, error::Error, fs, path::Path, path::PathBuf, process::Command};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
@@ -78,7 +82,11 @@ fn in_node(module: &Path) -> Result<()> {
     for name in ["all-senses", "playing"] {
         let mut node = Command::new("node");
         node.arg(file("wasm/check.mjs")).arg(module).arg(fixture(name, "player")).arg(fixture(name, "trace.csv"));
-        assert_eq!(succeed(&mut node)?, "100 rows to the bit\n", "{name}");
+        assert_eq!(succeed(&mut node)?, "100 rows to the bit, both ways\n", "{name}");
+        let lopsided = lopsided(&fixture(name, "player"))?;
+        let mut node = Command::new("node");
+        node.arg(file("wasm/check.mjs")).arg(module).arg(lopsided.path()).arg(fixture(name, "trace.csv"));
+        assert_eq!(succeed(&mut node)?, "100 rows to the bit, one way\n", "{name}");
     }
     Ok(())
 }
@@ -96,14 +104,18 @@ fn in_browser(module: &Path) -> Result<()> {
         let page = format!(
             "<!doctype html><title>check</title><p id=said></p><script type=module>{front}\n{check}\n\
              const say = (text) => document.getElementById('said').textContent = text;\n\
-             check({module}, {player}, {trace:?}).then((rows) => say(`${{rows}} rows to the bit`), say);</script>"
+             check({module}, {player}, {trace:?}).then(say, say);</script>"
         );
         let path = folder.path().join(format!("{name}.html"));
         fs::write(&path, page)?;
         let mut chromium = Command::new("chromium");
         chromium.args(["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000", "--dump-dom"]);
         let shown = succeed(chromium.arg(format!("--user-data-dir={}", folder.path().display())).arg(&path))?;
-        assert!(shown.contains("100 rows to the bit"), "{name}: {}", shown.lines().last().unwrap_or_default());
+        assert!(
+            shown.contains("100 rows to the bit, both ways"),
+            "{name}: {}",
+            shown.lines().last().unwrap_or_default()
+        );
     }
     Ok(())
 }

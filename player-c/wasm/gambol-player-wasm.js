@@ -124,6 +124,15 @@ function classes(library) {
       return new Character(library.gambol_character_mirrored(this.#place), this.facing === "right" ? "left" : "right");
     }
 
+    /** Whether its body looks the same from both sides, so that its player can turn round: `Player.face`. Throws a GambolError if
+     * not. */
+    symmetry() {
+      const player = library.gambol_player_new(this.#place);
+      const status = library.gambol_player_face(player, this.facing === "right" ? 1 : 0);
+      library.gambol_player_free(player);
+      check(status);
+    }
+
     /** The parts as they start, at rest, as `Player.tick` takes them. */
     startPose() {
       return this.parts.map(({ x, y, angle }) => {
@@ -143,9 +152,11 @@ function classes(library) {
     #memory;
     #counts;
     #seconds = 0;
+    #facing;
 
     constructor(character) {
       this.character = character;
+      this.#facing = character.facing;
       this.#place = Character.newPlayer(character);
       const [parts, outside] = [character.parts.length, character.outside().length];
       const [inputs, outputs] = [library.gambol_player_inputs(this.#place, 0, 0), character.outputs.length];
@@ -156,15 +167,32 @@ function classes(library) {
       owned.register(this, [(place) => library.gambol_memory_free(place, count), this.#memory]);
     }
 
-    /** Begins anew: call it when the body was put back into its start pose. */
+    /** Begins anew, facing as it was built: call it when the body was put back into its start pose. */
     reset() {
       check(library.gambol_player_reset(this.#place));
+      this.#facing = this.character.facing;
       this.#seconds = 0;
     }
 
-    /** Turns round: "left" or "right". A body that stands turns best; one that does not look the same from both sides throws. */
+    /** Turns round, from the next frame on: "left" or "right". A body that stands turns best; one that does not look the same from
+     * both sides throws, and goes on as it was. */
     face(facing) {
+      if (facing !== "left" && facing !== "right") throw new RangeError(`"${facing}": must be "left" or "right"`);
       check(library.gambol_player_face(this.#place, facing === "left" ? 1 : 0));
+      this.#facing = facing;
+    }
+
+    /** Which way it faces: "left" or "right". */
+    get facing() {
+      return this.#facing;
+    }
+
+    /** What the game has to measure every frame, as `character.outside()`, the way it faces now. */
+    outside() {
+      const [turned, pi] = [this.#facing !== this.character.facing, Math.fround(Math.PI)];
+      return this.character.outside().map((outside) => {
+        return turned && outside.kind === "ray" ? { ...outside, angle: Math.fround(pi - outside.angle) } : outside;
+      });
     }
 
     /** How high the ground is where the body stands, m; 0 until it is said. */

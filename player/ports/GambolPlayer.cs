@@ -30,6 +30,12 @@ namespace Gambol
         internal TickError(string message) : base(message) { }
     }
 
+    /// <summary>Why a body does not look the same from both sides.</summary>
+    public sealed class Asymmetry : Exception
+    {
+        internal Asymmetry(string message) : base(message) { }
+    }
+
     /// <summary>Where a part of the body is and how it moves.</summary>
     public struct PartState
     {
@@ -273,7 +279,15 @@ namespace Gambol
         /// characters.</summary>
         public Outside[] Outside()
         {
-            return Inputs.Where(probe => IsOutside(probe.Source)).Select(OutsideOf).ToArray();
+            return OutsideFacing(Facing);
+        }
+
+        /// <summary>Whether its body looks the same from both sides, so that its player can turn round: Player.Face. Throws an
+        /// Asymmetry that names the first part that has no mirror image, or whose hinge is not that of its mirror
+        /// image.</summary>
+        public void Symmetry()
+        {
+            new Twins(this);
         }
 
         /// <summary>The parts as they start, at rest.</summary>
@@ -292,10 +306,15 @@ namespace Gambol
             return new[] { -limits[1], -limits[0] };
         }
 
-        private Outside OutsideOf(Probe probe)
+        internal Outside[] OutsideFacing(Facing facing)
+        {
+            return Inputs.Where(probe => IsOutside(probe.Source)).Select(probe => OutsideOf(probe, facing)).ToArray();
+        }
+
+        private static Outside OutsideOf(Probe probe, Facing facing)
         {
             if (probe.Source != Source.Ray) return new Outside { Kind = probe.Source, Length = probe.First };
-            var angle = Facing == Facing.Left ? (float)Math.PI - probe.First : probe.First;
+            var angle = facing == Facing.Left ? (float)Math.PI - probe.First : probe.First;
             return new Outside { Kind = Source.Ray, Angle = angle, Length = probe.Second };
         }
 
@@ -320,6 +339,101 @@ namespace Gambol
                 Motor = hinge.Motor
             };
         }
+    }
+
+    /// <summary>Which part, and which output, is the mirror image of each.</summary>
+    internal sealed class Twins
+    {
+        /// <summary>Lengths may differ by so much, m, and angles, rad: files hold decimals.</summary>
+        private const float Tolerance = 1e-4f;
+        private const float Turn = (float)(2.0 * Math.PI);
+        private const int None = -1;
+
+        internal readonly int[] Parts, Outputs;
+        private readonly Character character;
+        /// <summary>The hinge that each part hangs on; null for the torso.</summary>
+        private readonly Hinge[] hangs;
+
+        /// <summary>Of a body: across the upright line through the torso; a part in the middle is its own. Throws an Asymmetry
+        /// for the first part, or hinge, that has no mirror image.</summary>
+        internal Twins(Character character)
+        {
+            this.character = character;
+            Parts = character.Parts.Select(_ => None).ToArray();
+            hangs = new Hinge[Parts.Length];
+            foreach (var hinge in character.Hinges) hangs[hinge.Child] = hinge;
+            for (var part = 0; part < Parts.Length; part++) if (Parts[part] == None) Match(part);
+            Outputs = character.Outputs.Select(OutputTwin).ToArray();
+        }
+
+        private void Match(int part)
+        {
+            var candidates = Enumerable.Range(part, Parts.Length - part).Where(other => MayBeTwins(part, other)).ToArray();
+            if (candidates.Length == 0) throw new Asymmetry($"part {part} has no mirror image on the other side");
+            var fitting = candidates.Where(other => HingesAreMirrored(hangs[part], hangs[other])).Take(1).ToArray();
+            if (fitting.Length == 0)
+                throw new Asymmetry($"the hinge of part {part} is not the mirror image of that of its twin");
+            Parts[part] = fitting[0];
+            Parts[fitting[0]] = part;
+        }
+
+        private int OutputTwin(int hinge)
+        {
+            var twin = Parts[character.Hinges[hinge].Child];
+            return Array.FindIndex(character.Outputs, other => character.Hinges[other].Child == twin);
+        }
+
+        private bool MayBeTwins(int part, int other)
+        {
+            var above = hangs[part] == null ? None : Parts[hangs[part].Parent];
+            var otherAbove = hangs[other] == null ? None : hangs[other].Parent;
+            var free = Parts[other] == None && otherAbove == above;
+            return free && AreMirrored(character.Parts[part], character.Parts[other], character.Parts[0].X);
+        }
+
+        private static bool AreMirrored(Part one, Part other, float middle)
+        {
+            // After half a turn a part looks the same, but its angle, which is sensed, is not.
+            var turns = (float)((float)(one.Angle + other.Angle) / Turn);
+            var turned = Near((float)((float)(turns - (float)Math.Round(turns)) * Turn), 0f);
+            var inPlace = Near((float)(one.X - middle), (float)(middle - other.X)) && Near(one.Y, other.Y) && turned;
+            var material = Near((float)(one.Density / other.Density), 1f) && Near(one.Friction, other.Friction);
+            return ShapesAreEqual(one.Shape, other.Shape) && inPlace && material;
+        }
+
+        private static bool ShapesAreEqual(Shape one, Shape other)
+        {
+            var boxes = one.Width == other.Width && one.Height == other.Height;
+            return one.Kind == other.Kind && boxes && one.Length == other.Length && one.Radius == other.Radius;
+        }
+
+        private bool HingesAreMirrored(Hinge one, Hinge other)
+        {
+            if (one == null || other == null) return one == other;
+            var anchors = AnchorsAreMirrored(one.ParentAnchor, other.ParentAnchor)
+                && AnchorsAreMirrored(one.ChildAnchor, other.ChildAnchor);
+            var limits = Near(one.Limits[0], -other.Limits[1]) && Near(one.Limits[1], -other.Limits[0]);
+            return anchors && limits && MotorsAreAlike(one.Motor, other.Motor) && IsActuated(one) == IsActuated(other);
+        }
+
+        private bool IsActuated(Hinge hinge)
+        {
+            return character.Outputs.Any(output => character.Hinges[output] == hinge);
+        }
+
+        private static bool AnchorsAreMirrored(float[] one, float[] other)
+        {
+            return Near(one[0], -other[0]) && Near(one[1], other[1]);
+        }
+
+        private static bool MotorsAreAlike(Motor one, Motor other)
+        {
+            if (one == null || other == null) return one == other;
+            return Near((float)(one.TopSpeed / other.TopSpeed), 1f) && Near((float)(one.TopTorque / other.TopTorque), 1f);
+        }
+
+        // With 32 bits, as the original: what it takes for a mirror image is one here.
+        private static bool Near(float one, float other) => Math.Abs((float)(one - other)) <= Tolerance;
     }
 
     /// <summary>Reads fields one after the other, the lowest byte first.</summary>
@@ -651,7 +765,8 @@ namespace Gambol
         }
     }
 
-    /// <summary>One body that is played: clocks, and memory of the net. Allocates while it is made, and never again.</summary>
+    /// <summary>One body that is played: clocks, and memory of the net. Allocates while it is made and when it turns round, and
+    /// in no frame.</summary>
     public sealed class Player
     {
         /// <summary>The longest a frame may last, s.</summary>
@@ -709,6 +824,10 @@ namespace Gambol
         /// <summary>The parts as the net knows them: facing right.</summary>
         private readonly PartState[] parts;
         private readonly float[] jointAngles, inputs, outputs, speeds, torques;
+        /// <summary>Which way it faces now.</summary>
+        private Facing facing;
+        /// <summary>Which part and which output takes the place of which; null if it was built to face as it does.</summary>
+        private Twins twins;
         private float ground, landed, sincePress, step;
         private bool touched;
         private double seconds;
@@ -735,10 +854,12 @@ namespace Gambol
             Reset();
         }
 
-        /// <summary>Begins anew: clocks at 0, the net without memory. Call it when the body was put back into its start
-        /// pose.</summary>
+        /// <summary>Begins anew: clocks at 0, the net without memory, facing as it was built. Call it when the body was put back
+        /// into its start pose.</summary>
         public void Reset()
         {
+            facing = character.Facing;
+            twins = null;
             Array.Clear(nodes, 0, nodes.Length);
             Array.Clear(speeds, 0, speeds.Length);
             // A body that stands as its clock starts.
@@ -758,6 +879,26 @@ namespace Gambol
         public void SetGround(float height)
         {
             ground = height;
+        }
+
+        /// <summary>Turns round, from the next frame on. A body that looks the same from both sides (Character.Symmetry) runs the
+        /// other way with the same net, and what it is told is meant the way it faces. A body that stands turns best; one that
+        /// runs is told to stand first. Throws an Asymmetry if the body does not look the same from both sides; it goes on as it
+        /// was.</summary>
+        public void Face(Facing towards)
+        {
+            if (towards == facing) return;
+            twins = towards == character.Facing ? null : new Twins(character);
+            facing = towards;
+        }
+
+        /// <summary>Which way it faces.</summary>
+        public Facing Facing => facing;
+
+        /// <summary>What the game has to measure every frame, as Character.Outside(), the way it faces now.</summary>
+        public Outside[] Outside()
+        {
+            return character.OutsideFacing(facing);
         }
 
         /// <summary>Since the start, s.</summary>
@@ -795,7 +936,7 @@ namespace Gambol
         /// then asked for speed 0.
         /// </summary>
         /// <param name="states">Where each part is, in the order of Character.Parts.</param>
-        /// <param name="outside">What the game measures, in the order of Character.Outside().</param>
+        /// <param name="outside">What the game measures, in the order of Outside().</param>
         /// <param name="told">What the character is told to do.</param>
         /// <param name="frame">How long this frame lasts, from 0 to 1 s.</param>
         public float[] Tick(PartState[] states, float[] outside, Command told, float frame)
@@ -852,8 +993,12 @@ namespace Gambol
                 return $"{outside.Length} measurements of what is outside, and the character wants {outsideCount}";
             if (!(frame >= 0f && frame <= LongestFrame)) return "the time of a frame must be from 0 to 1 s";
             if (!AreFinite(states, outside, told)) return NotFinite;
-            var left = character.Facing == Facing.Left;
-            for (var index = 0; index < parts.Length; index++) parts[index] = left ? states[index].Mirrored() : states[index];
+            var left = facing == Facing.Left;
+            for (var index = 0; index < parts.Length; index++)
+            {
+                var from = twins == null ? index : twins.Parts[index];
+                parts[index] = left ? states[from].Mirrored() : states[from];
+            }
             SenseJoints();
             var time = (float)seconds;
             ObserveLanding(time);
@@ -866,7 +1011,7 @@ namespace Gambol
             {
                 var asked = Asked(drives[index], nodes[character.OutputNodes[index]]);
                 if (!IsFinite(asked)) return NotFinite;
-                speeds[index] = left ? -asked : asked;
+                speeds[twins == null ? index : twins.Outputs[index]] = left ? -asked : asked;
             }
             seconds += frame;
             return null;

@@ -26,6 +26,11 @@ export class TickError extends Error {
   name = "TickError";
 }
 
+/** Why a body does not look the same from both sides. */
+export class Asymmetry extends Error {
+  name = "Asymmetry";
+}
+
 const MAGIC = "GAMBOLPL";
 const HEADER = 24;
 const MOST_NODES = 65536;
@@ -361,10 +366,13 @@ export class Character {
    * - "gapWidth": the width of that gap, m; 0 if there is none.
    */
   outside() {
-    return this.inputs.filter(({ source }) => OUTSIDE.includes(source)).map(({ source, first, second }) => {
-      if (source !== "ray") return { kind: source, length: first };
-      return { kind: source, angle: this.facing === "left" ? f32(f32(Math.PI) - first) : first, length: second };
-    });
+    return outsideFacing(this.inputs, this.facing);
+  }
+
+  /** Whether its body looks the same from both sides, so that its player can turn round: `Player.face`. Throws an Asymmetry
+   * that names the first part that has no mirror image, or whose hinge is not that of its mirror image. */
+  symmetry() {
+    twinsOf(this);
   }
 
   /** The parts as they start, at rest, as `Player.tick` takes them. */
@@ -377,6 +385,67 @@ export class Character {
 
 const mirroredLimits = ([low, high]) => [-high, -low];
 
+function outsideFacing(inputs, facing) {
+  return inputs.filter(({ source }) => OUTSIDE.includes(source)).map(({ source, first, second }) => {
+    if (source !== "ray") return { kind: source, length: first };
+    return { kind: source, angle: facing === "left" ? f32(f32(Math.PI) - first) : first, length: second };
+  });
+}
+
+/** Lengths may differ by so much, m, and angles, rad: files hold decimals. */
+const TOLERANCE = f32(1e-4);
+
+/** For each part, and each output, the one that is its mirror image, across the upright line through the torso: a part in the
+ * middle is its own. Throws an Asymmetry where there is none. */
+function twinsOf({ parts, hinges, outputs }) {
+  // The hinge that each part hangs on.
+  const hangs = parts.map(() => null);
+  hinges.forEach((hinge, index) => (hangs[hinge.child] = { ...hinge, actuated: outputs.includes(index) }));
+  const twins = parts.map(() => null);
+  parts.forEach((part, index) => {
+    if (twins[index] !== null) return;
+    const hinge = hangs[index];
+    const above = hinge && twins[hinge.parent];
+    const isTwin = (other, at) => {
+      const free = at >= index && twins[at] === null && (hangs[at]?.parent ?? null) === above;
+      return free && areMirrored(part, other, parts[0].x);
+    };
+    const candidates = [...parts.keys()].filter((at) => isTwin(parts[at], at));
+    if (candidates.length === 0) throw new Asymmetry(`part ${index} has no mirror image on the other side`);
+    const twin = candidates.find((at) => hinge === null || hingesAreMirrored(hinge, hangs[at]));
+    if (twin === undefined) {
+      throw new Asymmetry(`the hinge of part ${index} is not the mirror image of that of its twin`);
+    }
+    [twins[index], twins[twin]] = [twin, index];
+  });
+  const children = outputs.map((hinge) => hinges[hinge].child);
+  return { parts: twins, outputs: children.map((child) => children.indexOf(twins[child])) };
+}
+
+// With 32 bits, as the original: what it takes for a mirror image is one here.
+const near = (one, other) => Math.abs(f32(one - other)) <= TOLERANCE;
+
+function areMirrored(one, other, middle) {
+  // After half a turn a part looks the same, but its angle, which is sensed, is not.
+  const turns = f32(f32(one.angle + other.angle) / TURN);
+  const turned = near(f32(f32(turns - Math.round(turns)) * TURN), 0);
+  const sameShape = ["kind", "width", "height", "length", "radius"].every((size) => one.shape[size] === other.shape[size]);
+  const inPlace = near(f32(one.x - middle), f32(middle - other.x)) && near(one.y, other.y) && turned;
+  return sameShape && inPlace && near(f32(one.density / other.density), 1) && near(one.friction, other.friction);
+}
+
+function hingesAreMirrored(one, other) {
+  const anchors = ([x, y], [otherX, otherY]) => near(x, -otherX) && near(y, otherY);
+  const limits = near(one.limits[0], -other.limits[1]) && near(one.limits[1], -other.limits[0]);
+  const inPlace = anchors(one.parentAnchor, other.parentAnchor) && anchors(one.childAnchor, other.childAnchor);
+  return inPlace && limits && motorsAreAlike(one.motor, other.motor) && one.actuated === other.actuated;
+}
+
+function motorsAreAlike(one, other) {
+  if (one === null || other === null) return one === other;
+  return near(f32(one.topSpeed / other.topSpeed), 1) && near(f32(one.topTorque / other.topTorque), 1);
+}
+
 const TURN = f32(2 * Math.PI);
 /** The longest a frame may last, s. */
 const LONGEST_FRAME = 1;
@@ -384,12 +453,16 @@ const LONGEST_FRAME = 1;
 const ONE_LANDING = f32(0.2);
 const NOT_FINITE = "a number is not finite; the motors hold still and the net begins anew";
 
-/** One body that is played: clocks, and memory of the net. Allocates while it is made, and never again. */
+/** One body that is played: clocks, and memory of the net. Allocates while it is made and when it turns round, not in frames. */
 export class Player {
   #restTorso;
   #hinges;
   #drives;
   #outside;
+  /** Whether it faces left now. */
+  #left;
+  /** Which part and which output takes the place of which, or null if the body was built to face as it does. */
+  #twins;
   #ground = 0;
   /** Inputs, and what each neuron put out last. */
   #nodes;
@@ -436,8 +509,10 @@ export class Player {
     this.reset();
   }
 
-  /** Begins anew: clocks at 0, the net without memory. Call it when the body was put back into its start pose. */
+  /** Begins anew: clocks at 0, the net without memory, facing as it was built. Call it when the body was put back into its
+   * start pose. */
   reset() {
+    [this.#left, this.#twins] = [this.character.facing === "left", null];
     this.#nodes.fill(0);
     this.#speeds.fill(0);
     // A body that stands as its clock starts.
@@ -449,6 +524,26 @@ export class Player {
    * goes by it. */
   setGround(height) {
     this.#ground = f32(height);
+  }
+
+  /** Turns round, from the next frame on: "left" or "right". A body that looks the same from both sides (`character.symmetry`)
+   * runs the other way with the same net, and what it is told is meant the way it faces. A body that stands turns best; one that
+   * runs is told to stand first. Throws an Asymmetry if the body does not look the same from both sides; it goes on as it was. */
+  face(facing) {
+    if (facing !== "left" && facing !== "right") throw new RangeError(`"${facing}": must be "left" or "right"`);
+    if (facing === this.facing) return;
+    this.#twins = facing === this.character.facing ? null : twinsOf(this.character);
+    this.#left = facing === "left";
+  }
+
+  /** Which way it faces: "left" or "right". */
+  get facing() {
+    return this.#left ? "left" : "right";
+  }
+
+  /** What the game has to measure every frame, as `character.outside()`, the way it faces now. */
+  outside() {
+    return outsideFacing(this.character.inputs, this.facing);
   }
 
   /** Since the start, s. */
@@ -480,7 +575,7 @@ export class Player {
    * the next, rad/s, in the order of `character.outputs`. The next frame writes over them.
    * - `parts`: an object for each part, in the order of `character.parts`: `x`, `y` of its centre (m), `cos` and `sin` of its
    *   angle against the world, `vx`, `vy` (m/s), `spin` (rad/s), `touching` (whether it touches the ground);
-   * - `outside`: what the game measures, in the order of `character.outside()`;
+   * - `outside`: what the game measures, in the order of `outside()`;
    * - `command`: `speed` (body lengths/s the way the character faces, backwards below 0; values beyond what it was trained for
    *   count as the fastest) and `jump` (whether the button that means jump is held);
    * - `seconds`: how long this frame lasts, from 0 to 1 s.
@@ -518,10 +613,11 @@ export class Player {
       return `${outside.length} measurements of what is outside, and the character wants ${this.#outside}`;
     }
     if (!(step >= 0 && step <= LONGEST_FRAME)) return "the time of a frame must be from 0 to 1 s";
-    const left = character.facing === "left";
+    const side = this.#left ? -1 : 1;
     let finite = Number.isFinite(f32(command.speed));
     for (let index = 0; index < parts.length; index += 1) {
-      finite = take(this.#parts[index], parts[index], left ? -1 : 1) && finite;
+      const from = this.#twins === null ? index : this.#twins.parts[index];
+      finite = take(this.#parts[index], parts[from], side) && finite;
     }
     for (let index = 0; index < outside.length; index += 1) finite = Number.isFinite(f32(outside[index])) && finite;
     if (!finite) return NOT_FINITE;
@@ -538,7 +634,8 @@ export class Player {
     for (let index = 0; index < this.#drives.length; index += 1) {
       const asked = f32(this.#asked(this.#drives[index], this.#nodes[character.outputNodes[index]]));
       if (!Number.isFinite(asked)) return NOT_FINITE;
-      this.#speeds[index] = left ? -asked : asked;
+      const place = this.#twins === null ? index : this.#twins.outputs[index];
+      this.#speeds[place] = side * asked;
     }
     this.#seconds += step;
     return null;

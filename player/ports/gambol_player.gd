@@ -96,6 +96,17 @@ class Numbers:
 	static func is_outside(source):
 		return source == Source.RAY or source == Source.GAP_DISTANCE or source == Source.GAP_WIDTH
 
+	# What the game has to measure for these inputs.
+	static func outside_facing(probes, facing):
+		var measured = []
+		for probe in probes:
+			if probe.source == Source.RAY:
+				var angle = PI - probe.first if facing == "left" else probe.first
+				measured.append({"kind": probe.source, "angle": angle, "length": probe.second})
+			elif is_outside(probe.source):
+				measured.append({"kind": probe.source, "length": probe.first})
+		return measured
+
 	# The angle of a direction seen from a reference, both (cosine, sine); rad, in (-PI, PI].
 	static func angle_from(reference, direction):
 		return turned_back(reference, direction).angle()
@@ -423,6 +434,113 @@ class Reader:
 		return found
 
 
+# Which part, and which output, is the mirror image of each: across the upright line through the torso; a part in the middle is
+# its own.
+class Twins:
+	# Lengths may differ by so much, m, and angles, rad: files hold decimals.
+	const TOLERANCE = 1.0e-4
+	const NONE = -1
+
+	# "" or the first part, or hinge, that has no mirror image.
+	var error = ""
+	var parts = []
+	var outputs = []
+	var _character
+	# The hinge that each part hangs on.
+	var _hangs = []
+
+	func _init(character_):
+		_character = character_
+		for _part in _character.parts:
+			parts.append(NONE)
+			_hangs.append(NONE)
+		for index in range(_character.hinges.size()):
+			_hangs[_character.hinges[index].child] = index
+		for part in range(parts.size()):
+			if error == "" and parts[part] == NONE:
+				_match(part)
+		if error == "":
+			_match_outputs()
+
+	func _match(part):
+		var found = NONE
+		var looks_alike = false
+		for other in range(part, parts.size()):
+			if found == NONE and _may_be_twins(part, other):
+				looks_alike = true
+				if _hinges_are_mirrored(_hangs[part], _hangs[other]):
+					found = other
+		if found != NONE:
+			parts[part] = found
+			parts[found] = part
+		elif looks_alike:
+			error = "the hinge of part %d is not the mirror image of that of its twin" % part
+		else:
+			error = "part %d has no mirror image on the other side" % part
+
+	func _match_outputs():
+		var children = []
+		for hinge in _character.outputs:
+			children.append(_character.hinges[hinge].child)
+		for child in children:
+			outputs.append(children.find(parts[child]))
+
+	func _may_be_twins(part, other):
+		var above = _parent(part)
+		if above != NONE:
+			above = parts[above]
+		if parts[other] != NONE or _parent(other) != above:
+			return false
+		return _are_mirrored(_character.parts[part], _character.parts[other], _character.parts[0].x)
+
+	func _parent(part):
+		return NONE if _hangs[part] == NONE else _character.hinges[_hangs[part]].parent
+
+	func _are_mirrored(one, other, middle):
+		# After half a turn a part looks the same, but its angle, which is sensed, is not.
+		var turn = Numbers.single(2.0 * PI)
+		var turns = Numbers.single(Numbers.single(one.angle + other.angle) / turn)
+		var turned = Numbers.single(Numbers.single(turns - round(turns)) * turn)
+		var is_in_place = _near(Numbers.single(one.x - middle), Numbers.single(middle - other.x)) and _near(one.y, other.y)
+		var is_alike = _near_one(one.density, other.density) and _near(one.friction, other.friction)
+		return _shapes_are_equal(one.shape, other.shape) and is_in_place and _near(turned, 0.0) and is_alike
+
+	func _shapes_are_equal(one, other):
+		if one.kind != other.kind:
+			return false
+		for size in one:
+			if one[size] != other[size]:
+				return false
+		return true
+
+	func _hinges_are_mirrored(first, second):
+		if first == NONE or second == NONE:
+			return first == second
+		var one = _character.hinges[first]
+		var other = _character.hinges[second]
+		var anchors = _anchors_are_mirrored(one.parent_anchor, other.parent_anchor)
+		anchors = anchors and _anchors_are_mirrored(one.child_anchor, other.child_anchor)
+		var limits = _near(one.limits[0], -other.limits[1]) and _near(one.limits[1], -other.limits[0])
+		var are_driven = _character.outputs.has(first) == _character.outputs.has(second)
+		return anchors and limits and _motors_are_alike(one.motor, other.motor) and are_driven
+
+	func _anchors_are_mirrored(one, other):
+		return _near(one[0], -other[0]) and _near(one[1], other[1])
+
+	func _motors_are_alike(one, other):
+		if one == null or other == null:
+			return one == other
+		return _near_one(one.top_speed, other.top_speed) and _near_one(one.top_torque, other.top_torque)
+
+	# Rounded to 32 bits, as the original: what it takes for a mirror image is one here.
+	func _near(one, other):
+		return abs(Numbers.single(one - other)) <= Numbers.single(TOLERANCE)
+
+	# Whether their ratio is nearly 1.
+	func _near_one(one, other):
+		return _near(Numbers.single(one / other), 1.0)
+
+
 # A body and the controller that moves it. Shared by all that play it; nothing changes it once it is read.
 class Character:
 	# The name of the creature.
@@ -555,14 +673,12 @@ class Character:
 	#   is none;
 	# - GAP_WIDTH: the width of that gap, m; 0 if there is none.
 	func outside():
-		var measured = []
-		for probe in inputs:
-			if probe.source == Source.RAY:
-				var angle = PI - probe.first if facing == "left" else probe.first
-				measured.append({"kind": probe.source, "angle": angle, "length": probe.second})
-			elif Numbers.is_outside(probe.source):
-				measured.append({"kind": probe.source, "length": probe.first})
-		return measured
+		return Numbers.outside_facing(inputs, facing)
+
+	# "" if its body looks the same from both sides, so that its player can turn round: `Player.face`. Or else the first part that
+	# has no mirror image, or whose hinge is not that of its mirror image.
+	func symmetry():
+		return Twins.new(self).error
 
 	# The parts as they start, at rest: a PartState for each.
 	func start_pose():
@@ -589,8 +705,10 @@ class Player:
 	var outputs = []
 	# The speed that the motor of each output was last asked for, rad/s: of the child against the parent, counter-clockwise.
 	var speeds = []
-	# -1 for a body that faces left, else 1.
+	# -1 for a body that faces left now, else 1.
 	var _side = 1.0
+	# Which part and which output takes the place of which, or null if the body was built to face as it does.
+	var _twins = null
 	# Of the torso, and of each hinge: cosine and sine in the start pose.
 	var _rest_torso
 	var _rest_hinges = []
@@ -614,17 +732,17 @@ class Player:
 	# A body that stands in its start pose, its clocks at 0.
 	func _init(character_):
 		character = character_
-		_side = -1.0 if character.facing == "left" else 1.0
+		var side = _side_of(character.facing)
 		_outside_count = character.outside().size()
 		_parts = character.start_pose()
 		# The net knows the body as it was trained: facing right.
-		_rest_torso = _direction(_side * character.parts[0].angle)
+		_rest_torso = _direction(side * character.parts[0].angle)
 		for hinge in character.hinges:
 			var angle = character.parts[hinge.child].angle - character.parts[hinge.parent].angle
-			_rest_hinges.append(_direction(_side * Numbers.single(angle)))
+			_rest_hinges.append(_direction(side * Numbers.single(angle)))
 		for output in character.outputs:
 			var limits = character.hinges[output].limits
-			_limits.append(limits if _side > 0.0 else Numbers.mirrored_limits(limits))
+			_limits.append(limits if side > 0.0 else Numbers.mirrored_limits(limits))
 		inputs.resize(character.inputs.size())
 		outputs.resize(character.outputs.size())
 		speeds.resize(character.outputs.size())
@@ -633,8 +751,11 @@ class Player:
 		_nodes.resize(character.inputs.size() + character.neurons.size())
 		reset()
 
-	# Begins anew: clocks at 0, the net without memory. Call it when the body was put back into its start pose.
+	# Begins anew: clocks at 0, the net without memory, facing as it was built. Call it when the body was put back into its
+	# start pose.
 	func reset():
+		_side = _side_of(character.facing)
+		_twins = null
 		_forget()
 		_clear(speeds)
 		seconds = 0.0
@@ -651,10 +772,36 @@ class Player:
 	func set_ground(height):
 		_ground = height
 
+	# Turns round, from the next frame on: "left" or "right". A body that looks the same from both sides (`character.symmetry`)
+	# runs the other way with the same net, and what it is told is meant the way it faces. A body that stands turns best; one that
+	# runs is told to stand first. Returns "", or why the body does not look the same from both sides; it goes on as it was.
+	func face(facing_):
+		if facing_ != "left" and facing_ != "right":
+			return "\"%s\": must be \"left\" or \"right\"" % facing_
+		if facing_ == facing():
+			return ""
+		var twins = null if facing_ == character.facing else Twins.new(character)
+		if twins != null and twins.error != "":
+			return twins.error
+		_twins = twins
+		_side = _side_of(facing_)
+		return ""
+
+	# Which way it faces: "left" or "right".
+	func facing():
+		return "left" if _side < 0.0 else "right"
+
+	# What the game has to measure every frame, as `character.outside()`, the way it faces now.
+	func outside():
+		return Numbers.outside_facing(character.inputs, facing())
+
+	func _side_of(facing_):
+		return -1.0 if facing_ == "left" else 1.0
+
 	# A frame: what the body does now, what is outside of it, and what it is told. Returns "", and `speeds` holds what the
 	# motors are asked for until the next, in the order of `character.outputs`.
 	# - `parts`: a PartState for each, in the order of `character.parts`;
-	# - `outside`: what the game measures, in the order of `character.outside()`;
+	# - `outside`: what the game measures, in the order of `outside()`;
 	# - `command`: a Command;
 	# - `frame`: how long this frame lasts, from 0 to 1 s.
 	#
@@ -707,7 +854,8 @@ class Player:
 			return "the time of a frame must be from 0 to 1 s"
 		var finite = Numbers.is_finite_number(command.speed)
 		for index in range(_parts.size()):
-			finite = _take(_parts[index], parts[index]) and finite
+			var from = index if _twins == null else _twins.parts[index]
+			finite = _take(_parts[index], parts[from]) and finite
 		for number in outside:
 			finite = Numbers.is_finite_number(number) and finite
 		if not finite:
@@ -725,7 +873,7 @@ class Player:
 			var asked = _asked(index)
 			if not Numbers.is_finite_number(asked):
 				return NOT_FINITE
-			speeds[index] = _side * asked
+			speeds[index if _twins == null else _twins.outputs[index]] = _side * asked
 		seconds += step
 		return ""
 

@@ -294,7 +294,8 @@ mod tests {
 
     /// Some neurons are silenced by what a gate puts out, which opens and closes; what they put out is as if they were not skipped.
     fn gated() -> impl Strategy<Value = Vec<Neuron>> {
-        let silenced = (prop::sample::select(Activation::ALL.to_vec()), prop::collection::vec(-3.0..3.0_f32, 4), 0..3_usize);
+        let silenced =
+            (prop::sample::select(Activation::ALL.to_vec()), prop::collection::vec(-3.0..3.0_f32, 4), 0..3_usize);
         prop::collection::vec(silenced, 1..12).prop_map(|made| {
             let gate = |bias: f32, weight: f32| Neuron {
                 activation: Activation::Logistic,
@@ -306,7 +307,11 @@ mod tests {
                 activation,
                 scale: 1.0,
                 bias: numbers[0],
-                sources: vec![(1, numbers[1]), (2, numbers[2]), (INPUTS as u16 + (kind % 2) as u16, [1000.0, 600.0, 90.0][kind])],
+                sources: vec![
+                    (1, numbers[1]),
+                    (2, numbers[2]),
+                    (INPUTS as u16 + (kind % 2) as u16, [1000.0, 600.0, 90.0][kind]),
+                ],
             };
             let gates = [gate(0.0, 40.0), gate(0.0, -40.0)];
             gates.into_iter().chain(made.into_iter().map(silenced)).collect()

@@ -3,7 +3,8 @@
 //     mcs -langversion:7 -warnaserror -out:check.exe Check.cs ../GambolPlayer.cs
 //     mono check.exe all-senses.player all-senses.trace.csv
 //
-// Prints the greatest difference, and fails where something is wrong.
+// Prints the greatest difference, and fails where something is wrong. A last column `faces_left` of the trace says when the body
+// turns round. Without a trace, prints of each file whether its body looks the same from both sides.
 
 using System;
 using System.Globalization;
@@ -22,10 +23,13 @@ internal static class Check
         internal float[] Outside;
         internal Command Command;
         internal float[] Expected;
+        internal Facing Facing;
 
-        internal Row(string line, Character character)
+        internal Row(string line, Character character, bool turns)
         {
             var numbers = line.Split(',').Select(number => float.Parse(number, CultureInfo.InvariantCulture)).ToArray();
+            Facing = turns && numbers.Last() == 1f ? Facing.Left : Facing.Right;
+            if (turns) numbers = numbers.Take(numbers.Length - 1).ToArray();
             int measured = 4 + 8 * character.Parts.Length, outside = character.Outside().Length;
             Parts = character.Parts.Select((_, part) => State(numbers, 4 + 8 * part)).ToArray();
             Outside = numbers.Skip(measured).Take(outside).ToArray();
@@ -47,13 +51,22 @@ internal static class Check
     {
         try
         {
+            if (!arguments.Last().EndsWith(".csv"))
+            {
+                foreach (var path in arguments) Console.WriteLine(SymmetryOf(path));
+                return 0;
+            }
             var bytes = File.ReadAllBytes(arguments[0]);
             var lines = File.ReadAllLines(arguments[1]);
             var character = Character.FromBytes(bytes);
-            var rows = lines.Skip(1).Select(line => new Row(line, character)).ToArray();
-            Replay(character, lines[0].Split(','), rows);
+            var columns = lines[0].Split(',');
+            var turns = columns.Last() == "faces_left";
+            var rows = lines.Skip(1).Select(line => new Row(line, character, turns)).ToArray();
+            Replay(character, turns ? columns.Take(columns.Length - 1).ToArray() : columns, rows);
             CheckDamage(bytes);
             CheckMirrored(character, rows);
+            CheckFacing(character, rows);
+            CheckLopsided(bytes, rows);
             CheckErrors(character, rows[0]);
             Console.WriteLine("checked");
             return 0;
@@ -70,6 +83,20 @@ internal static class Check
         if (!holds) throw new Exception(what);
     }
 
+    /// <summary>Whether a body looks the same from both sides, or why not.</summary>
+    private static string SymmetryOf(string path)
+    {
+        try
+        {
+            Character.FromBytes(File.ReadAllBytes(path)).Symmetry();
+            return "symmetric";
+        }
+        catch (Asymmetry error)
+        {
+            return error.Message;
+        }
+    }
+
     private static void Replay(Character character, string[] columns, Row[] rows)
     {
         var player = new Player(character);
@@ -79,6 +106,7 @@ internal static class Check
         {
             var row = rows[step];
             var seconds = (float)player.Seconds;
+            player.Face(row.Facing);
             player.Tick(row.Parts, row.Outside, row.Command, character.World.TimeStep);
             var found = new[] { seconds }.Concat(player.Inputs).Concat(player.Outputs).Concat(player.Speeds).ToArray();
             Assert(found.Length == row.Expected.Length, "the trace has other columns than the player has numbers");
@@ -135,6 +163,8 @@ internal static class Check
         Player right = new Player(character), left = new Player(character.Mirrored());
         foreach (var row in rows)
         {
+            right.Face(row.Facing);
+            left.Face(row.Facing == Facing.Right ? Facing.Left : Facing.Right);
             var mirrored = row.Parts.Select(part => part.Mirrored()).ToArray();
             var speeds = right.Tick(row.Parts, row.Outside, row.Command, 0.02f);
             var others = left.Tick(mirrored, row.Outside, row.Command, 0.02f);
@@ -142,6 +172,65 @@ internal static class Check
             var torques = right.Torques(row.Parts);
             var theirs = left.Torques(mirrored);
             Assert(torques.SequenceEqual(theirs.Select(torque => -torque)), "the mirror image pushes otherwise");
+        }
+    }
+
+    /// <summary>A body turns round, and back; rays turn with it.</summary>
+    private static void CheckFacing(Character character, Row[] rows)
+    {
+        var player = new Player(character);
+        var begins = player.Facing == Facing.Right && Seen(player.Outside()) == Seen(character.Outside());
+        Assert(begins, "it does not begin as it was built");
+        player.Face(Facing.Left);
+        var turned = player.Facing == Facing.Left && Seen(player.Outside()) == Seen(character.Mirrored().Outside());
+        Assert(turned, "it does not look to the left");
+        var hasRays = character.Outside().Any(outside => outside.Kind == Source.Ray);
+        Assert((Seen(player.Outside()) != Seen(character.Outside())) == hasRays, "rays do not turn");
+        player.Face(Facing.Right);
+        AssertSame(player, new Player(character), rows, "it does not turn back");
+        player.Face(Facing.Left);
+        player.Reset();
+        Assert(player.Facing == Facing.Right, "it begins anew as it was turned");
+        AssertSame(player, new Player(character), rows, "it begins anew as it was turned");
+        var built = new Player(character.Mirrored());
+        built.Face(Facing.Right);
+        built.Reset();
+        Assert(built.Facing == Facing.Left, "the mirror image begins anew as it was turned");
+    }
+
+    /// <summary>One that does not look the same from both sides goes on as it was.</summary>
+    private static void CheckLopsided(byte[] bytes, Row[] rows)
+    {
+        var character = Character.FromBytes(bytes);
+        character.Parts.Last().X += 0.1f;
+        Player player = new Player(character), other = new Player(Character.FromBytes(bytes));
+        AssertSame(player, other, rows, "a part in another place changes what the net does");
+        var message = "no error";
+        try
+        {
+            player.Face(Facing.Left);
+        }
+        catch (Asymmetry error)
+        {
+            message = error.Message;
+        }
+        Assert(message.EndsWith("has no mirror image on the other side"), $"\"{message}\", not that there is no mirror image");
+        Assert(player.Facing == Facing.Right, "a body that is not symmetric turns round");
+        AssertSame(player, other, rows, "a body that cannot turn does not go on as it was");
+        player.Face(Facing.Right);
+    }
+
+    private static string Seen(Outside[] outside)
+    {
+        return string.Join(" ", outside.Select(seen => $"{seen.Kind} {seen.Angle:R} {seen.Length:R}"));
+    }
+
+    private static void AssertSame(Player one, Player other, Row[] rows, string what)
+    {
+        foreach (var row in rows.Take(3))
+        {
+            var speeds = one.Tick(row.Parts, row.Outside, row.Command, 0.02f);
+            Assert(speeds.SequenceEqual(other.Tick(row.Parts, row.Outside, row.Command, 0.02f)), what);
         }
     }
 

@@ -2,7 +2,9 @@
 #
 #     godot3-server --path . --script check.gd all-senses.player all-senses.trace.csv
 #
-# with absolute paths of the two files. Prints the greatest difference, and fails where something is wrong.
+# with absolute paths of the two files. Prints the greatest difference, and fails where something is wrong. A last column
+# `faces_left` of the trace says when the body turns round. Without a trace, prints of each file whether its body looks the same
+# from both sides.
 
 extends SceneTree
 
@@ -12,6 +14,7 @@ const MOST = 1.0e-5
 var _bytes
 var _columns = []
 var _rows = []
+var _turns = false
 var _failures = 0
 var _exit_code = 1
 
@@ -21,26 +24,52 @@ func _init():
 	for argument in OS.get_cmdline_args():
 		if argument.ends_with(".player") or argument.ends_with(".csv"):
 			paths.append(argument)
+	if paths.back().ends_with(".csv"):
+		_check(paths[0], paths[1])
+	else:
+		for path in paths:
+			print(_symmetry(path))
+	if _failures == 0:
+		_exit_code = 0
+		print("checked")
+
+
+func _check(path, trace):
+	var character = _character(path)
+	if _failures > 0:
+		return
 	var file = File.new()
-	file.open(paths[0], File.READ)
+	file.open(trace, File.READ)
+	var lines = file.get_as_text().strip_edges().split("\n")
+	file.close()
+	_columns = Array(lines[0].split(","))
+	_turns = _columns.back() == "faces_left"
+	if _turns:
+		_columns.pop_back()
+	for index in range(1, lines.size()):
+		_rows.append(_row(lines[index], character))
+	_replay(character)
+	_check_damage()
+	_check_mirrored(character)
+	_check_facing(character)
+	_check_lopsided(character, _character(path))
+	_check_errors(character)
+
+
+func _character(path):
+	var file = File.new()
+	file.open(path, File.READ)
 	_bytes = file.get_buffer(file.get_len())
 	file.close()
 	var character = Gambol.Character.new()
 	_assert_equal(character.read(_bytes), "")
-	if _failures == 0:
-		file.open(paths[1], File.READ)
-		var lines = file.get_as_text().strip_edges().split("\n")
-		file.close()
-		_columns = lines[0].split(",")
-		for index in range(1, lines.size()):
-			_rows.append(_row(lines[index], character))
-		_replay(character)
-		_check_damage()
-		_check_mirrored(character)
-		_check_errors(character)
-	if _failures == 0:
-		_exit_code = 0
-		print("checked")
+	return character
+
+
+# Whether a body looks the same from both sides, or why not.
+func _symmetry(path):
+	var why = _character(path).symmetry()
+	return "symmetric" if why == "" else why
 
 
 # An error of the script ends a function, and Godot goes on: so it ends here whatever happens.
@@ -64,6 +93,7 @@ func _row(line, character):
 	for number in line.split(","):
 		numbers.append(float(number))
 	var row = {"parts": [], "outside": [], "command": _command(numbers[2], numbers[3] != 0.0), "expected": [numbers[1]]}
+	row.facing = "left" if _turns and numbers.pop_back() == 1.0 else "right"
 	var at = 4
 	for _part in character.parts:
 		row.parts.append(_state(numbers, at))
@@ -101,6 +131,7 @@ func _replay(character):
 	for step in range(_rows.size()):
 		var row = _rows[step]
 		var seconds = player.seconds
+		_assert_equal(player.face(row.facing), "")
 		_assert_equal(player.tick(row.parts, row.outside, row.command, character.world.time_step), "")
 		var found = [seconds] + player.inputs + player.outputs + player.speeds
 		_assert_equal(found.size(), row.expected.size())
@@ -156,6 +187,8 @@ func _check_mirrored(character):
 		var mirrored = []
 		for part in row.parts:
 			mirrored.append(_mirrored(part))
+		_assert_equal(right.face(row.facing), "")
+		_assert_equal(left.face("left" if row.facing == "right" else "right"), "")
 		_assert_equal(right.tick(row.parts, row.outside, row.command, 0.02), "")
 		_assert_equal(left.tick(mirrored, row.outside, row.command, 0.02), "")
 		var torques = right.torques(row.parts)
@@ -163,6 +196,52 @@ func _check_mirrored(character):
 		for index in range(torques.size()):
 			_assert_equal(right.speeds[index], -left.speeds[index])
 			_assert_equal(torques[index], -others[index])
+
+
+# A body turns round, and back; rays turn with it.
+func _check_facing(character):
+	var player = Gambol.Player.new(character)
+	_assert_equal(player.facing(), "right")
+	_assert_equal(str(player.outside()), str(character.outside()))
+	_assert_equal(player.face("left"), "")
+	_assert_equal(player.facing(), "left")
+	_assert_equal(str(player.outside()), str(character.mirrored().outside()))
+	var rays = 0
+	for outside in character.outside():
+		rays += 1 if outside.kind == Gambol.Source.RAY else 0
+	_assert((str(player.outside()) != str(character.outside())) == (rays > 0), "rays do not turn")
+	_assert_equal(player.face("right"), "")
+	_check_same(player, Gambol.Player.new(character))
+	_assert_equal(player.face("left"), "")
+	player.reset()
+	_assert_equal(player.facing(), "right")
+	_check_same(player, Gambol.Player.new(character))
+	var built = Gambol.Player.new(character.mirrored())
+	_assert_equal(built.face("right"), "")
+	built.reset()
+	_assert_equal(built.facing(), "left")
+	_assert_equal(player.face("Left"), "\"Left\": must be \"left\" or \"right\"")
+
+
+# One that does not look the same from both sides goes on as it was.
+func _check_lopsided(character, lopsided):
+	lopsided.parts.back().x += 0.1
+	var player = Gambol.Player.new(lopsided)
+	var other = Gambol.Player.new(character)
+	_check_same(player, other)
+	var error = player.face("left")
+	_assert("has no mirror image on the other side" in error, "\"%s\", not that there is no mirror image" % error)
+	_assert_equal(player.facing(), "right")
+	_check_same(player, other)
+	_assert_equal(player.face("right"), "")
+
+
+func _check_same(one, other):
+	for index in range(3):
+		var row = _rows[index]
+		_assert_equal(one.tick(row.parts, row.outside, row.command, 0.02), "")
+		_assert_equal(other.tick(row.parts, row.outside, row.command, 0.02), "")
+		_assert_equal(one.speeds, other.speeds)
 
 
 # What a game tells wrongly leaves the motors still.
