@@ -1,7 +1,7 @@
 use super::{BodyFacts, MovementDefaults};
 use crate::{
     Registry,
-    config::{LimbPhases, RunConfig},
+    config::{LimbPhases, RunConfig, StageSettings},
     setup::Setup,
 };
 use creatures::{Actuation, Sensor};
@@ -109,6 +109,22 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
     assert!(thesis.expect("a preset").commands.is_some() && config("apod", "running").commands.is_none());
     let setup = Setup::new(&config("biped-1", "running"), &Registry::default()).expect("valid");
     assert_eq!(setup.reference.map(|reference| reference.trials.count), Some(1));
+}
+
+/// What docs/playing.md says of it.
+#[test]
+fn two_legs_with_knees_have_more_time_to_jump_and_a_jump_counts_less_in_the_end() {
+    for (creature, clocks) in
+        [("biped-1", [0.4, 0.8]), ("biped-2", [0.6, 1.2]), ("tetrapod-2", [0.4, 0.8]), ("decapod-1", [0.4, 0.8])]
+    {
+        let stages = config(creature, "playing").stages;
+        let [jump, polish] = ["jump", "polish"].map(|name| stages.iter().find(|stage| stage.name == name));
+        let (jump, polish) = (jump.expect("a stage"), polish.expect("a stage"));
+        let expected = clocks.map(|period| Sensor::JumpClock { period });
+        assert_eq!(jump.add_sensors, expected, "{creature}");
+        let worth = |stage: &StageSettings| stage.changes["movement"]["settings"]["jump"].as_f64();
+        assert_eq!([jump, polish].map(worth), [Some(4.0), Some(1.5)], "{creature}");
+    }
 }
 
 /// A movement of another crate gets what its crate says, and a controller if it says nothing.
