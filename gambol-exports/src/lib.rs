@@ -1,6 +1,6 @@
 //! What leaves Gambol: a champion in the formats that games and other programs read.
 //!
-//! Each [`Format`] is a file, or two that belong together; [`export`] gives their bytes, and what is not whole is not given. All of
+//! Each [`Format`] is a file, or several that belong together; [`export`] gives their bytes, and what is not whole is not given. All of
 //! them show the champion as `gambol gait` judges it: in rapier, in the world without variation. Pictures and animations show
 //! its [`Cycle`]: the stride of the gait that meets itself best, made to meet itself exactly.
 //!
@@ -12,7 +12,7 @@
 //! | [`Gif`](Format::Gif), [`Apng`](Format::Apng), [`Svg`](Format::Svg) | a loop, transparent or with ground |
 //! | [`Sprites`](Format::Sprites) | a sheet of frames with its atlas, root motion for each frame |
 //! | [`Gltf`](Format::Gltf) | body and gait in three dimensions, with root motion |
-//! | [`DragonBones`](Format::DragonBones) | a skeleton with its gait, in place; bounding boxes, but no images |
+//! | [`DragonBones`](Format::DragonBones) | a skeleton with its gait, in place, and pictures of its parts on a texture atlas |
 //! | [`Onnx`](Format::Onnx) | the net, and as metadata what its inputs and outputs are |
 
 mod bones;
@@ -59,7 +59,7 @@ pub enum Format {
     Sprites,
     /// Body and gait as glTF.
     Gltf,
-    /// Body and gait as a skeleton for DragonBones.
+    /// Body and gait as a skeleton for DragonBones, with a texture atlas of the parts.
     DragonBones,
     /// The net as an ONNX model.
     Onnx,
@@ -79,7 +79,7 @@ pub struct Options {
 /// A file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exported {
-    /// How its name ends.
+    /// How its name ends, with the dot or other sign before.
     pub ending: &'static str,
     /// What is in it.
     pub bytes: Vec<u8>,
@@ -116,19 +116,19 @@ impl Format {
         }
     }
 
-    /// How the names of its files end; the first is the file that is asked for.
+    /// How the names of its files end, after what they are [called](Options::name); the first is the file that is asked for.
     pub fn endings(self) -> &'static [&'static str] {
         match self {
-            Self::Player => &["player"],
-            Self::Trace => &["trace.csv"],
-            Self::Csv => &["csv"],
-            Self::Gif => &["gif"],
-            Self::Apng => &["png"],
-            Self::Svg => &["svg"],
-            Self::Sprites => &["json", "png"],
-            Self::Gltf => &["gltf"],
-            Self::DragonBones => &["ske.json"],
-            Self::Onnx => &["onnx"],
+            Self::Player => &[".player"],
+            Self::Trace => &[".trace.csv"],
+            Self::Csv => &[".csv"],
+            Self::Gif => &[".gif"],
+            Self::Apng => &[".png"],
+            Self::Svg => &[".svg"],
+            Self::Sprites => &[".json", ".png"],
+            Self::Gltf => &[".gltf"],
+            Self::DragonBones => &["_ske.json", "_tex.json", "_tex.png"],
+            Self::Onnx => &[".onnx"],
         }
     }
 }
@@ -162,7 +162,7 @@ pub fn export(
             vec![atlas, sheet]
         }
         Format::Gltf => vec![gltf::of(champion, registry)?],
-        Format::DragonBones => vec![dragonbones::of(champion, registry)?],
+        Format::DragonBones => dragonbones::of(champion, registry, options)?.into(),
         Format::Onnx => vec![onnx::of(champion, registry)?],
     };
     Ok(format.endings().iter().zip(files).map(|(ending, bytes)| Exported { ending, bytes }).collect())

@@ -2,6 +2,7 @@
 //!
 //! What a program has to know besides, to sense and to move a body as the net expects it, are metadata.
 
+mod activations;
 mod graph;
 mod net;
 mod protobuf;

@@ -10,7 +10,9 @@
 //! temporary file beside it, flushed to the disk and renamed: whatever happens meanwhile, the old or the new file is
 //! there, whole.
 
-pub use crate::whole_file::{check_replaceable, is_temporary, make_folder, write_whole, write_whole_with};
+pub use crate::whole_file::{
+    check_replaceable, is_temporary, make_folder, write_whole, write_whole_together, write_whole_with,
+};
 use crate::{
     bounded_read::{self, LARGEST_DATA},
     digest::JsonDigest,

@@ -25,6 +25,28 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
 /// # Errors
 /// As [`write_whole`], and those of the function.
 pub fn write_whole_with(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<()> {
+    put(path, filled(path, fill)?)
+}
+
+/// As [`write_whole`], for files that belong together: none is put in its place before all are written. They are put there in
+/// their order.
+///
+/// # Errors
+/// As [`write_whole`]; the error names the file. All are then as they were, unless it is the renaming that failed.
+pub fn write_whole_together(files: &[(&Path, &[u8])]) -> io::Result<()> {
+    let named = |path: &Path, error: io::Error| io::Error::new(error.kind(), format!("{}: {error}", path.display()));
+    let fill = |&(path, bytes): &(&Path, &[u8])| {
+        filled(path, |file| file.write_all(bytes)).map_err(|error| named(path, error))
+    };
+    let written = files.iter().map(fill).collect::<io::Result<Vec<_>>>()?;
+    for (&(path, _), file) in files.iter().zip(written) {
+        put(path, file).map_err(|error| named(path, error))?;
+    }
+    Ok(())
+}
+
+/// A temporary file beside `path` with what is to stand there, flushed to the disk.
+fn filled(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<()>) -> io::Result<NamedTempFile> {
     check_replaceable(path)?;
     let folder = folder_of(path);
     remove_abandoned(folder);
@@ -32,10 +54,14 @@ pub fn write_whole_with(path: &Path, fill: impl FnOnce(&mut File) -> io::Result<
     let mut file = temporary(folder)?;
     fill(file.as_file_mut())?;
     file.as_file().sync_all()?;
+    Ok(file)
+}
+
+fn put(path: &Path, file: NamedTempFile) -> io::Result<()> {
     reach(WritePoint::Rename(path));
     file.persist(path).map_err(|error| error.error)?;
     reach(WritePoint::FlushFolder(path));
-    flush_folder(folder)
+    flush_folder(folder_of(path))
 }
 
 /// Makes a folder and those above it, and brings it to the disk; one that is there is left as it is.

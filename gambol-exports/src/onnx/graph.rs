@@ -1,10 +1,12 @@
 //! The operations of ONNX, and the lists of numbers they work on.
 
 use super::protobuf::Message;
+use std::collections::BTreeMap;
 
 /// The numbers that ONNX has for kinds of numbers and of attributes.
 const FLOAT: u64 = 1;
 const INT64: u64 = 7;
+const DOUBLE: u64 = 11;
 const ATTRIBUTE_INT: u64 = 2;
 
 /// The numbers of the fields of a graph.
@@ -14,15 +16,30 @@ const INITIALIZER: u64 = 5;
 const INPUT: u64 = 11;
 const OUTPUT: u64 = 12;
 
-/// A graph that grows. Every list has one row.
+/// What numbers are cast to.
+#[derive(Clone, Copy)]
+pub(crate) enum Kind {
+    Single,
+    Double,
+    Whole,
+}
+
+/// A graph that grows. Every list that goes in or comes out has one row.
 pub(crate) struct Graph {
     message: Message,
+    /// What the operations belong to: their names begin with it.
+    part: String,
+    operations: usize,
     constants: usize,
+    /// Single numbers, by their bytes.
+    known: BTreeMap<Vec<u8>, String>,
+    powers: Option<String>,
 }
 
 impl Graph {
     pub(crate) fn new(name: &str) -> Self {
-        Self { message: Message::default().text(NAME, name), constants: 0 }
+        let message = Message::default().text(NAME, name);
+        Self { message, part: name.into(), operations: 0, constants: 0, known: BTreeMap::new(), powers: None }
     }
 
     fn field(&mut self, field: u64, message: Message) {
@@ -37,17 +54,74 @@ impl Graph {
         self.field(OUTPUT, value(name, count, what));
     }
 
-    /// An operation, of the given kind; the name of its result.
-    pub(crate) fn operation(&mut self, kind: &str, inputs: &[&str], result: &str) -> String {
-        self.field(NODE, operation(kind, inputs, result));
-        result.into()
+    /// The operations that follow are those of a part.
+    pub(crate) fn begin(&mut self, part: &str) {
+        (self.part, self.operations) = (part.into(), 0);
     }
 
-    /// One that works along the columns of a row.
-    pub(crate) fn along_row(&mut self, kind: &str, inputs: &[&str], result: &str) -> String {
-        let axis = Message::default().text(1, "axis").number(3, 1).number(20, ATTRIBUTE_INT);
-        self.field(NODE, operation(kind, inputs, result).message(5, axis));
-        result.into()
+    /// An operation of the given kind; the name of its result.
+    pub(crate) fn apply(&mut self, kind: &str, inputs: &[&str]) -> String {
+        let result = self.next_name(kind);
+        self.field(NODE, operation(kind, inputs, &result));
+        result
+    }
+
+    /// One that works along an axis.
+    pub(crate) fn along(&mut self, axis: u64, kind: &str, inputs: &[&str]) -> String {
+        let result = self.next_name(kind);
+        self.along_to(axis, kind, inputs, &result);
+        result
+    }
+
+    /// The same, with a name for the result.
+    pub(crate) fn along_to(&mut self, axis: u64, kind: &str, inputs: &[&str], result: &str) {
+        self.field(NODE, operation(kind, inputs, result).message(5, attribute("axis", axis)));
+    }
+
+    /// What comes out, as it is.
+    pub(crate) fn identity(&mut self, input: &str, result: &str) {
+        self.field(NODE, operation("Identity", &[input], result));
+    }
+
+    pub(crate) fn cast(&mut self, input: &str, to: Kind) -> String {
+        let result = self.next_name("Cast");
+        let number = match to {
+            Kind::Single => FLOAT,
+            Kind::Double => DOUBLE,
+            Kind::Whole => INT64,
+        };
+        self.field(NODE, operation("Cast", &[input], &result).message(5, attribute("to", number)));
+        result
+    }
+
+    fn next_name(&mut self, kind: &str) -> String {
+        self.operations += 1;
+        format!("{}.{}{}", self.part, kind.to_lowercase(), self.operations - 1)
+    }
+
+    /// A single number; its name.
+    pub(crate) fn number(&mut self, number: f32) -> String {
+        self.single(FLOAT, &number.to_le_bytes())
+    }
+
+    /// A single number of 64 bits; its name.
+    pub(crate) fn double(&mut self, number: f64) -> String {
+        self.single(DOUBLE, &number.to_le_bytes())
+    }
+
+    /// A single whole number; its name.
+    pub(crate) fn whole(&mut self, number: usize) -> String {
+        self.single(INT64, &(number as i64).to_le_bytes())
+    }
+
+    fn single(&mut self, kind: u64, bytes: &[u8]) -> String {
+        let key = [&[kind as u8], bytes].concat();
+        if let Some(name) = self.known.get(&key) {
+            return name.clone();
+        }
+        let name = self.constant(kind, &[], bytes);
+        self.known.insert(key, name.clone());
+        name
     }
 
     /// A constant; its name.
@@ -56,10 +130,21 @@ impl Graph {
         self.constant(FLOAT, shape, &bytes)
     }
 
+    /// All powers of 2 whose exponents are so far from 0, as a list; its name.
+    pub(crate) fn powers_of_two(&mut self, most: i32) -> String {
+        if let Some(name) = &self.powers {
+            return name.clone();
+        }
+        let powers: Vec<f32> = (-most..=most).map(|exponent| libm::exp2f(exponent as f32)).collect();
+        let name = self.numbers(&[powers.len()], &powers);
+        self.powers = Some(name.clone());
+        name
+    }
+
     /// A constant of whole numbers; its name.
-    pub(crate) fn indices(&mut self, indices: &[usize]) -> String {
+    pub(crate) fn indices(&mut self, shape: &[usize], indices: &[usize]) -> String {
         let bytes: Vec<u8> = indices.iter().flat_map(|&index| (index as i64).to_le_bytes()).collect();
-        self.constant(INT64, &[indices.len()], &bytes)
+        self.constant(INT64, shape, &bytes)
     }
 
     fn constant(&mut self, kind: u64, shape: &[usize], bytes: &[u8]) -> String {
@@ -79,6 +164,10 @@ fn operation(kind: &str, inputs: &[&str], result: &str) -> Message {
     let node = inputs.iter().fold(Message::default(), |node, input| node.text(1, input));
     // Some programs want a name for each.
     node.text(2, result).text(3, result).text(4, kind)
+}
+
+fn attribute(name: &str, number: u64) -> Message {
+    Message::default().text(1, name).number(3, number).number(20, ATTRIBUTE_INT)
 }
 
 /// What goes in or comes out: a row of numbers.

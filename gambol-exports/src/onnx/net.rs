@@ -1,13 +1,18 @@
 //! A net as operations: neurons that do not hear each other are computed together.
+//!
+//! A trained net may have weights of 1000: another order of summation, or another approximation of tanh, is then seen in the
+//! outputs. So sums are added up in the order of the net (`CumSum`, where a matrix product would have an order of its own), and
+//! [activations](super::activations) are made of the operations that the net has. A program that computes each operation with 32
+//! bits gives the bits of the net.
 
-use super::graph::Graph;
+use super::{activations::activate, graph::Graph};
 use crate::ExportError;
-use ne_net::{Activation, NetView, NeuronView};
+use ne_net::{NetView, NeuronView};
 use std::{collections::BTreeSet, ops::Range};
 
-/// The most numbers of all weights together, with the zeros of those that are not there: a file holds no more than 2
-/// GB.
-const LARGEST: usize = 1 << 28;
+/// The most numbers of all weights together, with the zeros of those that are not there: each takes 12 bytes with the place of
+/// its source, and a file holds no more than 2 GB.
+const LARGEST: usize = 1 << 27;
 
 /// Nodes that are computed together.
 struct Block {
@@ -28,29 +33,30 @@ pub(crate) fn graph(view: &NetView, weights: &[f32]) -> Result<Graph, ExportErro
     let mut blocks = vec![Block { name: "inputs".into(), nodes: 0..inputs }];
     let mut size = 0;
     for group in groups(view) {
-        let name = format!("neurons{}", blocks.len() - 1);
-        let heard = Heard::by(view, &group, &blocks);
-        size += heard.width * group.len();
+        graph.begin(&format!("neurons{}", blocks.len() - 1));
+        let neurons = &view.neurons[group.start - inputs..group.end - inputs];
+        size += most_sources(neurons) * group.len();
         if size > LARGEST {
             return Err(ExportError::TooLarge { weights: size, most: LARGEST });
         }
-        let neurons = &view.neurons[group.start - inputs..group.end - inputs];
-        let sums = heard.sums(&mut graph, neurons, weights, &name);
-        let name = activate(&mut graph, neurons[0].activation, &sums, &name);
+        let heard = Heard::by(view, &group, &blocks);
+        let sums = heard.sums(&mut graph, neurons, weights);
+        let activated = activate(&mut graph, neurons[0].activation, &sums);
         let scales: Vec<f32> = neurons.iter().map(|neuron| neuron.scale).collect();
         let name = if scales.iter().all(|&scale| scale == 1.0) {
-            name
+            activated
         } else {
             let scales = graph.numbers(&[scales.len()], &scales);
-            graph.operation("Mul", &[&name, &scales], &format!("{name}.scaled"))
+            graph.apply("Mul", &[&activated, &scales])
         };
         blocks.push(Block { name, nodes: group });
     }
+    graph.begin("net");
     outputs(&mut graph, view, &blocks);
     if is_recurrent {
         graph.output("next_state", neurons, "the state of the next step");
         let names: Vec<&str> = blocks[1..].iter().map(|block| &*block.name).collect();
-        graph.along_row("Concat", &names, "next_state");
+        graph.along_to(1, "Concat", &names, "next_state");
     }
     Ok(graph)
 }
@@ -116,82 +122,63 @@ impl Heard {
         self.columns.push((nodes, first));
     }
 
-    /// Weighted sums: a matrix with a row for each node that is heard, and a column for each neuron.
-    fn sums(&self, graph: &mut Graph, neurons: &[NeuronView], weights: &[f32], name: &str) -> String {
-        let mut matrix = vec![0.0; self.width * neurons.len()];
+    fn column(&self, source: usize) -> usize {
+        let place = self.columns.iter().find(|(nodes, _)| nodes.contains(&source));
+        place.map_or(0, |(nodes, first)| first + source - nodes.start)
+    }
+
+    /// Weighted sums: for each neuron the weight of its bias, then weight times source for each source, added one after the
+    /// other. Neurons with fewer sources than others have weights of 0 at the end.
+    fn sums(&self, graph: &mut Graph, neurons: &[NeuronView], weights: &[f32]) -> String {
+        let (count, most) = (neurons.len(), most_sources(neurons));
+        let (mut columns, mut factors) = (vec![0; count * most], vec![0.0; count * most]);
         for (neuron, target) in neurons.iter().enumerate() {
-            for &(source, weight) in &target.sources {
-                if let Some((nodes, first)) = self.columns.iter().find(|(nodes, _)| nodes.contains(&source)) {
-                    matrix[(first + source - nodes.start) * neurons.len() + neuron] = weights[weight];
-                }
+            for (place, &(source, weight)) in (neuron * most..).zip(&target.sources) {
+                (columns[place], factors[place]) = (self.column(source), weights[weight]);
             }
         }
-        let matrix = graph.numbers(&[self.width, neurons.len()], &matrix);
-        let biases: Vec<f32> = neurons.iter().map(|neuron| neuron.bias.map_or(0.0, |weight| weights[weight])).collect();
-        let biases = graph.numbers(&[neurons.len()], &biases);
         let names: Vec<&str> = self.names.iter().map(String::as_str).collect();
         let heard = match names[..] {
             [name] => name.into(),
-            _ => graph.along_row("Concat", &names, &format!("{name}.heard")),
+            _ => graph.along(1, "Concat", &names),
         };
-        graph.operation("Gemm", &[&heard, &matrix, &biases], &format!("{name}.sums"))
+        let sources = self.taken(graph, heard, &columns, most);
+        let factors = graph.numbers(&[1, count, most], &factors);
+        let products = graph.apply("Mul", &[&sources, &factors]);
+        let biases: Vec<f32> = neurons.iter().map(|neuron| neuron.bias.map_or(0.0, |weight| weights[weight])).collect();
+        let biases = graph.numbers(&[1, count, 1], &biases);
+        let terms = graph.along(2, "Concat", &[&biases, &products]);
+        let [axis, last] = [2, most].map(|number| graph.whole(number));
+        let sums = graph.apply("CumSum", &[&terms, &axis]);
+        graph.along(2, "Gather", &[&sums, &last])
+    }
+
+    /// The columns that are asked for, of which each neuron has so many.
+    fn taken(&self, graph: &mut Graph, heard: String, columns: &[usize], count: usize) -> String {
+        let first = &columns[..count];
+        let indices = match columns.chunks_exact(count).all(|columns| columns == first) {
+            true if first.iter().copied().eq(0..self.width) => return heard,
+            true => graph.indices(&[count], first),
+            false => graph.indices(&[columns.len() / count, count], columns),
+        };
+        graph.along(1, "Gather", &[&heard, &indices])
     }
 }
 
-/// The operations of an activation; the name of their result.
-fn activate(graph: &mut Graph, activation: Activation, sums: &str, name: &str) -> String {
-    let steep = |graph: &mut Graph, factor: f32| {
-        let factor = graph.numbers(&[1], &[factor]);
-        graph.operation("Mul", &[sums, &factor], &format!("{name}.steep"))
-    };
-    match activation {
-        Activation::Logistic => graph.operation("Sigmoid", &[sums], name),
-        Activation::Tanh => graph.operation("Tanh", &[sums], name),
-        Activation::Relu => graph.operation("Relu", &[sums], name),
-        Activation::Linear => sums.into(),
-        Activation::Sine => graph.operation("Sin", &[sums], name),
-        Activation::SteepLogistic => {
-            let steep = steep(graph, 4.9);
-            graph.operation("Sigmoid", &[&steep], name)
-        }
-        Activation::SteepTanh => {
-            let steep = steep(graph, 2.45);
-            graph.operation("Tanh", &[&steep], name)
-        }
-        Activation::Gaussian => {
-            let square = graph.operation("Mul", &[sums, sums], &format!("{name}.square"));
-            let negative = graph.operation("Neg", &[&square], &format!("{name}.negative"));
-            graph.operation("Exp", &[&negative], name)
-        }
-        Activation::RationalTanh => rational_tanh(graph, sums, name),
-    }
-}
-
-/// a(27 + a²) / (27 + 9a²), where a is at most 3 from 0.
-fn rational_tanh(graph: &mut Graph, sums: &str, name: &str) -> String {
-    let part = |part: &str| format!("{name}.{part}");
-    let [nine, twenty_seven] = [9.0, 27.0].map(|number| graph.numbers(&[1], &[number]));
-    let mut limits = |most: f32| [-most, most].map(|limit| graph.numbers(&[], &[limit]));
-    let ([low, high], [least, most]) = (limits(3.0), limits(1.0));
-    let a = graph.operation("Clip", &[sums, &low, &high], &part("limited"));
-    let square = graph.operation("Mul", &[&a, &a], &part("square"));
-    let sum = graph.operation("Add", &[&square, &twenty_seven], &part("sum"));
-    let above = graph.operation("Mul", &[&a, &sum], &part("above"));
-    let ninefold = graph.operation("Mul", &[&square, &nine], &part("ninefold"));
-    let below = graph.operation("Add", &[&ninefold, &twenty_seven], &part("below"));
-    let ratio = graph.operation("Div", &[&above, &below], &part("ratio"));
-    graph.operation("Clip", &[&ratio, &least, &most], name)
+/// The most sources of a neuron, but at least one.
+fn most_sources(neurons: &[NeuronView]) -> usize {
+    neurons.iter().map(|neuron| neuron.sources.len()).max().unwrap_or(0).max(1)
 }
 
 /// Picks the outputs out of the blocks.
 fn outputs(graph: &mut Graph, view: &NetView, blocks: &[Block]) {
     let is_block = |block: &&Block| block.nodes.clone().eq(view.outputs.iter().copied());
     if let Some(block) = blocks.iter().find(is_block) {
-        graph.operation("Identity", &[&block.name], "outputs");
+        graph.identity(&block.name, "outputs");
         return;
     }
     let names: Vec<&str> = blocks.iter().map(|block| &*block.name).collect();
-    let nodes = graph.along_row("Concat", &names, "nodes");
-    let indices = graph.indices(&view.outputs);
-    graph.along_row("Gather", &[&nodes, &indices], "outputs");
+    let nodes = graph.along(1, "Concat", &names);
+    let indices = graph.indices(&[view.outputs.len()], &view.outputs);
+    graph.along_to(1, "Gather", &[&nodes, &indices], "outputs");
 }

@@ -33,7 +33,7 @@ impl Default for Picture {
 }
 
 impl Picture {
-    fn check(&self) -> Result<(), ExportError> {
+    pub(crate) fn check(&self) -> Result<(), ExportError> {
         let within = |field, value: f64, [least, most]: [f64; 2]| match (least..=most).contains(&value) {
             true => Ok(()),
             false => Err(ExportError::Setting { field, value, least, most }),
@@ -43,6 +43,10 @@ impl Picture {
     }
 }
 
+/// Between the pictures of a sheet, px: filters of games look beyond the edge.
+pub(crate) const GAP: u32 = 2;
+/// The most pixels of a sheet.
+const LARGEST: u64 = 1 << 28;
 /// Around the creature, px.
 const MARGIN: f64 = 4.0;
 /// Marks on the ground are about so far apart, m.
@@ -94,6 +98,32 @@ impl Loop {
         let share = frame as f64 / self.snapshots.len() as f64;
         let ground = self.spacing.map(|spacing| MarkedGround { spacing, mark: -share * self.cycle.travel });
         Ok(self.painter.paint(&self.snapshots[frame], &self.framing, ground)?)
+    }
+}
+
+/// A PNG image of red, green, blue and opacity of each pixel.
+pub(crate) fn png(pixels: &[u8], [width, height]: [u32; 2]) -> Result<Vec<u8>, ExportError> {
+    let error = |error: png::EncodingError| ExportError::Image(error.to_string());
+    let mut bytes = Vec::new();
+    let mut writer = apng::encoder(&mut bytes, width, height).write_header().map_err(error)?;
+    writer.write_image_data(pixels).map_err(error)?;
+    writer.finish().map_err(error)?;
+    Ok(bytes)
+}
+
+/// An image that grows too large to be one is refused before it takes memory.
+pub(crate) fn check_sheet([width, height]: [u32; 2]) -> Result<(), ExportError> {
+    match u64::from(width) * u64::from(height) > LARGEST {
+        true => Err(ExportError::Image(format!("a sheet of {width} × {height} pixels"))),
+        false => Ok(()),
+    }
+}
+
+/// Copies an image to a place on a larger one, both as lists of pixels.
+pub(crate) fn copy(from: &[u8], width: u32, to: &mut [u8], to_width: u32, [x, y]: [u32; 2]) {
+    for (line, pixels) in from.chunks_exact(4 * width as usize).enumerate() {
+        let start = 4 * ((y as usize + line) * to_width as usize + x as usize);
+        to[start..start + pixels.len()].copy_from_slice(pixels);
     }
 }
 

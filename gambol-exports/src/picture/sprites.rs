@@ -1,11 +1,6 @@
-use super::{Loop, apng::encoder};
+use super::{GAP, Loop, check_sheet, copy, png};
 use crate::ExportError;
 use serde_json::{Map, Value, json};
-
-/// Between the frames of a sheet, px: filters of games look beyond the edge.
-const GAP: u32 = 2;
-/// The most pixels of a sheet.
-const LARGEST: u64 = 1 << 28;
 
 /// A loop as a sheet of frames, and the atlas that says where each is: as bytes of a PNG image and of JSON, in the layout that
 /// texture packers have in common. `name`: of the creature and its movement; `image`: the name of the image's file.
@@ -14,19 +9,14 @@ pub(crate) fn sprites(drawn: &Loop, name: [&str; 2], image: &str) -> Result<(Vec
     let columns = (1..count).find(|columns| columns * columns >= count).unwrap_or(count) as u32;
     let rows = (count as u32).div_ceil(columns);
     let sheet = [columns * (width + GAP) + GAP, rows * (height + GAP) + GAP];
-    if u64::from(sheet[0]) * u64::from(sheet[1]) > LARGEST {
-        return Err(ExportError::Image(format!("a sheet of {} × {} pixels", sheet[0], sheet[1])));
-    }
+    check_sheet(sheet)?;
     let mut pixels = vec![0; 4 * sheet[0] as usize * sheet[1] as usize];
     let mut frames = Map::new();
     let duration = 1000.0 * drawn.cycle.seconds / count as f64;
     for index in 0..count {
         let (column, row) = (index as u32 % columns, index as u32 / columns);
         let [x, y] = [GAP + column * (width + GAP), GAP + row * (height + GAP)];
-        for (line, from) in drawn.paint(index)?.chunks_exact(4 * width as usize).enumerate() {
-            let to = 4 * ((y as usize + line) * sheet[0] as usize + x as usize);
-            pixels[to..to + from.len()].copy_from_slice(from);
-        }
+        copy(&drawn.paint(index)?, width, &mut pixels, sheet[0], [x, y]);
         let way = drawn.cycle.travel * index as f64 / count as f64;
         frames.insert(
             frame_name(name, index),
@@ -60,12 +50,7 @@ pub(crate) fn sprites(drawn: &Loop, name: [&str; 2], image: &str) -> Result<(Vec
             },
         },
     });
-    let error = |error: png::EncodingError| ExportError::Image(error.to_string());
-    let mut bytes = Vec::new();
-    let mut writer = encoder(&mut bytes, sheet[0], sheet[1]).write_header().map_err(error)?;
-    writer.write_image_data(&pixels).map_err(error)?;
-    writer.finish().map_err(error)?;
-    Ok((bytes, format!("{atlas:#}\n").into_bytes()))
+    Ok((png(&pixels, sheet)?, format!("{atlas:#}\n").into_bytes()))
 }
 
 fn frame_name([creature, movement]: [&str; 2], index: usize) -> String {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::sample::samples;
-use std::io::Cursor;
+use zune_png::{PngDecoder, zune_core::bytestream::ZCursor};
 
 const PICTURE: Picture = Picture { size: 96, rate: 12.0, ground: false };
 
@@ -12,46 +12,96 @@ fn drawn(picture: &Picture) -> Vec<(Blueprint, Loop)> {
     samples().into_iter().map(draw).collect()
 }
 
-#[test]
-fn a_gif_has_all_frames_its_size_and_its_length() {
-    for (body, drawn) in drawn(&PICTURE) {
-        let bytes = gif(&drawn).expect("a GIF");
-        let mut options = ::gif::DecodeOptions::new();
-        options.set_color_output(::gif::ColorOutput::RGBA);
-        let mut decoder = options.read_info(Cursor::new(bytes)).expect("it is read again");
-        assert_eq!(
-            [u32::from(decoder.width()), u32::from(decoder.height())],
-            [drawn.framing.width, drawn.framing.height]
-        );
-        assert_eq!(decoder.repeat(), ::gif::Repeat::Infinite);
-        let (mut frames, mut hundredths) = (0, 0);
-        while let Some(frame) = decoder.read_next_frame().expect("sound") {
-            (frames, hundredths) = (frames + 1, hundredths + i32::from(frame.delay));
-            let clear = frame.buffer.chunks_exact(4).filter(|pixel| pixel[3] == 0).count();
-            assert!(clear > 0 && clear < frame.buffer.len() / 4, "{}: all or nothing is clear", body.name());
-        }
-        assert_eq!((frames, hundredths), (9, 74));
+/// The pictures of a PNG file, each with when it ends, s.
+fn decoded(bytes: &[u8]) -> ([usize; 2], Vec<(Vec<u8>, f64)>) {
+    let mut decoder = PngDecoder::new(ZCursor::new(bytes));
+    let (mut frames, mut end) = (Vec::new(), 0.0);
+    while frames.is_empty() || decoder.more_frames() {
+        decoder.decode_headers().expect("sound");
+        let control = decoder.frame_info().expect("a frame");
+        let pixels = decoder.decode_raw().expect("sound");
+        let (width, height) = decoder.dimensions().expect("known from the headers");
+        assert_eq!((control.width, control.height, control.x_offset, control.y_offset), (width, height, 0, 0));
+        end += f64::from(control.delay_num) / f64::from(control.delay_denom).max(1.0);
+        frames.push((pixels, end));
+    }
+    let (width, height) = decoder.dimensions().expect("known from the headers");
+    ([width, height], frames)
+}
+
+fn size(drawn: &Loop) -> [usize; 2] {
+    [drawn.framing.width as usize, drawn.framing.height as usize]
+}
+
+/// That no picture is shown twice in a row, the last and the first included.
+fn assert_it_moves(body: &Blueprint, frames: &[Vec<u8>]) {
+    for (index, frame) in frames.iter().enumerate() {
+        assert!(frame != &frames[(index + 1) % frames.len()], "{}: nothing moves after frame {index}", body.name());
     }
 }
 
+/// Read by a crate that is not the one that wrote it.
 #[test]
-fn an_apng_has_the_frames_to_the_bit() {
+fn a_gif_shows_what_was_drawn_for_as_long_and_for_ever() {
+    for picture in [PICTURE, Picture { ground: true, ..PICTURE }] {
+        for (body, drawn) in drawn(&picture) {
+            let bytes = gif(&drawn).expect("a GIF");
+            let mut read = gift::Decoder::new(&bytes[..]).into_frames();
+            let preamble = read.preamble().expect("sound").expect("it comes first");
+            assert_eq!([preamble.screen_width(), preamble.screen_height()].map(usize::from), size(&drawn));
+            let repeats = preamble.loop_count_ext.and_then(|extension| extension.loop_count());
+            assert_eq!(repeats, Some(0), "0 is for ever");
+            let delays =
+                read.map(|frame| frame.expect("sound").graphic_control_ext.map(|control| control.delay_time_cs()));
+            let delays: Vec<u16> = delays.map(|delay| delay.expect("animated")).collect();
+            assert_eq!((delays.len(), delays.iter().sum::<u16>()), (9, 74));
+            assert!(delays.iter().all(|delay| (8..=9).contains(delay)), "{delays:?}");
+            // As a viewer shows them, one over the other.
+            let steps = gift::Decoder::new(&bytes[..]).into_steps();
+            let shown = |step: gift::Result<gift::Step>| step.expect("sound").raster().as_u8_slice().to_vec();
+            let frames: Vec<Vec<u8>> = steps.map(shown).collect();
+            assert_it_moves(&body, &frames);
+            for (index, frame) in frames.iter().enumerate() {
+                assert_near(&drawn.paint(index).expect("it can be drawn"), frame, body.name());
+            }
+        }
+    }
+}
+
+/// That each pixel has the colour that was drawn, as near as a palette has it.
+fn assert_near(drawn: &[u8], shown: &[u8], name: &str) {
+    assert_eq!(drawn.len(), shown.len());
+    let (mut sum, mut greatest, mut opaque) = (0.0, 0, 0);
+    for (drawn, shown) in drawn.chunks_exact(4).zip(shown.chunks_exact(4)) {
+        assert_eq!(shown[3], if drawn[3] < 128 { 0 } else { 255 }, "{name}: opaque where it is drawn");
+        if shown[3] == 255 {
+            let differences = drawn[..3].iter().zip(shown).map(|(&drawn, &shown)| drawn.abs_diff(shown));
+            let difference = differences.max().unwrap_or_default();
+            (sum, greatest, opaque) = (sum + f64::from(difference), difference.max(greatest), opaque + 1);
+        }
+    }
+    assert!(opaque > 0 && greatest <= 32 && sum < 2.5 * f64::from(opaque), "{name}: {greatest}, {sum} of {opaque}");
+}
+
+/// Read by a crate that is not the one that wrote it.
+#[test]
+fn an_apng_shows_what_was_drawn_to_the_bit_and_for_ever() {
     for picture in [PICTURE, Picture { ground: true, ..PICTURE }] {
         for (body, drawn) in drawn(&picture) {
             let bytes = apng(&drawn).expect("an APNG");
-            let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().expect("it is read again");
-            assert_eq!(
-                reader.info().animation_control().map(|control| (control.num_frames, control.num_plays)),
-                Some((9, 0))
-            );
-            let mut pixels = vec![0; reader.output_buffer_size().expect("small")];
-            for frame in 0..9 {
-                reader.next_frame(&mut pixels).expect("a frame");
-                assert_eq!(pixels, drawn.paint(frame).expect("it can be drawn"), "{}, frame {frame}", body.name());
-                let control = reader.info().frame_control().expect("animated");
-                let seconds = f64::from(control.delay_num) / f64::from(control.delay_den);
-                assert!((9.0 * seconds - drawn.cycle.seconds).abs() < 1e-3);
+            // The number of frames, and of plays: 0 is for ever.
+            let control = bytes.windows(4).position(|name| name == b"acTL").expect("animated") + 4;
+            assert_eq!(bytes[control..control + 8], [0, 0, 0, 9, 0, 0, 0, 0]);
+            let (size_read, frames) = decoded(&bytes);
+            assert_eq!((size_read, frames.len()), (size(&drawn), 9));
+            let mut before = 0.0;
+            for (index, (pixels, end)) in frames.iter().enumerate() {
+                let expected = drawn.paint(index).expect("it can be drawn");
+                assert!(*pixels == expected, "{}, frame {index}", body.name());
+                assert!((end - before - drawn.cycle.seconds / 9.0).abs() < 1e-4, "{before} {end}");
+                before = *end;
             }
+            assert_it_moves(&body, &frames.into_iter().map(|(pixels, _)| pixels).collect::<Vec<_>>());
         }
     }
 }
@@ -63,10 +113,8 @@ fn an_atlas_leads_to_every_frame_of_its_sheet() {
         let (sheet, atlas) = sprites(&drawn, [body.name(), "running"], "sheet.png").expect("sprites");
         let atlas: serde_json::Value = serde_json::from_slice(&atlas).expect("JSON");
         assert_eq!(atlas["meta"]["image"], "sheet.png");
-        let mut reader = png::Decoder::new(Cursor::new(sheet)).read_info().expect("it is read again");
-        let mut pixels = vec![0; reader.output_buffer_size().expect("small")];
-        reader.next_frame(&mut pixels).expect("an image");
-        let (width, height) = (u64::from(reader.info().width), u64::from(reader.info().height));
+        let ([width, height], mut images) = decoded(&sheet);
+        let ((pixels, _), [width, height]) = (images.remove(0), [width as u64, height as u64]);
         assert_eq!(atlas["meta"]["size"], serde_json::json!({ "w": width, "h": height }));
         let names = atlas["animations"]["running"].as_array().expect("a list").clone();
         assert_eq!((names.len(), atlas["frames"].as_object().map(serde_json::Map::len)), (9, Some(9)));

@@ -1,6 +1,10 @@
-//! A reader of ONNX models that knows what nets need, and computes them with the precision of f64.
+//! A reader of ONNX models that knows what nets need, and computes them as the format's description says, each operation by
+//! itself: with 32 bits what has 32 bits, with 64 bits what has 64.
+
+mod tensor;
 
 use std::collections::BTreeMap;
+use tensor::{Kind, Tensor, compute};
 
 #[derive(Debug, Default)]
 pub(crate) struct Model {
@@ -9,7 +13,7 @@ pub(crate) struct Model {
     pub(crate) inputs: Vec<(String, Vec<u64>)>,
     pub(crate) outputs: Vec<(String, Vec<u64>)>,
     operations: Vec<Operation>,
-    constants: BTreeMap<String, Vec<f64>>,
+    constants: BTreeMap<String, Tensor>,
 }
 
 #[derive(Debug, Default)]
@@ -17,7 +21,7 @@ struct Operation {
     inputs: Vec<String>,
     result: String,
     kind: String,
-    axis: Option<u64>,
+    attribute: Option<(String, u64)>,
 }
 
 enum Field<'a> {
@@ -108,17 +112,19 @@ impl Model {
         }
     }
 
-    /// Computes all rows that there are.
-    pub(crate) fn run(&self, given: &[(&str, &[f64])]) -> BTreeMap<String, Vec<f64>> {
+    /// Computes all that there is, of rows; gives the rows that are there then.
+    pub(crate) fn run(&self, given: &[(&str, &[f32])]) -> BTreeMap<String, Vec<f32>> {
         let mut known = self.constants.clone();
-        known.extend(given.iter().map(|(name, row)| ((*name).to_owned(), row.to_vec())));
-        for Operation { inputs, result, kind, axis } in &self.operations {
-            let inputs: Vec<&Vec<f64>> = inputs.iter().map(|input| &known[input]).collect();
-            assert_eq!(axis.is_some(), matches!(&**kind, "Concat" | "Gather"));
-            let row = compute(kind, &inputs);
-            assert!(known.insert(result.clone(), row).is_none(), "{result} is computed once");
+        known.extend(given.iter().map(|(name, row)| ((*name).to_owned(), Tensor::row(row))));
+        for operation in &self.operations {
+            let inputs: Vec<&Tensor> = operation.inputs.iter().map(|input| &known[input]).collect();
+            let attribute = operation.attribute.as_ref().map(|(name, number)| (&**name, *number));
+            let result = compute(&operation.kind, &inputs, attribute);
+            assert!(known.insert(operation.result.clone(), result).is_none(), "{} is computed once", operation.result);
         }
-        known
+        let row =
+            |(name, tensor): (String, Tensor)| (tensor.shape.first() == Some(&1)).then(|| (name, tensor.singles()));
+        known.into_iter().filter_map(row).collect()
     }
 }
 
@@ -130,8 +136,9 @@ fn operation(bytes: &[u8]) -> Operation {
             2 => operation.result = field.text(),
             4 => operation.kind = field.text(),
             5 => {
-                operation.axis =
-                    fields(field.bytes()).iter().find(|(number, _)| *number == 3).map(|(_, field)| field.number())
+                let attribute = fields(field.bytes());
+                let of = |wanted| attribute.iter().find(|(number, _)| *number == wanted).map(|(_, field)| field);
+                operation.attribute = of(1).zip(of(3)).map(|(name, number)| (name.text(), number.number()));
             }
             _ => {}
         }
@@ -139,25 +146,25 @@ fn operation(bytes: &[u8]) -> Operation {
     operation
 }
 
-fn tensor(bytes: &[u8]) -> (String, Vec<f64>) {
-    let (mut name, mut kind, mut size, mut numbers) = (String::new(), 0, 1, Vec::new());
+fn tensor(bytes: &[u8]) -> (String, Tensor) {
+    let (mut name, mut kind, mut shape, mut raw) = (String::new(), 0, Vec::new(), Vec::new());
     for (number, field) in fields(bytes) {
         match number {
-            1 => size *= field.number() as usize,
+            1 => shape.push(field.number() as usize),
             2 => kind = field.number(),
             8 => name = field.text(),
-            9 if kind == 1 => {
-                numbers = field.bytes().as_chunks().0.iter().map(|&number| f32::from_le_bytes(number).into()).collect();
-            }
-            9 => {
-                assert_eq!(kind, 7);
-                numbers = field.bytes().as_chunks().0.iter().map(|&number| i64::from_le_bytes(number) as f64).collect();
-            }
+            9 => raw = field.bytes().to_vec(),
             _ => {}
         }
     }
-    assert_eq!(numbers.len(), size, "{name}");
-    (name, numbers)
+    let kind = Kind::of(kind);
+    let numbers: Vec<f64> = match kind {
+        Kind::Single => raw.as_chunks().0.iter().map(|&number| f32::from_le_bytes(number).into()).collect(),
+        Kind::Double => raw.as_chunks().0.iter().map(|&number| f64::from_le_bytes(number)).collect(),
+        Kind::Whole => raw.as_chunks().0.iter().map(|&number| i64::from_le_bytes(number) as f64).collect(),
+    };
+    assert_eq!(numbers.len(), shape.iter().product::<usize>(), "{name}");
+    (name, Tensor { kind, shape, numbers })
 }
 
 fn value(bytes: &[u8]) -> (String, Vec<u64>) {
@@ -178,38 +185,4 @@ fn value(bytes: &[u8]) -> (String, Vec<u64>) {
         }
     }
     (name, shape)
-}
-
-fn compute(kind: &str, inputs: &[&Vec<f64>]) -> Vec<f64> {
-    let each = |function: fn(f64) -> f64| inputs[0].iter().map(|&number| function(number)).collect();
-    let both = |function: fn(f64, f64) -> f64| {
-        let second = inputs[1];
-        let pair = |(place, &first): (usize, &f64)| function(first, second[if second.len() == 1 { 0 } else { place }]);
-        inputs[0].iter().enumerate().map(pair).collect()
-    };
-    match kind {
-        "Gemm" => {
-            let (row, matrix, biases) = (inputs[0], inputs[1], inputs[2]);
-            assert_eq!(matrix.len(), row.len() * biases.len());
-            let sum = |(column, bias): (usize, &f64)| {
-                let products = row.iter().zip(matrix[column..].iter().step_by(biases.len()));
-                bias + products.map(|(number, weight)| number * weight).sum::<f64>()
-            };
-            biases.iter().enumerate().map(sum).collect()
-        }
-        "Concat" => inputs.iter().flat_map(|row| row.iter().copied()).collect(),
-        "Gather" => inputs[1].iter().map(|&index| inputs[0][index as usize]).collect(),
-        "Identity" => inputs[0].clone(),
-        "Clip" => inputs[0].iter().map(|number| number.clamp(inputs[1][0], inputs[2][0])).collect(),
-        "Sigmoid" => each(|a| 1.0 / (1.0 + libm::exp(-a))),
-        "Tanh" => each(libm::tanh),
-        "Relu" => each(|a| a.max(0.0)),
-        "Sin" => each(libm::sin),
-        "Exp" => each(libm::exp),
-        "Neg" => each(|a| -a),
-        "Mul" => both(|a, b| a * b),
-        "Add" => both(|a, b| a + b),
-        "Div" => both(|a, b| a / b),
-        other => panic!("{other} is not known"),
-    }
 }

@@ -17,6 +17,9 @@ const LEVEL: f32 = 1e-3;
 /// How far a control point of a Bézier curve is from the end of a quarter of a circle, in radii.
 const QUARTER: f32 = 0.552_284_8;
 
+/// A box around nothing.
+const NOTHING: [f32; 4] = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+
 /// From the world to an image.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct View {
@@ -91,7 +94,7 @@ impl Model {
 
     /// The box around a pose, m: left, bottom, right, top.
     pub(crate) fn bounds(&self, pose: &Snapshot) -> [f32; 4] {
-        let mut bounds = [f32::INFINITY, f32::INFINITY, f32::NEG_INFINITY, f32::NEG_INFINITY];
+        let mut bounds = NOTHING;
         for figure in &self.parts {
             let state = &pose.parts[figure.part];
             for [x, y] in &figure.corners {
@@ -100,6 +103,13 @@ impl Model {
             }
         }
         bounds
+    }
+
+    /// The box around a part in its own frame, m: left, bottom, right, top.
+    pub(crate) fn part_bounds(&self, part: usize) -> [f32; 4] {
+        let corners = self.parts.iter().filter(|figure| figure.part == part).flat_map(|figure| &figure.corners);
+        corners
+            .fold(NOTHING, |[left, bottom, right, top], &[x, y]| [left.min(x), bottom.min(y), right.max(x), top.max(y)])
     }
 
     /// The middle of a pose, m: the mean of its parts by area, which hardly wavers as legs swing.
@@ -113,6 +123,14 @@ impl Model {
     pub(crate) fn draw(&self, canvas: &mut Canvas, view: &View, pose: &Snapshot) {
         for figure in &self.parts {
             figure.draw(canvas, view.of_part(&pose.parts[figure.part]));
+        }
+    }
+
+    /// Draws a part in its own frame.
+    pub(crate) fn draw_part(&self, canvas: &mut Canvas, view: &View, part: usize) {
+        let state = PartState { cos: 1.0, ..PartState::default() };
+        for figure in self.parts.iter().filter(|figure| figure.part == part) {
+            figure.draw(canvas, view.of_part(&state));
         }
     }
 

@@ -49,6 +49,22 @@ impl Painter {
         self.model.bounds(pose)
     }
 
+    /// The box around one part as it is painted, m, in its own frame: left, bottom, right, top. Parts are counted as in
+    /// snapshots; of one that is not there the box is inside out.
+    pub fn part_bounds(&self, part: usize) -> [f32; 4] {
+        self.model.part_bounds(part)
+    }
+
+    /// One part in its own frame, before nothing, as [`paint`](Self::paint) gives a pose.
+    ///
+    /// # Errors
+    /// If the image would be empty or too large.
+    pub fn paint_part(&self, part: usize, framing: &Framing) -> Result<Vec<u8>, DrawingError> {
+        let mut canvas = Canvas::transparent(framing.width, framing.height)?;
+        self.model.draw_part(&mut canvas, &View { scale: framing.scale, origin: framing.origin }, part);
+        Ok(canvas.into_rgba())
+    }
+
     /// A pose as red, green, blue and opacity of each pixel, row by row; the colours are not multiplied with the opacity. Without
     /// ground nothing is behind the creature.
     ///

@@ -6,7 +6,10 @@ use crate::{
 };
 use clap::{Args, ValueEnum, builder::PossibleValue};
 use ne_core::archive;
-use std::{path::PathBuf, process::ExitCode};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -16,6 +19,7 @@ Examples:
   gambol export champion.json --to csv --out gait.csv
   gambol export runs/biped-1-running --to gif --size 400 --ground
   gambol export runs/biped-1-running --to sprites --rate 12
+  gambol export runs/biped-1-running --to dragonbones --size 512
 
 A loop is the stride of the gait that meets itself best, made to meet itself exactly; a gait without rhythm has none.
 
@@ -26,13 +30,14 @@ pub(crate) struct Export {
     /// What to make of it
     #[arg(long, value_name = "FORMAT")]
     to: Named,
-    /// The file to write [default: CREATURE-MOVEMENT with the ending of the format, in the current folder]
+    /// The file to write; others that belong to it stand beside it [default: CREATURE-MOVEMENT with the ending of the format, in
+    /// the current folder]
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
     /// How long it is played, for traces and trajectories [default: as long as its movement is judged]
     #[arg(long)]
     seconds: Option<f64>,
-    /// The longer side of a frame, for pictures
+    /// The longer side of a frame, for pictures; of the body, for dragonbones
     #[arg(long, value_name = "PIXELS", default_value_t = Picture::default().size)]
     size: u32,
     /// Frames a second, for pictures
@@ -77,7 +82,7 @@ impl ValueEnum for Named {
                 "body and gait as glTF 2.0, with root motion, for engines and modellers in three dimensions"
             }
             Format::DragonBones => {
-                "body and gait as a skeleton for DragonBones 5.5: bones and bounding boxes, no images"
+                "body and gait for DragonBones 5.5: a skeleton (JSON), with a texture atlas (JSON, PNG) of its parts"
             }
             Format::Onnx => "the net as an ONNX model, with what its inputs and outputs are as metadata",
         };
@@ -90,7 +95,7 @@ impl Export {
         let file = champion_file(&self.champion)?;
         let Named(format) = self.to;
         let champion = Champion::read(&file)?;
-        let places = self.places(format, format!("{}-{}", champion.creature.name, champion.movement.name))?;
+        let (name, places) = self.places(format, format!("{}-{}", champion.creature.name, champion.movement.name))?;
         for place in &places {
             if place.canonicalize().is_ok_and(|out| file.canonicalize().is_ok_and(|file| file == out)) {
                 return Err(format!("{} is what is to be exported", file.display()).into());
@@ -99,28 +104,37 @@ impl Export {
         }
         let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
         let picture = Picture { size: self.size, rate: self.rate, ground: self.ground };
-        let stem = places[0].file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let options = Options { name: stem, steps, picture };
+        let options = Options { name, steps, picture };
         let exported = export::export(&champion, registry, format, &options)
             .map_err(|error| format!("{}: {error}", file.display()))?;
+        let written: Vec<(&Path, &[u8])> =
+            places.iter().zip(&exported).map(|(place, exported)| (&**place, &*exported.bytes)).collect();
         // The file that names the others comes last: what it names is there.
-        for (place, exported) in places.iter().zip(&exported).rev() {
-            let shown = place.display();
-            archive::write_whole(place, &exported.bytes).map_err(|error| format!("cannot write {shown}: {error}"))?;
-            say!("{}  {shown}, {} bytes", format.name(), exported.bytes.len())?;
+        let in_order: Vec<_> = written.iter().rev().copied().collect();
+        archive::write_whole_together(&in_order).map_err(|error| format!("cannot write {error}"))?;
+        for (place, bytes) in written {
+            say!("{}  {}, {} bytes", format.name(), place.display(), bytes.len())?;
         }
         Ok(ExitCode::SUCCESS)
     }
 
-    /// Where the files go: the first as asked for, the others beside it.
-    fn places(&self, format: Format, name: String) -> Result<Vec<PathBuf>, String> {
-        let endings = format.endings();
-        let first = self.out.clone().unwrap_or_else(|| format!("{name}.{}", endings[0]).into());
-        let others: Vec<PathBuf> = endings[1..].iter().map(|ending| first.with_extension(ending)).collect();
+    /// What the files are called, and where they go: the first as asked for, the others beside it.
+    fn places(&self, format: Format, name: String) -> Result<(String, Vec<PathBuf>), String> {
+        let (first_ending, others) = format.endings().split_first().ok_or("a format without files")?;
+        let first = self.out.clone().unwrap_or_else(|| format!("{name}{first_ending}").into());
+        let last = first.file_name().map_or_else(String::new, |last| last.to_string_lossy().into_owned());
+        let without_extension =
+            || first.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+        let name = match last.strip_suffix(first_ending) {
+            Some(name) if !name.is_empty() => name.to_owned(),
+            _ => without_extension(),
+        };
+        let others: Vec<PathBuf> =
+            others.iter().map(|ending| first.with_file_name(format!("{name}{ending}"))).collect();
         if others.contains(&first) {
-            let ending = endings[0];
-            return Err(format!("--out {}: must not end like the file beside it; .{ending} is usual", first.display()));
+            let out = first.display();
+            return Err(format!("--out {out}: must not be called like the file beside it; {first_ending} is usual"));
         }
-        Ok(std::iter::once(first).chain(others).collect())
+        Ok((name, std::iter::once(first).chain(others).collect()))
     }
 }

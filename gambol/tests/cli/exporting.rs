@@ -47,8 +47,34 @@ fn a_champion_is_exported_to_every_format_and_nothing_is_overwritten() -> Outcom
     let same = folder.path().join("same.png");
     assert_says(
         &fail(&mut export(&run, "sprites", &same, &[])),
-        &["must not end like the file beside it; .json is usual"],
+        &["must not be called like the file beside it; .json is usual"],
     );
+    character_for_dragonbones(&run, folder.path())
+}
+
+/// Three files that find each other by their names.
+fn character_for_dragonbones(run: &Path, folder: &Path) -> Outcome {
+    let file = |name: &str| folder.join(name);
+    let (skeleton, atlas, sheet) = (file("hero_ske.json"), file("hero_tex.json"), file("hero_tex.png"));
+    fs::create_dir(&sheet)?;
+    let said = fail(&mut export(run, "dragonbones", &skeleton, &["--force"]));
+    assert_says(&said, &["cannot write", text(&sheet), "it is a folder"]);
+    fs::remove_dir(&sheet)?;
+    fs::write(&sheet, "mine")?;
+    let said = fail(&mut export(run, "dragonbones", &skeleton, &[]));
+    assert_says(&said, &[text(&sheet), "exists; say --force"]);
+    assert!(!skeleton.exists() && !atlas.exists() && fs::read_to_string(&sheet)? == "mine");
+    let said = succeed(&mut export(run, "dragonbones", &skeleton, &["--force", "--size", "500"]));
+    assert_says(&said, &[text(&skeleton), text(&atlas), text(&sheet)]);
+    assert!(fs::read(&sheet)?.starts_with(b"\x89PNG"));
+    assert!(fs::read_to_string(&atlas)?.contains("\"imagePath\":\"hero_tex.png\""));
+    assert!(fs::read_to_string(&skeleton)?.contains("\"armature\""));
+    let mut in_folder = gambol("export");
+    in_folder.current_dir(folder).arg(run).args(["--to", "dragonbones"]);
+    succeed(&mut in_folder);
+    for ending in ["_ske.json", "_tex.json", "_tex.png"] {
+        assert!(file(&format!("tetrapod-2-running{ending}")).exists(), "{ending}");
+    }
     Ok(())
 }
 

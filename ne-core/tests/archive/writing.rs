@@ -1,5 +1,5 @@
 use crate::{content, read, write};
-use ne_core::archive::{ArchiveError, Layout, write_whole};
+use ne_core::archive::{ArchiveError, Layout, write_whole, write_whole_together};
 use std::{fs, path::Path};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -81,6 +81,23 @@ fn a_write_replaces_the_old_file() -> Outcome {
     write_whole(&path, b"a long old text")?;
     write_whole(&path, b"new")?;
     assert_eq!(fs::read(&path)?, b"new");
+    Ok(())
+}
+
+#[test]
+fn files_that_belong_together_are_all_written_or_none() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    fs::write(path("one"), "old")?;
+    let (one, two, nowhere) = (path("one"), path("two"), path("no/where"));
+    let error = write_whole_together(&[(&one, b"new"), (&two, b"new"), (&nowhere, b"new")]);
+    let error = error.expect_err("there is no such folder").to_string();
+    assert!(error.starts_with(&format!("{}: ", nowhere.display())), "{error}");
+    assert_eq!(fs::read_to_string(&one)?, "old");
+    assert_eq!(fs::read_dir(folder.path())?.count(), 1, "no other file, and nothing temporary");
+    write_whole_together(&[(&one, b"new"), (&two, b"too")])?;
+    assert_eq!((fs::read_to_string(&one)?, fs::read_to_string(&two)?), ("new".into(), "too".into()));
+    assert_eq!(fs::read_dir(folder.path())?.count(), 2);
     Ok(())
 }
 
