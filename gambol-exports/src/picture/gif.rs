@@ -40,7 +40,8 @@ pub(crate) fn gif(drawn: &Loop) -> Result<Vec<u8>, ExportError> {
 
 /// The colours of a frame, by median cut (Heckbert, *Color image quantization for frame buffer display*, 1982). The box that is cut
 /// next is that of the most pixels times the square of its longest side; the most frequent colour of a box stands for all, so
-/// that areas of one colour keep it.
+/// that areas of one colour keep it. The neural quantizer that the crate `gif` offers, even at its slowest, is farther off than the tests
+/// allow.
 struct Palette {
     colours: Vec<[u8; 3]>,
     /// Which colour stands for another.

@@ -29,8 +29,8 @@ const STANDING: f32 = 0.25;
 /// in the second it has to land. The sooner, the more time is left to be on its way again.
 const JUMP_CLOCKS: [f32; 2] = [0.4, 0.8];
 
-/// The same for two legs with knees, which fold and find their balance first: with the shorter ones biped-2 does not jump, in three of
-/// three searches; with these biped-1 and tetrapod-2 miss more presses (docs/playing.md).
+/// The same for two legs with knees: with the shorter ones biped-2 does not jump, in three of three searches; with these biped-1 and
+/// tetrapod-2 miss more presses (docs/playing.md).
 const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.6, 1.2];
 
 /// What a jump is worth while there is nothing else to learn, s.
@@ -92,8 +92,7 @@ fn jump(is_biped: bool, joints: usize) -> StageSettings {
     StageSettings { near: true, add_sensors, promotion, transfer, ..stage("jump", changes) }
 }
 
-/// All of it together: a stride that has never landed learns to go on from there. A jump counts no more than its time: where it counts
-/// more, high jumps are paid with speed.
+/// All of it together: a stride that has never landed learns to go on from there. A jump counts no more than its time.
 fn polish() -> StageSettings {
     let worth = tasks::PlayingSettings::default().jump;
     let changes = json!({
