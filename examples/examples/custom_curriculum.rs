@@ -6,7 +6,7 @@ use gambol::Registry;
 use gambol::{
     config::RunConfig,
     report::write_report,
-    shaping::{Curriculum, PlannedStage, StageProgress, StageRun, stage_runs, train_curriculum},
+    shaping::{Beginning, Curriculum, PlannedStage, StageProgress, StageRun, stage_runs, train_curriculum},
     training::TrainOptions,
 };
 use ne_core::promotion::{Decision, Promotion, StageState};
@@ -33,6 +33,7 @@ impl Curriculum for WiderAndWider {
             name: format!("gaps-{stage}0"),
             config,
             promotion: Some(Arc::new(KeepsUp)),
+            begins: Beginning::Before,
             transfer: None,
             allow_loss: false,
         })

@@ -138,6 +138,7 @@ impl<S: Strategy> Evolution<S> {
                 Decision::Stay => {}
                 Decision::Promote => return Ok(StopReason::Promoted),
                 Decision::Demote => return Ok(StopReason::Demoted),
+                Decision::GiveUp => return Ok(StopReason::GivenUp),
             }
             let best = self.champion.as_ref().map(Champion::standing);
             if let Some(reason) =

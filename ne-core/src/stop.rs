@@ -58,6 +58,8 @@ pub enum StopReason {
     Promoted,
     /// A [`Promotion`](crate::promotion::Promotion) demoted the population.
     Demoted,
+    /// A [`Promotion`](crate::promotion::Promotion) gave the population up.
+    GivenUp,
 }
 
 impl fmt::Display for StopReason {
@@ -73,6 +75,7 @@ impl fmt::Display for StopReason {
             Self::Interrupted => "it was interrupted",
             Self::Promoted => "the stage was passed",
             Self::Demoted => "the population was sent back to the stage before",
+            Self::GivenUp => "the population was given up, and another begins anew",
         })
     }
 }

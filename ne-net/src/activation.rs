@@ -74,8 +74,15 @@ impl Activation {
         for half in halves {
             self.apply_to_lanes(half);
         }
-        for sum in rest {
-            *sum = self.apply(*sum);
+        match rest {
+            [] => {}
+            [sum] => *sum = self.apply(*sum),
+            _ => {
+                let mut padded = [0.0; 4];
+                padded[..rest.len()].copy_from_slice(rest);
+                self.apply_to_lanes(&mut padded);
+                rest.copy_from_slice(&padded[..rest.len()]);
+            }
         }
     }
 

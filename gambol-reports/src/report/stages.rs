@@ -1,4 +1,4 @@
-//! The page of a run with stages: that of its latest stage, with the curves of all and a film of each champion.
+//! The page of a run with stages: that of the stage whose champion is the run's, with the curves of all and a film of each champion.
 
 use super::{
     DRAWN, ReportError, champion_film,
@@ -47,11 +47,11 @@ pub(super) fn compose(
     ended: Option<StopReason>,
 ) -> Result<Report, ReportError> {
     let stage_runs = shaping::stage_runs(folder)?;
-    let Some(last) = stage_runs.last() else {
+    let Some(shown) = shaping::leading(&stage_runs).or(stage_runs.last()) else {
         let missing = "stage that has begun".into();
         return Err(FolderError::NotARun { path: folder.path().into(), missing }.into());
     };
-    let mut report = super::compose(&RunFolder::at(&last.folder), registry, ended)?;
+    let mut report = super::compose(&RunFolder::at(&shown.folder), registry, ended)?;
     let (mut generations, mut evaluations, mut steps) = (0, 0, 0);
     report.history.clear();
     for stage_run in &stage_runs {
@@ -108,11 +108,13 @@ fn facts(stage_run: &StageRun, config: &RunConfig, settings: Option<&StageSettin
     let ended = match stage_run.decision {
         Decision::Promote => "passed",
         Decision::Demote => "sent back to the stage before",
+        Decision::GiveUp => "given up; another began anew",
         Decision::Stay if rule.is_some() => "not passed when the run ended",
         Decision::Stay => "went on until the run ended",
     };
     let mut facts = vec![Fact::new("Movement", &config.movement.name)];
     facts.extend(rule.map(|rule| Fact::new("Passed with", rule)));
+    facts.extend(settings.and_then(|settings| settings.give_up.as_ref()).map(|give_up| Fact::new("Or else", give_up)));
     facts.push(Fact::new("Result", ended));
     facts.push(Fact::new("Evaluations", stage_run.progress.evaluations));
     facts.extend(config.origin.as_ref().map(|origin| Fact::new("Kept", origin)));

@@ -9,7 +9,7 @@ mod strategy;
 pub use engine::EngineChoice;
 pub use origin::{Origin, Transferred};
 pub use rungs::RungSettings;
-pub use stage::StageSettings;
+pub use stage::{GiveUp, StageSettings};
 pub use strategy::StrategySettings;
 
 use creatures::{Actuation, Creature, Sensor, Terrain};

@@ -3,6 +3,7 @@ use creatures::Sensor;
 use ne_core::promotion::PromotionRule;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
+use std::fmt;
 
 /// A stage of shaping, as a configuration has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -30,6 +31,9 @@ pub struct StageSettings {
     /// back is as much as can be, whatever `transfer` says; inputs and weights that this stage added are given up.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub demotion: Option<PromotionRule>,
+    /// When what was learned is given up, and the run begins anew at an earlier stage or this one; looked at after `promotion` and `demotion`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub give_up: Option<GiveUp>,
     /// What it takes from the stage before; by default as much as it can: the population if the strategy is the same, else the
     /// champion, or from NEAT the champion's topology.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -37,4 +41,27 @@ pub struct StageSettings {
     /// Whether inputs, outputs and weights of the stage before may be given up; else a stage that lacks them is refused.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub allow_loss: bool,
+}
+
+/// When a stage gives up what was learned, and where the run begins anew: with another seed, and with what it had begun with there.
+///
+/// So a stage is attempted `times` + 1 times. Once the last attempt is given up, too, the search of the best goes on, until the stage is
+/// passed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GiveUp {
+    /// When.
+    pub when: PromotionRule,
+    /// The name of the stage in which it begins anew: an earlier one, or this one.
+    pub back_to: String,
+    /// How often; from 1 to 100.
+    pub times: u32,
+}
+
+impl fmt::Display for GiveUp {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { when, back_to, times } = self;
+        let times = if *times == 1 { "once".to_owned() } else { format!("{times} times") };
+        write!(f, "given up at {when}, to begin anew at {back_to}, {times}")
+    }
 }

@@ -1,7 +1,7 @@
 //! Doing as it is told.
 
 use super::{BodyFacts, MovementDefaults, terms, with};
-use crate::config::{StageSettings, Transferred};
+use crate::config::{GiveUp, StageSettings, Transferred};
 use creatures::Sensor;
 use ne_core::promotion::PromotionRule;
 use serde_json::{Map, Value, json};
@@ -10,14 +10,26 @@ use tasks::{Commands, RandomCommands, TermSpec};
 /// 40 s, of which training has 10: a champion that falls after half a minute is none.
 const STEPS: (Option<u32>, Option<u32>) = (Some(2000), Some(500));
 
-/// The fewest and the most steps in which it learns to move, to follow and to jump. What is usable after fewer is a lucky one; what
-/// is not after so many goes on all the same.
-const MOVE_STEPS: [u64; 2] = [20_000_000, 100_000_000];
-const FOLLOW_STEPS: [u64; 2] = [20_000_000, 100_000_000];
-const JUMP_STEPS: [u64; 2] = [20_000_000, 60_000_000];
-/// Bodies that balance find a jump out of their stride late.
-const BIPED_JUMP_STEPS: [u64; 2] = [20_000_000, 120_000_000];
-const POLISH_STEPS: [u64; 2] = [1, 120_000_000];
+/// The fewest and the most steps of a stage. What is usable after fewer is a lucky one; what is not after so many goes on all the same.
+struct StageSteps {
+    move_on: [u64; 2],
+    follow: [u64; 2],
+    jump: [u64; 2],
+}
+
+const STAGE_STEPS: StageSteps =
+    StageSteps { move_on: [8_000_000, 16_000_000], follow: [8_000_000, 100_000_000], jump: [8_000_000, 30_000_000] };
+
+/// Those of bodies that balance: they find each of it later.
+const BALANCED_STAGE_STEPS: StageSteps =
+    StageSteps { move_on: [8_000_000, 100_000_000], follow: [20_000_000, 100_000_000], jump: [8_000_000, 80_000_000] };
+
+const POLISH_STEPS: [u64; 2] = [20_000_000, 120_000_000];
+
+/// What is not playable after so many steps of `polish` is given up, so often, and another begins anew. Not of bodies that balance: with
+/// them that takes too long.
+const GIVE_UP_STEPS: u64 = 40_000_000;
+const GIVE_UP_TIMES: u32 = 2;
 
 /// The slowest and the fastest speed that two legs are told, body lengths/s: alone they run at 0.6 to 0.7.
 const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
@@ -36,7 +48,7 @@ const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.6, 1.2];
 /// What a jump is worth while there is nothing else to learn, s.
 const JUMP_WORTH: f64 = 4.0;
 
-/// Of a few searches for the stride, or for the jump, the best goes on. Jumps of tetrapods showed after 30 to 70 generations.
+/// Of a few searches for the stride of two legs, or for their jump, the best goes on.
 const STARTS: u64 = 3;
 const START_GENERATIONS: u64 = 40;
 
@@ -55,8 +67,12 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     }));
     let random = RandomCommands { jumps: 0.0, ..RandomCommands::default() };
     let random = if is_biped { RandomCommands { speeds: BIPED_SPEEDS, ..random } } else { random };
+    let (steps, starts) = if is_biped { (&BALANCED_STAGE_STEPS, STARTS) } else { (&STAGE_STEPS, 1) };
+    let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
+    let give_up = GiveUp { when: PromotionRule::Steps(GIVE_UP_STEPS), back_to: "move".into(), times: GIVE_UP_TIMES };
+    let give_up = (!is_biped).then_some(give_up);
     let strategy: [(&str, Value); 3] =
-        [("restart", "anew".into()), ("starts", STARTS.into()), ("start_generations", START_GENERATIONS.into())];
+        [("restart", "anew".into()), ("starts", starts.into()), ("start_generations", START_GENERATIONS.into())];
     MovementDefaults {
         steps: STEPS.0,
         training_steps: STEPS.1,
@@ -65,35 +81,33 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![move_on(), follow(), jump(is_biped, body.joints), polish(), harden()],
+        stages: vec![move_on(steps), follow(steps), jump(steps, clocks), polish(give_up), harden()],
         strategy: strategy.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ..unknown
     }
 }
 
-fn move_on() -> StageSettings {
+fn move_on(steps: &StageSteps) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": 0.0 } } });
-    StageSettings { near: true, promotion: usable_within(MOVE_STEPS), ..stage("move", changes) }
+    StageSettings { near: true, promotion: usable_within(steps.move_on), ..stage("move", changes) }
 }
 
-fn follow() -> StageSettings {
+fn follow(steps: &StageSteps) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": STANDING } } });
-    StageSettings { near: true, promotion: usable_within(FOLLOW_STEPS), ..stage("follow", changes) }
+    StageSettings { near: true, promotion: usable_within(steps.follow), ..stage("follow", changes) }
 }
 
 /// With the stride held, jumps are all there is to learn: out of every hold.
-fn jump(is_biped: bool, joints: usize) -> StageSettings {
+fn jump(steps: &StageSteps, clocks: [f32; 2]) -> StageSettings {
     let changes =
         json!({ "commands": { "random": { "jumps": 1.0 } }, "movement": { "settings": { "jump": JUMP_WORTH } } });
-    let clocks = if is_biped && joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
     let add_sensors = clocks.map(|period| Sensor::JumpClock { period }).into();
-    let promotion = usable_within(if is_biped { BIPED_JUMP_STEPS } else { JUMP_STEPS });
-    let transfer = Some(Transferred::Held);
+    let (promotion, transfer) = (usable_within(steps.jump), Some(Transferred::Held));
     StageSettings { near: true, add_sensors, promotion, transfer, ..stage("jump", changes) }
 }
 
 /// All of it together: a stride that has never landed learns to go on from there. A jump counts no more than its time.
-fn polish() -> StageSettings {
+fn polish(give_up: Option<GiveUp>) -> StageSettings {
     let worth = tasks::PlayingSettings::default().jump;
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
@@ -101,7 +115,7 @@ fn polish() -> StageSettings {
         "trials": { "count": 8 },
     });
     let (promotion, transfer) = (usable_within(POLISH_STEPS), Some(Transferred::Champion));
-    StageSettings { near: true, promotion, transfer, ..stage("polish", changes) }
+    StageSettings { near: true, promotion, give_up, transfer, ..stage("polish", changes) }
 }
 
 /// And in worlds that vary as the configuration has it.
@@ -123,6 +137,7 @@ fn stage(name: &str, changes: Value) -> StageSettings {
         near: false,
         promotion: None,
         demotion: None,
+        give_up: None,
         transfer: None,
         allow_loss: false,
     }

@@ -92,7 +92,10 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
         assert_eq!(near, [true, true, true, true, false], "{creature}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
-        assert_eq!((settings.restart, settings.starts, settings.start_generations), (Restart::Anew, 3, 40));
+        let starts = if creature == "biped-1" { 3 } else { 1 };
+        assert_eq!((settings.restart, settings.starts, settings.start_generations), (Restart::Anew, starts, 40));
+        let gives_up = config.stages[3].give_up.as_ref().map(|give_up| (give_up.back_to.as_str(), give_up.times));
+        assert_eq!(gives_up, (creature != "biped-1").then_some(("move", 2)), "{creature}");
         let speeds = match &config.commands {
             Some(Commands::Random(random)) => random.speeds,
             other => panic!("{creature}: {other:?}"),

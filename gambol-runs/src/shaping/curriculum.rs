@@ -14,6 +14,18 @@ pub trait Curriculum: Send + Sync {
     fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage>;
 }
 
+/// Where a stage run begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Beginning {
+    /// Where the stage run before has ended; the first from nothing.
+    #[default]
+    Before,
+    /// Where the stage run of this [number](StageRun::number) has ended.
+    After(usize),
+    /// From nothing.
+    Nothing,
+}
+
 /// A stage that is to come.
 #[derive(Clone)]
 pub struct PlannedStage {
@@ -25,7 +37,9 @@ pub struct PlannedStage {
     pub config: RunConfig,
     /// When it is passed; `None`: it goes on until the run ends.
     pub promotion: Option<Arc<dyn Promotion>>,
-    /// What it takes from the stage run before; `None`: as much as it can.
+    /// Where it begins.
+    pub begins: Beginning,
+    /// What it takes from the stage run in which it begins; `None`: as much as it can.
     pub transfer: Option<Transferred>,
     /// Whether inputs, outputs and weights may be given up.
     pub allow_loss: bool,

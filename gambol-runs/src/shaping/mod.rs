@@ -20,12 +20,12 @@ mod stage_runs;
 mod stages;
 mod transfer;
 
-pub use curriculum::{Curriculum, PlannedStage};
+pub use curriculum::{Beginning, Curriculum, PlannedStage};
 pub use stage_progress::{
     ShapingError, StageProgress, adopt, outcome_of, resume_curriculum, resume_stages, train_curriculum, train_from,
     train_stages,
 };
-pub use stage_runs::{StageRun, run_of_stage, stage_runs};
+pub use stage_runs::{StageRun, leading, run_of_stage, stage_runs};
 pub use stages::{StageError, StageProblem, Stages};
 pub use transfer::TransferError;
 

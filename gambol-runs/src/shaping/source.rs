@@ -1,6 +1,6 @@
 //! What a new search can begin from: a run, or a champion alone.
 
-use super::{stage_runs, transfer::TransferError};
+use super::{leading, stage_runs, transfer::TransferError};
 use crate::Registry;
 use crate::{
     champion::{Champion, ChannelRecord},
@@ -34,7 +34,7 @@ impl Source {
             let champion = Champion::read(path).map_err(FolderError::from)?;
             return Ok(Self { name, kind: Kind::Champion(Box::new(champion)) });
         }
-        let folder = latest_stage_run(RunFolder::open(path)?)?;
+        let folder = leading_stage_run(RunFolder::open(path)?)?;
         Self::run(folder.path().display().to_string(), folder, registry)
     }
 
@@ -134,15 +134,17 @@ pub(super) fn names_of(channels: &[ChannelRecord]) -> Vec<String> {
     channels.iter().map(|channel| channel.name.clone()).collect()
 }
 
-/// The folder that a run is to be gone on from: of one with stages, that of the last stage run.
+/// The folder that a run is to be gone on from: of one with stages, that of the stage run whose champion is the run's.
 ///
 /// # Errors
 /// If a file of a stage run cannot be read.
-pub(super) fn latest_stage_run(folder: RunFolder) -> Result<RunFolder, FolderError> {
+pub(super) fn leading_stage_run(folder: RunFolder) -> Result<RunFolder, FolderError> {
     if folder.checkpoint().is_file() {
         return Ok(folder);
     }
-    Ok(stage_runs(&folder)?.last().map_or(folder, |stage_run| RunFolder::at(&stage_run.folder)))
+    let stage_runs = stage_runs(&folder)?;
+    let stage_run = leading(&stage_runs).or(stage_runs.last());
+    Ok(stage_run.map_or(folder, |stage_run| RunFolder::at(&stage_run.folder)))
 }
 
 pub(super) fn read_checkpoint(

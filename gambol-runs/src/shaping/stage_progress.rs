@@ -1,8 +1,8 @@
 //! The way through the stages: each stage run is a run folder that begins where the one before ended.
 
 use super::{
-    Curriculum, PlannedStage, StageError, StageRun, Stages,
-    source::{Source, latest_stage_run},
+    Beginning, Curriculum, PlannedStage, StageError, StageRun, Stages,
+    source::{Source, leading_stage_run},
     stage_runs::{keep_champion, stage_run, stage_runs, total},
     transfer::{PreparedTransfer, TransferError, TransferOptions},
 };
@@ -81,7 +81,7 @@ pub fn train_from(
 pub fn adopt(config: &RunConfig, source: &Path) -> Result<RunConfig, ShapingError> {
     let mut config = config.clone();
     if source.is_dir() {
-        let learned = latest_stage_run(RunFolder::open(source)?)?.read_config()?;
+        let learned = leading_stage_run(RunFolder::open(source)?)?.read_config()?;
         config.sensors = Some(learned.sensors.unwrap_or(learned.creature.sensors));
         config.controller = learned.controller;
     } else {
@@ -191,7 +191,6 @@ fn travel(
 ) -> Result<Outcome, ShapingError> {
     let began = Instant::now();
     let mut stage_runs: Vec<StageRun> = Vec::new();
-    let mut last: Option<Outcome> = None;
     while let Some(planned) = curriculum.next(&stage_runs) {
         let number = stage_runs.len() + 1;
         let path = folder.stages().join(format!("{number:02}-{}", planned.name));
@@ -207,7 +206,7 @@ fn travel(
             if is_begun {
                 stage_runs.push(stage_run(&stage_folder, number, planned.stage, &planned.name)?);
             }
-            return finish(folder, reason, total(&stage_runs), last, &stage_runs);
+            return finish(folder, reason, total(&stage_runs), &stage_runs);
         }
         let mut now = stop;
         now.minutes = config.stop.minutes.map(|minutes| (minutes - began.elapsed().as_secs_f64() / 60.0).max(1e-6));
@@ -219,7 +218,8 @@ fn travel(
             ..planned.config.clone()
         };
         // The process may have been killed before it came to that.
-        keep_champion(folder, &stage_runs, is_begun.then_some(&stage_folder))?;
+        let begun = is_begun.then(|| stage_run(&stage_folder, number, planned.stage, &planned.name)).transpose()?;
+        keep_champion(folder, stage_runs.iter().chain(&begun))?;
         let options = TrainOptions {
             threads: options.threads,
             registry: options.registry.clone(),
@@ -230,21 +230,24 @@ fn travel(
             (stage_progress.on_stage_run)(&planned, stage_folder.read_config()?.origin.as_ref());
             training::resume_stage_run(&path, stop, now, planned.promotion.clone(), options).map_err(ShapingError::from)
         } else {
-            begin(&planned, stage_config, &path, stage_runs.last(), now, &mut *stage_progress.on_stage_run, options)
+            let before = match planned.begins {
+                Beginning::Before => stage_runs.last(),
+                Beginning::After(number) => stage_runs.iter().find(|stage_run| stage_run.number == number),
+                Beginning::Nothing => None,
+            };
+            begin(&planned, stage_config, &path, before, now, &mut *stage_progress.on_stage_run, options)
         };
         let outcome = outcome.map_err(|error| of_the_run(error, folder, used))?;
-        keep_champion(folder, &stage_runs, Some(&stage_folder))?;
         let passed = stage_run(&stage_folder, number, planned.stage, &planned.name)?;
-        if passed.decision == Decision::Stay {
-            stage_runs.push(passed);
-            let used = total(&stage_runs);
-            return finish(folder, outcome.reason, used, Some(outcome), &stage_runs);
-        }
-        last = Some(outcome);
+        let goes_on = passed.decision != Decision::Stay;
         stage_runs.push(passed);
+        keep_champion(folder, &stage_runs)?;
+        if !goes_on {
+            return finish(folder, outcome.reason, total(&stage_runs), &stage_runs);
+        }
     }
     let used = total(&stage_runs);
-    finish(folder, StopReason::Promoted, used, last, &stage_runs)
+    finish(folder, StopReason::Promoted, used, &stage_runs)
 }
 
 /// Seeds of the stage runs of a run lie so far apart.
@@ -335,20 +338,10 @@ fn finish(
     folder: &RunFolder,
     reason: StopReason,
     progress: Progress,
-    last: Option<Outcome>,
     stage_runs: &[StageRun],
 ) -> Result<Outcome, ShapingError> {
-    keep_champion(folder, stage_runs, None)?;
-    let champion = match last {
-        Some(outcome) => outcome.champion,
-        None => match stage_runs
-            .last()
-            .map(|stage_run| RunFolder::at(&stage_run.folder).champion())
-            .filter(|path| path.is_file())
-        {
-            Some(path) => Some(Champion::read(&path).map_err(FolderError::from)?),
-            None => None,
-        },
-    };
+    keep_champion(folder, stage_runs)?;
+    let path = folder.champion();
+    let champion = path.is_file().then(|| Champion::read(&path)).transpose().map_err(FolderError::from)?;
     Ok(Outcome { folder: folder.clone(), reason, progress, champion })
 }

@@ -78,16 +78,26 @@ pub(super) fn total(stage_runs: &[StageRun]) -> Progress {
     }
 }
 
-/// The champion of the latest stage run that has one is that of the run; `current` is the stage run under way.
-pub(super) fn keep_champion(
+/// The stage run whose champion is that of the run: the latest that has one. Once one was given up, of all that have got as far as any
+/// the best: what begins anew has to get there first.
+pub fn leading<'a>(stage_runs: impl IntoIterator<Item = &'a StageRun>) -> Option<&'a StageRun> {
+    let stage_runs: Vec<&StageRun> = stage_runs.into_iter().collect();
+    let gave_up = stage_runs.iter().any(|stage_run| stage_run.decision == Decision::GiveUp);
+    let has_champion = |stage_run: &&StageRun| RunFolder::at(&stage_run.folder).champion().is_file();
+    let mut able = stage_runs.into_iter().filter(has_champion);
+    match gave_up {
+        true => able.max_by_key(|stage_run| (stage_run.stage, stage_run.champion)),
+        false => able.next_back(),
+    }
+}
+
+/// The champion of the run is that of its [leading](leading) stage run.
+pub(super) fn keep_champion<'a>(
     run: &RunFolder,
-    stage_runs: &[StageRun],
-    current: Option<&RunFolder>,
+    stage_runs: impl IntoIterator<Item = &'a StageRun>,
 ) -> Result<(), FolderError> {
-    let earlier = stage_runs.iter().rev().map(|stage_run| RunFolder::at(&stage_run.folder).champion());
-    let mut latest = current.map(RunFolder::champion).into_iter().chain(earlier).filter(|path| path.is_file());
-    match latest.next() {
-        Some(path) => Ok(Champion::read(&path)?.write(&run.champion())?),
+    match leading(stage_runs) {
+        Some(stage_run) => Ok(Champion::read(&RunFolder::at(&stage_run.folder).champion())?.write(&run.champion())?),
         None => Ok(()),
     }
 }

@@ -1,11 +1,11 @@
 use super::{
-    Curriculum, PlannedStage, StageRun,
+    Beginning, Curriculum, PlannedStage, StageRun,
     transfer::{TransferError, TransferOptions, check_planned},
 };
 use crate::Registry;
 use crate::{
     assembly::{Assembly, ConfigError},
-    config::{RunConfig, StageSettings},
+    config::{GiveUp, RunConfig, StageSettings, Transferred},
     episode_parts::SetupError,
     setup::Setup,
 };
@@ -76,6 +76,7 @@ impl Stages {
             let setup = Setup::new(&resolved, registry).map_err(|error| wrong(error.into()))?;
             let place = (index == 0, index + 1 == config.stages.len());
             check_rules(settings, &setup, place).map_err(|error| wrong(error.into()))?;
+            check_giving_up(settings, &stages).map_err(|error| wrong(error.into()))?;
             if let Some(setup_before) = &setup_before {
                 let how = TransferOptions { transferred: settings.transfer, allow_loss: settings.allow_loss };
                 let (earlier, this) = ((&before.strategy, setup_before), (&resolved.strategy, &setup));
@@ -92,6 +93,32 @@ impl Stages {
         Ok(Self { stages })
     }
 
+    /// Where the stage after this one begins: at the end of the best of several attempts, else of the last stage run that was passed.
+    fn end_of(&self, stage: usize, stage_runs: &[StageRun]) -> Beginning {
+        let gives_up = self.stages.get(stage).is_some_and(|(settings, _)| settings.give_up.is_some());
+        let mut of_stage = stage_runs.iter().filter(|stage_run| stage_run.stage == stage);
+        let end = match gives_up {
+            true => of_stage.max_by_key(|stage_run| stage_run.champion),
+            false => of_stage.rfind(|stage_run| stage_run.decision == Decision::Promote),
+        };
+        end.map_or(Beginning::Before, |stage_run| Beginning::After(stage_run.number))
+    }
+
+    /// How an attempt at this stage is given up; `None`: it is not, or all attempts are over.
+    fn give_up(&self, stage: usize, stage_runs: &[StageRun]) -> Option<&GiveUp> {
+        let give_up = self.stages.get(stage)?.0.give_up.as_ref()?;
+        let given_up = |stage_run: &&StageRun| stage_run.stage == stage && stage_run.decision == Decision::GiveUp;
+        (stage_runs.iter().filter(given_up).count() <= give_up.times as usize).then_some(give_up)
+    }
+
+    /// The index of a stage, where it begins, and with what.
+    fn beginning(&self, stage: usize, stage_runs: &[StageRun]) -> Option<(usize, Beginning, TransferOptions)> {
+        let (settings, _) = self.stages.get(stage)?;
+        let begins = stage.checked_sub(1).map_or(Beginning::Nothing, |earlier| self.end_of(earlier, stage_runs));
+        let how = TransferOptions { transferred: settings.transfer, allow_loss: settings.allow_loss };
+        Some((stage, begins, how))
+    }
+
     /// The configuration of each stage, without what it takes from the one before.
     pub fn configs(&self) -> impl Iterator<Item = (&StageSettings, &RunConfig)> {
         self.stages.iter().map(|(settings, config)| (settings, config))
@@ -101,27 +128,35 @@ impl Stages {
 /// A population that goes back takes as much as can be, and gives up what the later stage had added.
 const BACK: TransferOptions = TransferOptions { transferred: None, allow_loss: true };
 
+/// The best of several attempts goes on with its own search.
+const TAKEN_UP: TransferOptions = TransferOptions { transferred: Some(Transferred::Population), allow_loss: false };
+
 impl Curriculum for Stages {
     fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage> {
-        let stage = match stage_runs.last() {
-            None => 0,
-            Some(StageRun { stage, decision: Decision::Demote, .. }) => stage.saturating_sub(1),
-            Some(StageRun { stage, .. }) => stage + 1,
-        };
+        let (stage, begins, how) = match stage_runs.last() {
+            None => self.beginning(0, stage_runs),
+            Some(StageRun { stage, decision: Decision::Demote, .. }) => {
+                Some((stage.saturating_sub(1), Beginning::Before, BACK))
+            }
+            Some(StageRun { stage, decision: Decision::GiveUp, .. }) => match self.give_up(*stage, stage_runs) {
+                Some(GiveUp { back_to, .. }) => {
+                    let back_to = self.stages.iter().position(|(settings, _)| settings.name == *back_to)?;
+                    self.beginning(back_to, stage_runs)
+                }
+                None => Some((*stage, self.end_of(*stage, stage_runs), TAKEN_UP)),
+            },
+            Some(StageRun { stage, .. }) => self.beginning(stage + 1, stage_runs),
+        }?;
         let (settings, config) = self.stages.get(stage)?;
-        let rules = Rules { promotion: settings.promotion.clone(), demotion: settings.demotion.clone() };
-        let has_rules = rules.promotion.is_some() || rules.demotion.is_some();
-        let goes_back = stage_runs.last().is_some_and(|stage_run| stage_run.decision == Decision::Demote);
-        let how = if goes_back {
-            BACK
-        } else {
-            TransferOptions { transferred: settings.transfer, allow_loss: settings.allow_loss }
-        };
+        let give_up = self.give_up(stage, stage_runs).map(|give_up| give_up.when.clone());
+        let rules = Rules { promotion: settings.promotion.clone(), demotion: settings.demotion.clone(), give_up };
+        let has_rules = rules.promotion.is_some() || rules.demotion.is_some() || rules.give_up.is_some();
         Some(PlannedStage {
             stage,
             name: settings.name.clone(),
             config: config.clone(),
             promotion: has_rules.then(|| Arc::new(rules) as Arc<dyn Promotion>),
+            begins,
             transfer: how.transferred,
             allow_loss: how.allow_loss,
         })
@@ -132,6 +167,7 @@ impl Curriculum for Stages {
 struct Rules {
     promotion: Option<PromotionRule>,
     demotion: Option<PromotionRule>,
+    give_up: Option<PromotionRule>,
 }
 
 impl Promotion for Rules {
@@ -141,6 +177,8 @@ impl Promotion for Rules {
             Decision::Promote
         } else if is_met(&self.demotion) {
             Decision::Demote
+        } else if is_met(&self.give_up) {
+            Decision::GiveUp
         } else {
             Decision::Stay
         }
@@ -230,7 +268,12 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
         let field = if settings.allow_loss { "allow_loss" } else { "transfer" };
         return Err(SettingError::new(field, "given", "missing in the first stage: there is none before it"));
     }
-    for (field, rule) in [("promotion", &settings.promotion), ("demotion", &settings.demotion)] {
+    let rules = [
+        ("promotion", settings.promotion.as_ref()),
+        ("demotion", settings.demotion.as_ref()),
+        ("give_up.when", settings.give_up.as_ref().map(|give_up| &give_up.when)),
+    ];
+    for (field, rule) in rules {
         let Some(rule) = rule else { continue };
         rule.validate().map_err(|error| error.within(field))?;
         if rule.asks_for_usable() && setup.reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
@@ -245,6 +288,20 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
         }
     }
     Ok(())
+}
+
+fn check_giving_up(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {
+    let Some(GiveUp { back_to, times, .. }) = &settings.give_up else { return Ok(()) };
+    SettingError::check_range("give_up.times", f64::from(*times), 1.0, 100.0)?;
+    let names = || earlier.iter().map(|(stage, _)| &stage.name).chain([&settings.name]);
+    match names().any(|name| name == back_to) {
+        true => Ok(()),
+        false => {
+            let names: Vec<&str> = names().map(String::as_str).collect();
+            let allowed = format!("this stage or an earlier one: {}", names.join(", "));
+            Err(SettingError::new("give_up.back_to", format!("\"{back_to}\""), allowed))
+        }
+    }
 }
 
 /// The measurements an evaluation of this setup has.

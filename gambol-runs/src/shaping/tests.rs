@@ -3,7 +3,7 @@
 use super::*;
 use crate::Registry;
 use crate::{
-    config::{FrozenTopology, GeneRecord, RunConfig},
+    config::{FrozenTopology, GeneRecord, RunConfig, Transferred},
     setup::Setup,
     training::TrainError,
 };
@@ -265,6 +265,48 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
 }
 
 #[test]
+fn a_stage_is_given_up_so_often_and_then_the_best_attempt_goes_on() {
+    use Decision::{GiveUp, Promote};
+    let give_up = json!({ "when": { "generations": 1 }, "back_to": "b", "times": 2 });
+    let stages = stages(json!([
+        { "name": "a", "promotion": { "generations": 3 } },
+        { "name": "b", "promotion": { "generations": 3 } },
+        { "name": "c", "promotion": { "generations": 3 }, "give_up": give_up },
+        { "name": "d" }
+    ]))
+    .expect("valid");
+    let mut legs: Vec<StageRun> = Vec::new();
+    let way = [
+        ("a", Beginning::Nothing, Promote, 1.0),
+        ("b", Beginning::After(1), Promote, 1.0),
+        ("c", Beginning::After(2), GiveUp, 5.0),
+        ("b", Beginning::After(1), Promote, 2.0),
+        ("c", Beginning::After(4), GiveUp, 7.0),
+        ("b", Beginning::After(1), Promote, 9.0),
+        ("c", Beginning::After(6), GiveUp, 6.0),
+        ("c", Beginning::After(5), Promote, 6.5),
+    ];
+    for (name, begins, decision, fitness) in way {
+        let planned = stages.next(&legs).expect("a stage");
+        assert_eq!((planned.name.as_str(), planned.begins), (name, begins));
+        // All attempts are over: the search of the best goes on.
+        let is_taken_up = legs.len() == 7;
+        assert_eq!(planned.transfer == Some(Transferred::Population), is_taken_up);
+        let fitness = ne_core::Fitness::new(fitness).expect("finite");
+        legs.push(StageRun {
+            number: legs.len() + 1,
+            stage: planned.stage,
+            name: planned.name,
+            folder: std::path::PathBuf::new(),
+            decision,
+            progress: Progress::default(),
+            champion: Some(ne_core::TieredFitness { tier: 0, fitness }),
+        });
+    }
+    assert_eq!(stages.next(&legs).map(|planned| planned.begins), Some(Beginning::After(5)));
+}
+
+#[test]
 fn errors_name_stage_and_field() {
     let two = |second: serde_json::Value| json!([{ "name": "run", "promotion": { "generations": 3 } }, second]);
     for (given, message) in [
@@ -291,6 +333,18 @@ fn errors_name_stage_and_field() {
         (
             two(json!({ "name": "b", "promotion": { "generations": 0 } })),
             "stages[1] (\"b\"): promotion.generations = 0: must be at least 1",
+        ),
+        (
+            two(json!({ "name": "b", "give_up": { "when": "usable", "back_to": "c", "times": 1 } })),
+            "stages[1] (\"b\"): give_up.back_to = \"c\": must be this stage or an earlier one: run, b",
+        ),
+        (
+            two(json!({ "name": "b", "give_up": { "when": "usable", "back_to": "b", "times": 0 } })),
+            "stages[1] (\"b\"): give_up.times = 0: must be from 1 to 100",
+        ),
+        (
+            two(json!({ "name": "b", "give_up": { "when": { "steps": 0 }, "back_to": "run", "times": 1 } })),
+            "stages[1] (\"b\"): give_up.when.steps = 0: must be at least 1",
         ),
         (
             two(json!({ "name": "b", "promotion": { "any": [] } })),

@@ -130,7 +130,8 @@ fn check_config(path: &Path, value: &Value, registry: &Registry) -> Result<(), B
     for (index, (stage, config)) in stages.configs().enumerate() {
         let rule = stage.promotion.as_ref().map_or_else(|| "the run ends".into(), ToString::to_string);
         let bodies = super::in_bodies(config.bodies());
-        say!("  stage {} {}: {}{bodies}, until {rule}", index + 1, stage.name, config.movement.name)?;
+        let give_up = stage.give_up.as_ref().map_or_else(String::new, |give_up| format!("; {give_up}"));
+        say!("  stage {} {}: {}{bodies}, until {rule}{give_up}", index + 1, stage.name, config.movement.name)?;
     }
     Ok(())
 }

@@ -1,7 +1,14 @@
 use super::{Outcome, check_output, gait::champion_file};
 use crate::{
-    Registry, Setup, champion::Champion, dot::dot, front::Front, judge::Judge, report, run_folder::RunFolder,
-    shaping::stage_runs, trajectory::Recording,
+    Registry, Setup,
+    champion::Champion,
+    dot::dot,
+    front::Front,
+    judge::Judge,
+    report,
+    run_folder::RunFolder,
+    shaping::{self, stage_runs},
+    trajectory::Recording,
 };
 use clap::Args;
 use ne_core::archive;
@@ -136,11 +143,12 @@ pub(super) fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
     }
 }
 
-/// A point of the front in a run's folder, counted from 1; of a run with stages, of its latest.
+/// A point of the front in a run's folder, counted from 1; of a run with stages, of the one whose champion is the run's.
 fn point(folder: &Path, number: usize, registry: &Registry) -> Result<Champion, Box<dyn Error>> {
     let run = RunFolder::open(folder)?;
-    let latest = stage_runs(&run)?.pop();
-    let folder = latest.map_or(Ok(run), |stage_run| RunFolder::open(&stage_run.folder))?;
+    let stage_runs = stage_runs(&run)?;
+    let leading = shaping::leading(&stage_runs);
+    let folder = leading.map_or(Ok(run), |stage_run| RunFolder::open(&stage_run.folder))?;
     let config = folder.read_config()?;
     if !folder.front().is_file() {
         let (path, strategy) = (folder.path().display(), config.strategy.name());

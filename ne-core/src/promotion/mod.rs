@@ -59,6 +59,8 @@ pub enum Decision {
     Promote,
     /// It goes back to the stage before.
     Demote,
+    /// It is given up: another begins anew, at an earlier stage or this one.
+    GiveUp,
 }
 
 impl Decision {

@@ -112,3 +112,18 @@ fn a_demotion_ends_the_run_too() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(run.progress().generations, 2);
     Ok(())
 }
+
+#[test]
+fn giving_up_ends_the_run_too() -> Result<(), Box<dyn std::error::Error>> {
+    struct GivesUp;
+    impl Promotion for GivesUp {
+        fn decide(&self, _: &StageState<'_>) -> Decision {
+            Decision::GiveUp
+        }
+    }
+    let mut run = evolution(9).with_promotion(GivesUp);
+    let reason = run.run(&TASK, &Serial, &mut [])?;
+    assert_eq!((reason, run.progress().generations), (StopReason::GivenUp, 1));
+    assert_eq!(reason.to_string(), "the population was given up, and another begins anew");
+    Ok(())
+}

@@ -17,7 +17,8 @@ use serde::Deserialize;
 /// After a press the moments do not count until the body has landed, or for 1.5 s, and the jump does, once these are over: all of it if the body leaves the
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
-/// so that a search is drawn towards a push-off before anything leaves the ground; of a jump that comes too late 0.15. A jump that goes
+/// so that a search is drawn towards a push-off before anything leaves the ground; of a jump that comes too late 0.15, and nothing of
+/// one for which a leg leaves the ground less than 0.2 s after the press. A jump that goes
 /// nowhere near the commanded speed counts 0.2 of one that goes on at it. Of legs that leave the ground one after the other less counts: nothing where they do so
 /// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
 #[derive(Clone, Debug)]
@@ -96,6 +97,9 @@ const PROMISED: f64 = 0.4;
 const ONWARDS: f64 = 0.2;
 /// What counts of a jump that comes too late.
 const LATE: f64 = 0.15;
+/// What leaves the ground sooner after the press does not count, s: a body hops off its legs as they are, and a search that has found that
+/// does not find the crouch any more.
+const CROUCH: f64 = 0.2;
 /// What counts of a jump in which a part that is no foot touches the ground, or the torso is tilted...
 const SPOILT: f64 = 0.4;
 /// ...by more than this, rad.
@@ -211,11 +215,13 @@ impl Playing {
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
         let (tilted, onwards) = (self.tilt() > TILTED_JUMP, ONWARDS + (1.0 - ONWARDS) * self.near());
         let Some(jump) = &mut self.jump else { return };
-        let late = time - jump.pressed > ANSWER;
+        let is_early = |left: f64| left - jump.pressed < CROUCH;
+        let (early, late) = (is_early(time), time - jump.pressed > ANSWER);
         let (share, rise) = match now.aloft() {
             true => {
                 let apart = if first.is_finite() { time - first } else { 0.0 };
                 let flight = || match late {
+                    _ if is_early(first.min(time)) => 0.0,
                     true => LATE,
                     false => PROMISED + (1.0 - PROMISED) * ((APART - apart) / (APART - TOGETHER)).clamp(0.0, 1.0),
                 };
@@ -224,7 +230,12 @@ impl Playing {
             false => {
                 jump.landed |= jump.flight.is_some();
                 jump.flight = None;
-                (if late { LATE } else { PROMISED }, rising)
+                let share = match late {
+                    _ if early => 0.0,
+                    true => LATE,
+                    false => PROMISED,
+                };
+                (share, rising)
             }
         };
         jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));
@@ -420,11 +431,14 @@ mod tests {
     fn a_jump_counts_if_it_answers_a_press() {
         let [whole, half, late, none] =
             [jumps(1.3, 1.9, 0.5), jumps(1.3, 1.9, 0.17), jumps(1.8, 2.4, 0.5), jumps(9.0, 9.1, 0.0)];
+        let early = jumps(1.1, 1.9, 0.5);
         // 1.5 s for the jump, and 0.6 s from the landing on.
         assert!((2.0..2.2).contains(&whole), "{whole}");
         assert!((1.1..1.6).contains(&half), "{half}");
         // 0.15 of its 1.5 s, and 0.1 s more from the landing on than the time that does not count.
         assert!((0.2..0.45).contains(&late), "{late}");
+        // The time from the landing on alone.
+        assert!((0.5..0.75).contains(&early), "{early}");
         assert!(none.abs() < 0.1, "{none}");
     }
 

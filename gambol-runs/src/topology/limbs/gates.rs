@@ -81,16 +81,17 @@ impl Gates {
         // The sine comes before the swell.
         let steep = CLOSED / SHARP;
         let begins = gate(-steep * CROUCHES, &[weigh(short - 1, steep), weigh(short, steep * SWELL_OF_CROUCH)]);
+        // Those that hear the clocks stand side by side: players compute them at once.
+        let steep = CLOSED / SHARP_ENDS;
+        let ends = (longest > shortest).then(|| gate(steep * ENDS, &[weigh(short, -steep)]));
         // Of gates, which are 0 or 1, one that is open if any of these is, and one that is open if this one is closed or that one open.
         let any = |gates: &[usize]| gates.iter().map(|&gate| (gate, 2.0 * CLOSED)).collect::<Vec<_>>();
         let unless = |closed: usize, open: usize| [(closed, -2.0 * CLOSED), (open, 2.0 * CLOSED)];
         let not_crouching = gate(CLOSED, &unless(begins, striding));
-        if longest <= shortest {
+        let Some(ends) = ends else {
             let not_pushing = gate(-CLOSED, &any(&[striding, begins]));
             return Some(Self { jumping, phases: vec![("crouch", not_crouching), ("push-off", not_pushing)] });
-        }
-        let steep = CLOSED / SHARP_ENDS;
-        let ends = gate(steep * ENDS, &[weigh(short, -steep)]);
+        };
         let not_pushing = gate(-CLOSED, &any(&[striding, begins, ends]));
         let not_landing = gate(CLOSED, &unless(ends, striding));
         Some(Self {
