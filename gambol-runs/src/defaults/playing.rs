@@ -26,10 +26,13 @@ const BALANCED_STAGE_STEPS: StageSteps =
 
 const POLISH_STEPS: [u64; 2] = [20_000_000, 120_000_000];
 
-/// What is not playable after so many steps of `polish` is given up, so often, and another begins anew. Not of bodies that balance: with
-/// them that takes too long.
-const GIVE_UP_STEPS: u64 = 40_000_000;
-const GIVE_UP_TIMES: u32 = 2;
+/// What earns less than this, in s of about 57, after so many steps of `jump` is given up, so often, and another stride is searched for: five of
+/// five tetrapods that did were not playable after 70 million steps, and of ten that earned more six were. Not of bodies that
+/// balance: with them another stride takes too long.
+const GIVE_UP_JUMP: (f64, u64, u32) = (45.0, 15_000_000, 3);
+
+/// And so is what is not playable after so many steps of `polish`.
+const GIVE_UP_POLISH: (u64, u32) = (40_000_000, 2);
 
 /// The slowest and the fastest speed that two legs are told, body lengths/s: alone they run at 0.6 to 0.7.
 const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
@@ -69,8 +72,14 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let random = if is_biped { RandomCommands { speeds: BIPED_SPEEDS, ..random } } else { random };
     let (steps, starts) = if is_biped { (&BALANCED_STAGE_STEPS, STARTS) } else { (&STAGE_STEPS, 1) };
     let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
-    let give_up = GiveUp { when: PromotionRule::Steps(GIVE_UP_STEPS), back_to: "move".into(), times: GIVE_UP_TIMES };
-    let give_up = (!is_biped).then_some(give_up);
+    let give_up = |when: PromotionRule, times: u32| GiveUp { when, back_to: "move".into(), times };
+    let give_up_jump = (!is_biped).then(|| {
+        let (fitness, steps, times) = GIVE_UP_JUMP;
+        let is_poor = PromotionRule::Not(Box::new(PromotionRule::Fitness(fitness)));
+        give_up(PromotionRule::All(vec![PromotionRule::Steps(steps), is_poor]), times)
+    });
+    let (steps_of_polish, times) = GIVE_UP_POLISH;
+    let give_up_polish = (!is_biped).then(|| give_up(PromotionRule::Steps(steps_of_polish), times));
     let strategy: [(&str, Value); 3] =
         [("restart", "anew".into()), ("starts", starts.into()), ("start_generations", START_GENERATIONS.into())];
     MovementDefaults {
@@ -81,7 +90,13 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![move_on(steps), follow(steps), jump(steps, clocks), polish(give_up), harden()],
+        stages: vec![
+            move_on(steps),
+            follow(steps),
+            jump(steps, clocks, give_up_jump),
+            polish(give_up_polish),
+            harden(),
+        ],
         strategy: strategy.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ..unknown
     }
@@ -98,12 +113,12 @@ fn follow(steps: &StageSteps) -> StageSettings {
 }
 
 /// With the stride held, jumps are all there is to learn: out of every hold.
-fn jump(steps: &StageSteps, clocks: [f32; 2]) -> StageSettings {
+fn jump(steps: &StageSteps, clocks: [f32; 2], give_up: Option<GiveUp>) -> StageSettings {
     let changes =
         json!({ "commands": { "random": { "jumps": 1.0 } }, "movement": { "settings": { "jump": JUMP_WORTH } } });
     let add_sensors = clocks.map(|period| Sensor::JumpClock { period }).into();
     let (promotion, transfer) = (usable_within(steps.jump), Some(Transferred::Held));
-    StageSettings { near: true, add_sensors, promotion, transfer, ..stage("jump", changes) }
+    StageSettings { near: true, add_sensors, promotion, give_up, transfer, ..stage("jump", changes) }
 }
 
 /// All of it together: a stride that has never landed learns to go on from there. A jump counts no more than its time.

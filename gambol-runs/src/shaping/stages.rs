@@ -96,7 +96,7 @@ impl Stages {
     /// Where the stage after this one begins: at the end of the best of several attempts, else of the last stage run that was passed.
     fn end_of(&self, stage: usize, stage_runs: &[StageRun]) -> Beginning {
         let gives_up = self.stages.get(stage).is_some_and(|(settings, _)| settings.give_up.is_some());
-        let mut of_stage = stage_runs.iter().filter(|stage_run| stage_run.stage == stage);
+        let mut of_stage = attempts(stage, stage_runs);
         let end = match gives_up {
             true => of_stage.max_by_key(|stage_run| stage_run.champion),
             false => of_stage.rfind(|stage_run| stage_run.decision == Decision::Promote),
@@ -107,8 +107,13 @@ impl Stages {
     /// How an attempt at this stage is given up; `None`: it is not, or all attempts are over.
     fn give_up(&self, stage: usize, stage_runs: &[StageRun]) -> Option<&GiveUp> {
         let give_up = self.stages.get(stage)?.0.give_up.as_ref()?;
-        let given_up = |stage_run: &&StageRun| stage_run.stage == stage && stage_run.decision == Decision::GiveUp;
-        (stage_runs.iter().filter(given_up).count() <= give_up.times as usize).then_some(give_up)
+        // A later stage was visited since: these are new attempts.
+        let mut since = stage_runs.iter().rev().take_while(|stage_run| stage_run.stage != stage);
+        if since.any(|stage_run| stage_run.stage > stage) {
+            return Some(give_up);
+        }
+        let given_up = attempts(stage, stage_runs).filter(|stage_run| stage_run.decision == Decision::GiveUp);
+        (given_up.count() <= give_up.times as usize).then_some(give_up)
     }
 
     /// The index of a stage, where it begins, and with what.
@@ -123,6 +128,14 @@ impl Stages {
     pub fn configs(&self) -> impl Iterator<Item = (&StageSettings, &RunConfig)> {
         self.stages.iter().map(|(settings, config)| (settings, config))
     }
+}
+
+/// The latest attempts at a stage, between which no later one was visited: what that gave up is not gone on from again.
+fn attempts(stage: usize, stage_runs: &[StageRun]) -> impl DoubleEndedIterator<Item = &StageRun> {
+    let last = stage_runs.iter().rposition(|stage_run| stage_run.stage == stage).map_or(0, |last| last + 1);
+    let later = stage_runs[..last].iter().rposition(|stage_run| stage_run.stage > stage);
+    let first = later.map_or(0, |later| later + 1);
+    stage_runs[first..last].iter().filter(move |stage_run| stage_run.stage == stage)
 }
 
 /// A population that goes back takes as much as can be, and gives up what the later stage had added.

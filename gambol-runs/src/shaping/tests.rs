@@ -306,6 +306,50 @@ fn a_stage_is_given_up_so_often_and_then_the_best_attempt_goes_on() {
     assert_eq!(stages.next(&legs).map(|planned| planned.begins), Some(Beginning::After(5)));
 }
 
+/// A later stage that is given up, too, does not go on from an attempt of before.
+#[test]
+fn attempts_are_counted_anew_once_a_later_stage_was_visited() {
+    use Decision::{GiveUp, Promote};
+    let give_up = |times: u32| json!({ "when": { "generations": 1 }, "back_to": "a", "times": times });
+    let stages = stages(json!([
+        { "name": "a", "promotion": { "generations": 3 } },
+        { "name": "b", "promotion": { "generations": 3 }, "give_up": give_up(1) },
+        { "name": "c", "give_up": give_up(1) }
+    ]))
+    .expect("valid");
+    let mut legs: Vec<StageRun> = Vec::new();
+    let way = [
+        ("a", Beginning::Nothing, Promote, 1.0),
+        ("b", Beginning::After(1), GiveUp, 9.0),
+        ("a", Beginning::Nothing, Promote, 1.0),
+        ("b", Beginning::After(3), Promote, 5.0),
+        // The best of two attempts at b.
+        ("c", Beginning::After(2), GiveUp, 2.0),
+        ("a", Beginning::Nothing, Promote, 1.0),
+        ("b", Beginning::After(6), GiveUp, 3.0),
+        ("a", Beginning::Nothing, Promote, 1.0),
+        ("b", Beginning::After(8), GiveUp, 4.0),
+        ("b", Beginning::After(9), Promote, 4.5),
+        // Not of that of before, from which c was given up.
+        ("c", Beginning::After(10), GiveUp, 1.0),
+        ("c", Beginning::After(5), Promote, 3.0),
+    ];
+    for (name, begins, decision, fitness) in way {
+        let planned = stages.next(&legs).expect("a stage");
+        assert_eq!((planned.name.as_str(), planned.begins), (name, begins), "after {} stage runs", legs.len());
+        let fitness = ne_core::Fitness::new(fitness).expect("finite");
+        legs.push(StageRun {
+            number: legs.len() + 1,
+            stage: planned.stage,
+            name: planned.name,
+            folder: std::path::PathBuf::new(),
+            decision,
+            progress: Progress::default(),
+            champion: Some(ne_core::TieredFitness { tier: 0, fitness }),
+        });
+    }
+}
+
 #[test]
 fn errors_name_stage_and_field() {
     let two = |second: serde_json::Value| json!([{ "name": "run", "promotion": { "generations": 3 } }, second]);

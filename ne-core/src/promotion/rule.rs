@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON: `{"fitness": 20}`, `"usable"`, `{"share": {"fitness": 20, "of": 0.5}}`, `{"measurement": {"name": "energy",
 /// "at_least": 10}}`, `{"stagnation": 30}`, `{"generations": 100}`, `{"evaluations": 10000}`, `{"steps": 1000000}`,
-/// `{"any": [...]}`, `{"all": [...]}`.
+/// `{"any": [...]}`, `{"all": [...]}`, `{"not": ...}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PromotionRule {
@@ -31,6 +31,8 @@ pub enum PromotionRule {
     Any(Vec<PromotionRule>),
     /// All of these are met; at least one.
     All(Vec<PromotionRule>),
+    /// This one is not met.
+    Not(Box<PromotionRule>),
 }
 
 /// A fitness, and by how many it is reached.
@@ -95,6 +97,7 @@ impl PromotionRule {
             Self::Steps(steps) => count("steps", *steps),
             Self::Any(rules) => validate_all("any", rules),
             Self::All(rules) => validate_all("all", rules),
+            Self::Not(rule) => rule.validate().map_err(|error| error.within("not")),
         }
     }
 
@@ -117,6 +120,7 @@ impl PromotionRule {
             Self::Steps(steps) => progress.steps >= *steps,
             Self::Any(rules) => rules.iter().any(|rule| rule.is_met(state)),
             Self::All(rules) => rules.iter().all(|rule| rule.is_met(state)),
+            Self::Not(rule) => !rule.is_met(state),
         }
     }
 
@@ -125,6 +129,7 @@ impl PromotionRule {
         match self {
             Self::Measurement(reached) => vec![reached.name.as_str()],
             Self::Any(rules) | Self::All(rules) => rules.iter().flat_map(Self::measurements).collect(),
+            Self::Not(rule) => rule.measurements(),
             _ => Vec::new(),
         }
     }
@@ -134,6 +139,7 @@ impl PromotionRule {
         match self {
             Self::Usable => true,
             Self::Any(rules) | Self::All(rules) => rules.iter().any(Self::asks_for_usable),
+            Self::Not(rule) => rule.asks_for_usable(),
             _ => false,
         }
     }
@@ -196,6 +202,7 @@ impl std::fmt::Display for PromotionRule {
             Self::Steps(steps) => write!(f, "{steps} steps"),
             Self::Any(rules) => joined(f, rules, " or "),
             Self::All(rules) => joined(f, rules, " and "),
+            Self::Not(rule) => write!(f, "not ({rule})"),
         }
     }
 }

@@ -58,7 +58,9 @@ fn a_rule_is_met_at_its_bound_and_not_before() {
         assert_eq!((is_met(met), is_met(not_met)), (true, false), "{met}, {not_met}");
         let both = vec![met.clone(), not_met.clone()];
         assert_eq!((is_met(&PromotionRule::Any(both.clone())), is_met(&PromotionRule::All(both))), (true, false));
-        for rule in [met, not_met] {
+        let not = |rule: &PromotionRule| PromotionRule::Not(Box::new(rule.clone()));
+        assert_eq!((is_met(&not(met)), is_met(&not(not_met))), (false, true), "{met}, {not_met}");
+        for rule in [met, not_met, &not(met)] {
             let text = serde_json::to_string(rule).expect("plain data");
             assert_eq!(&serde_json::from_str::<PromotionRule>(&text).expect("what was written"), rule, "{text}");
             assert_eq!(rule.validate(), Ok(()));
@@ -74,6 +76,9 @@ fn rules_are_told_in_words() {
     let rules =
         vec![PromotionRule::Usable, PromotionRule::Any(vec![PromotionRule::Fitness(20.0), PromotionRule::Steps(9)])];
     assert_eq!(PromotionRule::All(rules).to_string(), "usable and (fitness ≥ 20 or 9 steps)");
+    let not = PromotionRule::Not(Box::new(PromotionRule::Fitness(20.0)));
+    assert_eq!(not.to_string(), "not (fitness ≥ 20)");
+    assert_eq!(serde_json::to_string(&not).expect("plain data"), r#"{"not":{"fitness":20.0}}"#);
 }
 
 #[test]
