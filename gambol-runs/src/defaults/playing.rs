@@ -24,7 +24,8 @@ const STAGE_STEPS: StageSteps =
 const BALANCED_STAGE_STEPS: StageSteps =
     StageSteps { move_on: [8_000_000, 100_000_000], follow: [20_000_000, 100_000_000], jump: [8_000_000, 80_000_000] };
 
-const POLISH_STEPS: [u64; 2] = [20_000_000, 120_000_000];
+/// It has most of a run of some minutes: of four tetrapods `harden` made one playable in its time, this two (docs/playing.md).
+const POLISH_STEPS: [u64; 2] = [60_000_000, 120_000_000];
 
 /// What earns less than this, in s of about 57, after so many steps of `jump` is given up, so often, and another stride is searched for: five of
 /// five tetrapods that did were not playable after 70 million steps, and of ten that earned more six were. Not of bodies that
@@ -79,7 +80,10 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         give_up(PromotionRule::All(vec![PromotionRule::Steps(steps), is_poor]), times)
     });
     let (steps_of_polish, times) = GIVE_UP_POLISH;
-    let give_up_polish = (!is_biped).then(|| give_up(PromotionRule::Steps(steps_of_polish), times));
+    let give_up_polish = (!is_biped).then(|| {
+        let is_unplayable = PromotionRule::Not(Box::new(PromotionRule::Usable));
+        give_up(PromotionRule::All(vec![PromotionRule::Steps(steps_of_polish), is_unplayable]), times)
+    });
     let strategy: [(&str, Value); 3] =
         [("restart", "anew".into()), ("starts", starts.into()), ("start_generations", START_GENERATIONS.into())];
     MovementDefaults {

@@ -97,7 +97,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         let gives_up = [2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));
         let expected = [
             "given up at 15000000 steps and not (fitness ≥ 45), to begin anew at move, 3 times",
-            "given up at 40000000 steps, to begin anew at move, 2 times",
+            "given up at 40000000 steps and not (usable), to begin anew at move, 2 times",
         ];
         assert_eq!(
             gives_up,
