@@ -74,15 +74,8 @@ impl Activation {
         for half in halves {
             self.apply_to_lanes(half);
         }
-        match rest {
-            [] => {}
-            [sum] => *sum = self.apply(*sum),
-            _ => {
-                let mut padded = [0.0; 4];
-                padded[..rest.len()].copy_from_slice(rest);
-                self.apply_to_lanes(&mut padded);
-                rest.copy_from_slice(&padded[..rest.len()]);
-            }
+        for sum in rest {
+            *sum = self.apply(*sum);
         }
     }
 

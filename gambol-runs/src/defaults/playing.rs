@@ -27,13 +27,14 @@ const BALANCED_STAGE_STEPS: StageSteps =
 /// It has most of a run of some minutes: of four tetrapods `harden` made one playable in its time, this two (docs/playing.md).
 const POLISH_STEPS: [u64; 2] = [60_000_000, 120_000_000];
 
-/// What earns less than this, in s of about 57, after so many steps of `jump` is given up, so often, and another stride is searched for: five of
+/// What earns less than this, in s of about 57, after so many steps of `jump` is given up, and another stride is searched for: five of
 /// five tetrapods that did were not playable after 70 million steps, and of ten that earned more six were. Not of bodies that
 /// balance: with them another stride takes too long.
-const GIVE_UP_JUMP: (f64, u64, u32) = (45.0, 15_000_000, 3);
+const LEAST_OF_JUMP: f64 = 45.0;
+const ATTEMPT_OF_JUMP: u64 = 15_000_000;
 
 /// And so is what is not playable after so many steps of `polish`.
-const GIVE_UP_POLISH: (u64, u32) = (40_000_000, 2);
+const ATTEMPT_OF_POLISH: u64 = 40_000_000;
 
 /// The slowest and the fastest speed that two legs are told, body lengths/s: alone they run at 0.6 to 0.7.
 const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
@@ -73,17 +74,9 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let random = if is_biped { RandomCommands { speeds: BIPED_SPEEDS, ..random } } else { random };
     let (steps, starts) = if is_biped { (&BALANCED_STAGE_STEPS, STARTS) } else { (&STAGE_STEPS, 1) };
     let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
-    let give_up = |when: PromotionRule, times: u32| GiveUp { when, back_to: "move".into(), times };
-    let give_up_jump = (!is_biped).then(|| {
-        let (fitness, steps, times) = GIVE_UP_JUMP;
-        let is_poor = PromotionRule::Not(Box::new(PromotionRule::Fitness(fitness)));
-        give_up(PromotionRule::All(vec![PromotionRule::Steps(steps), is_poor]), times)
-    });
-    let (steps_of_polish, times) = GIVE_UP_POLISH;
-    let give_up_polish = (!is_biped).then(|| {
-        let is_unplayable = PromotionRule::Not(Box::new(PromotionRule::Usable));
-        give_up(PromotionRule::All(vec![PromotionRule::Steps(steps_of_polish), is_unplayable]), times)
-    });
+    let give_up_jump = give_up(ATTEMPT_OF_JUMP, PromotionRule::Fitness(LEAST_OF_JUMP), 3);
+    let give_up_polish = give_up(ATTEMPT_OF_POLISH, PromotionRule::Usable, 2);
+    let [give_up_jump, give_up_polish] = [give_up_jump, give_up_polish].map(|rule| (!is_biped).then_some(rule));
     let strategy: [(&str, Value); 3] =
         [("restart", "anew".into()), ("starts", starts.into()), ("start_generations", START_GENERATIONS.into())];
     MovementDefaults {
@@ -146,6 +139,12 @@ fn harden() -> StageSettings {
 fn usable_within([fewest, most]: [u64; 2]) -> Option<PromotionRule> {
     let usable = PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(fewest)]);
     Some(PromotionRule::Any(vec![usable, PromotionRule::Steps(most)]))
+}
+
+/// To another stride, so often, if this is not met after so many steps.
+fn give_up(steps: u64, unless: PromotionRule, times: u32) -> GiveUp {
+    let when = PromotionRule::All(vec![PromotionRule::Steps(steps), PromotionRule::Not(Box::new(unless))]);
+    GiveUp { when, back_to: "move".into(), times }
 }
 
 fn stage(name: &str, changes: Value) -> StageSettings {

@@ -235,6 +235,20 @@ fn errors_of_a_leg_are_told_of_the_run() {
     assert_eq!(told(TrainError::Stages), TrainError::Stages.to_string());
 }
 
+/// A planned stage, once it has ended so, with a champion of this fitness.
+fn ended(number: usize, planned: PlannedStage, decision: Decision, fitness: f64) -> StageRun {
+    let fitness = ne_core::Fitness::new(fitness).expect("finite");
+    StageRun {
+        number,
+        stage: planned.stage,
+        name: planned.name,
+        folder: std::path::PathBuf::new(),
+        decision,
+        progress: Progress::default(),
+        champion: Some(ne_core::TieredFitness { tier: 0, fitness }),
+    }
+}
+
 #[test]
 fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
     let stages = stages(json!([
@@ -251,15 +265,7 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
         // Only a population that goes back may give something up.
         let went_back = legs.last().is_some_and(|leg| leg.decision == Demote);
         assert_eq!(planned.allow_loss, went_back);
-        legs.push(StageRun {
-            number: legs.len() + 1,
-            stage: planned.stage,
-            name: planned.name,
-            folder: std::path::PathBuf::new(),
-            decision,
-            progress: Progress::default(),
-            champion: None,
-        });
+        legs.push(ended(legs.len() + 1, planned, decision, 1.0));
     }
     assert!(stages.next(&legs).is_none());
 }
@@ -292,16 +298,7 @@ fn a_stage_is_given_up_so_often_and_then_the_best_attempt_goes_on() {
         // All attempts are over: the search of the best goes on.
         let is_taken_up = legs.len() == 7;
         assert_eq!(planned.transfer == Some(Transferred::Population), is_taken_up);
-        let fitness = ne_core::Fitness::new(fitness).expect("finite");
-        legs.push(StageRun {
-            number: legs.len() + 1,
-            stage: planned.stage,
-            name: planned.name,
-            folder: std::path::PathBuf::new(),
-            decision,
-            progress: Progress::default(),
-            champion: Some(ne_core::TieredFitness { tier: 0, fitness }),
-        });
+        legs.push(ended(legs.len() + 1, planned, decision, fitness));
     }
     assert_eq!(stages.next(&legs).map(|planned| planned.begins), Some(Beginning::After(5)));
 }
@@ -337,16 +334,7 @@ fn attempts_are_counted_anew_once_a_later_stage_was_visited() {
     for (name, begins, decision, fitness) in way {
         let planned = stages.next(&legs).expect("a stage");
         assert_eq!((planned.name.as_str(), planned.begins), (name, begins), "after {} stage runs", legs.len());
-        let fitness = ne_core::Fitness::new(fitness).expect("finite");
-        legs.push(StageRun {
-            number: legs.len() + 1,
-            stage: planned.stage,
-            name: planned.name,
-            folder: std::path::PathBuf::new(),
-            decision,
-            progress: Progress::default(),
-            champion: Some(ne_core::TieredFitness { tier: 0, fitness }),
-        });
+        legs.push(ended(legs.len() + 1, planned, decision, fitness));
     }
 }
 

@@ -21,6 +21,7 @@ mod front;
 mod full_disk;
 mod further_bodies;
 mod gait;
+mod giving_up;
 mod going_on;
 mod help;
 mod holding;

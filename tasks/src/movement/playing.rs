@@ -216,7 +216,7 @@ impl Playing {
         let (tilted, onwards) = (self.tilt() > TILTED_JUMP, ONWARDS + (1.0 - ONWARDS) * self.near());
         let Some(jump) = &mut self.jump else { return };
         let is_early = |left: f64| left - jump.pressed < CROUCH;
-        let (early, late) = (is_early(time), time - jump.pressed > ANSWER);
+        let late = time - jump.pressed > ANSWER;
         let (share, rise) = match now.aloft() {
             true => {
                 let apart = if first.is_finite() { time - first } else { 0.0 };
@@ -230,12 +230,8 @@ impl Playing {
             false => {
                 jump.landed |= jump.flight.is_some();
                 jump.flight = None;
-                let share = match late {
-                    _ if early => 0.0,
-                    true => LATE,
-                    false => PROMISED,
-                };
-                (share, rising)
+                let promised = if late { LATE } else { PROMISED };
+                (if is_early(time) { 0.0 } else { promised }, rising)
             }
         };
         jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));
@@ -412,6 +408,40 @@ mod tests {
         for other in [Body { uneven_ground: true, ..body.clone() }, Body { legless: true, ..body.clone() }] {
             assert_eq!(stands(0.5, &other), stands(1.0, &other));
         }
+    }
+
+    /// Told to jump at 1 s, by a body of a torso and two feet, each of which leaves the ground at its time.
+    fn leaps(left: [f32; 2]) -> f64 {
+        let mut movement = Playing::default();
+        let parts = vec![crate::BodyPart::default(); 3];
+        let legs = vec![vec![1], vec![2]];
+        movement.bind(&Body { body_length: 1.0, start_height: 1.0, parts, legs, ..Body::default() });
+        let snapshot = |step: u32| {
+            let time = step as f32 * STEP;
+            let aloft = left.iter().all(|&left| time >= left) && time < 1.8;
+            let height = if aloft { 1.5 } else { 1.0 };
+            let foot =
+                |left: f32| PartState { cos: 1.0, touching: !(left..1.8).contains(&time), ..PartState::default() };
+            let torso = PartState { y: height, cos: 1.0, ..PartState::default() };
+            let since_press = if time < 1.0 { f32::INFINITY } else { time - 1.0 };
+            let command = Command { speed: 0.0, jump: false, since_press };
+            Snapshot { time, parts: vec![torso, foot(left[0]), foot(left[1])], command, ..Snapshot::default() }
+        };
+        movement.begin(&snapshot(0));
+        (1..=150).for_each(|step| assert_eq!(movement.observe(&snapshot(step)), Verdict::GoOn));
+        movement.jumped
+    }
+
+    #[test]
+    fn no_leg_may_leave_the_ground_before_there_was_time_to_crouch() {
+        assert!(
+            leaps([1.31, 1.31]) > 1.4 && leaps([1.25, 1.33]) > 1.4,
+            "{} {}",
+            leaps([1.31, 1.31]),
+            leaps([1.25, 1.33])
+        );
+        assert_eq!(leaps([1.15, 1.24]), 0.0, "one leg is early");
+        assert_eq!(leaps([1.11, 1.11]), 0.0);
     }
 
     /// Pressed at 1 s; in the air from `from` to `to`, m at the peak.
