@@ -1,7 +1,12 @@
 //! The champion selection of runs whose worlds vary, whose episodes are short or whose bodies are several: the champion
 //! is chosen in one whole episode of the creature, in the world as the configuration has it, and by rapier.
 
-use crate::{config::EngineChoice, judge::USABLE, reference::ReferenceEpisode, robustness_check::Trial};
+use crate::{
+    config::EngineChoice,
+    judge::USABLE,
+    reference::ReferenceEpisode,
+    robustness_check::{RobustnessCheck, Trial},
+};
 use ne_core::{
     Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,
     champion_selection::{ChampionSelection, ReEvaluation},
@@ -21,6 +26,7 @@ pub(crate) struct ReferenceSelection {
     usable: Option<Box<FirstUsable>>,
     /// In how many perturbed worlds it is, if training varies the world.
     steadiness: Option<Box<Steadiness>>,
+    steps: Vec<(Trial, usize)>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
@@ -46,8 +52,16 @@ const STEPS: [(Trial, usize); 8] = [
     (Trial::Long, Trial::Long.worlds() - 1),
 ];
 
-/// The highest tier.
-const HIGHEST: u8 = USABLE + STEPS.len() as u8;
+/// Before these, the same of a gait that is told what to do: that it does so whatever it is told comes before that it does so in any
+/// world. One of some thousand candidates that has passed nine schedules of commands may yet fail in every fourth.
+const STEPS_OF_COMMANDS: [(Trial, usize); 4] =
+    [(Trial::Commands, 12), (Trial::Commands, 14), (Trial::Commands, 15), (Trial::Commands, Trial::Commands.worlds())];
+
+/// All steps, in their order, of a gait that is told what to do or is not.
+fn steps(commanded: bool) -> Vec<(Trial, usize)> {
+    let first: &[_] = if commanded { &STEPS_OF_COMMANDS } else { &[] };
+    [first, &STEPS].concat()
+}
 
 /// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
 const JUDGED: usize = 8;
@@ -59,12 +73,6 @@ enum Kept {
     Little,
     Half,
     Most,
-}
-
-/// In how many worlds of a trial a gait must be usable for this tier.
-fn needed(trial: Trial, tier: u8) -> usize {
-    let tiers = STEPS.iter().zip(USABLE + 1..).filter(|&(&(of, _), step)| of == trial && step <= tier);
-    tiers.map(|(&(_, worlds), _)| worlds).max().unwrap_or(0)
 }
 
 /// The champion selection's task in rapier, which remembers what it played last.
@@ -99,6 +107,7 @@ impl ReferenceSelection {
     /// The champion selection of a run.
     pub(crate) fn new(reference: &ReferenceEpisode, evaluator: Arc<Parallel>) -> Self {
         let confirmed = reference.task.engine() != EngineChoice::Rapier;
+        let commanded = reference.robustness_check.as_ref().is_some_and(RobustnessCheck::needs_commands);
         Self {
             task: Box::new(reference.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(reference.clone())) as Box<dyn Task>),
@@ -120,9 +129,21 @@ impl ReferenceSelection {
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
+            steps: steps(commanded),
             seed: reference.seed,
             evaluator,
         }
+    }
+
+    /// The highest tier.
+    fn highest(&self) -> u8 {
+        USABLE + self.steps.len() as u8
+    }
+
+    /// In how many worlds of a trial a gait must be usable for this tier.
+    fn needed(&self, trial: Trial, tier: u8) -> usize {
+        let tiers = self.steps.iter().zip(USABLE + 1..).filter(|&(&(of, _), step)| of == trial && step <= tier);
+        tiers.map(|(&(_, worlds), _)| worlds).max().unwrap_or(0)
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
@@ -166,7 +187,7 @@ impl ReferenceSelection {
         match kept {
             _ if first || self.steadiness.is_none() => USABLE,
             Kept::Little => USABLE + 1,
-            Kept::Half | Kept::Most => HIGHEST,
+            Kept::Half | Kept::Most => self.highest(),
         }
     }
 
@@ -175,11 +196,11 @@ impl ReferenceSelection {
         let Some(steadiness) = &self.steadiness else { return USABLE };
         let controller = candidate.express();
         let (mut tier, mut last) = (USABLE, None);
-        for &(trial, worlds) in &STEPS[..usize::from(hoped - USABLE)] {
+        for &(trial, worlds) in &self.steps[..usize::from(hoped - USABLE)] {
             let known = last.filter(|&(known, _)| known == trial);
             let (_, usable) = known.unwrap_or_else(|| {
                 let span = tracing::debug_span!("perturbed worlds", ?trial);
-                (trial, span.in_scope(|| steadiness(&controller, trial, needed(trial, enough))))
+                (trial, span.in_scope(|| steadiness(&controller, trial, self.needed(trial, enough))))
             });
             last = Some((trial, usable));
             if usable < worlds {

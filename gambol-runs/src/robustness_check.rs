@@ -15,23 +15,25 @@ const SHORTEST_STEP: f32 = 0.7;
 
 const ROBUSTNESS_CHECK: Purpose = Purpose::new("robustness check");
 
-/// Which perturbed worlds a candidate is tried in.
+/// Which worlds a candidate is tried in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Trial {
     /// As many of each cause, for at most 15 s: most of what fails in a minute fails by then.
     Short,
     /// All causes together, for as long as a gait is judged.
     Long,
+    /// Near worlds, each with commands of its own, for as long as a gait is judged.
+    Commands,
 }
 
 impl Trial {
-    const ALL: [Self; 2] = [Self::Short, Self::Long];
+    const ALL: [Self; 3] = [Self::Short, Self::Long, Self::Commands];
 
     /// In how many worlds: no more than lanes play at once.
     pub(crate) const fn worlds(self) -> usize {
         match self {
             Self::Short => 15,
-            Self::Long => 16,
+            Self::Long | Self::Commands => 16,
         }
     }
 
@@ -39,25 +41,19 @@ impl Trial {
     fn seconds(self) -> f64 {
         match self {
             Self::Short => 15.0,
-            Self::Long => f64::INFINITY,
+            Self::Long | Self::Commands => f64::INFINITY,
         }
     }
 
-    /// So many body lengths the bumps reach: a quarter of what a fast gait covers in the short trial. Beyond it the ground
-    /// is flat, and physics faster.
-    fn reach(self) -> f32 {
-        match self {
-            Self::Short => 15.0,
-            Self::Long => 60.0,
-        }
-    }
-
-    /// Which world, of those that [`World::draw`] numbers: causes take turns there, and those together come last.
-    fn world(self, index: u32) -> u32 {
+    /// Which perturbed world, of those that [`World::draw`] numbers, and so many body lengths the bumps reach there; `None`: a near
+    /// one. Causes take turns in these numbers, and all together come last. In the short trial bumps reach a quarter of what a fast
+    /// gait covers: beyond it the ground is flat, and physics faster.
+    fn perturbed(self, index: u32) -> Option<(u32, f32)> {
         let causes = Cause::ALL.len() as u32;
         match self {
-            Self::Short => index,
-            Self::Long => Self::Short.worlds() as u32 + causes * index + causes - 1,
+            Self::Short => Some((index, 15.0)),
+            Self::Long => Some((Self::Short.worlds() as u32 + causes * index + causes - 1, 60.0)),
+            Self::Commands => None,
         }
     }
 }
@@ -76,21 +72,42 @@ impl RobustnessCheck {
         Self { judge, seed, worlds: Default::default() }
     }
 
+    /// Whether what the gait is judged by asks whether it does as it is told.
+    pub(crate) fn needs_commands(&self) -> bool {
+        self.judge.rules().is_some_and(|rules| rules.needs_commands())
+    }
+
     /// In how many of the worlds a controller's gait is usable, on the threads of the current pool; fewer than `needed`, how many
     /// does not matter, if it is so in fewer than these.
     pub(crate) fn usable(&self, network: &Network, trial: Trial, needed: usize) -> usize {
-        let build = || Worlds::new(&self.judge, &self.draw(trial)).shortened(trial.seconds());
+        let build = || Worlds::new(&self.judge_of(trial), &self.draw(trial)).shortened(trial.seconds());
         self.worlds[trial as usize].get_or_init(build).usable(network, needed)
     }
 
+    /// What is told where a gait was found usable is not told again where it is to be told something else.
+    fn judge_of(&self, trial: Trial) -> Judge {
+        let judge = self.judge.clone();
+        if trial == Trial::Commands { judge.of_training(self.lot()) } else { judge }
+    }
+
+    /// Other worlds than those robustness is measured in, whatever the run's seed.
+    fn lot(&self) -> Seed {
+        Seed::of_run(self.seed.stream(ROBUSTNESS_CHECK).random())
+    }
+
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
-        let reach = trial.reach() * self.judge.environment().blueprint().body_length();
-        // Other worlds than those robustness is measured in, whatever the run's seed.
-        let lot: u64 = self.seed.stream(ROBUSTNESS_CHECK).random();
-        let world = |index| {
-            let World { conditions, landscape, .. } =
-                World::draw_with(Seed::of_run(lot), trial.world(index), &self.judge, reach, without_short_steps);
-            (conditions, landscape)
+        let (environment, lot) = (self.judge.environment(), self.lot());
+        let world = |index| match trial.perturbed(index) {
+            Some((number, reach)) => {
+                let reach = reach * environment.blueprint().body_length();
+                let World { conditions, landscape, .. } =
+                    World::draw_with(lot, number, &self.judge, reach, without_short_steps);
+                (conditions, landscape)
+            }
+            None => {
+                let conditions = Variation::near().draw(lot.trial(index), environment.motors().len());
+                (conditions, environment.landscape().clone())
+            }
         };
         (0..trial.worlds() as u32).map(world).collect()
     }

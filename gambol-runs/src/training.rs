@@ -122,13 +122,13 @@ pub fn train(config: &RunConfig, folder: &Path, options: TrainOptions<'_>) -> Re
     }
     let setup = Setup::new(config, &options.registry)?;
     let strategy = options.registry.strategies.build(&config.strategy, &setup.topology).map_err(SetupError::from)?;
-    train_stage_run(strategy, config, &setup, folder, config.stop, None, options)
+    train_stage_run((strategy, None), config, &setup, folder, config.stop, None, options)
 }
 
-/// As [`train`], from where a search is to begin, with the rules of a stage, and limits in place of those in the
-/// configuration.
+/// As [`train`], from where a search is to begin, with a champion that it need not find again, the rules of a stage, and limits in
+/// place of those in the configuration.
 pub(crate) fn train_stage_run(
-    strategy: AnyStrategy,
+    (strategy, champion): (AnyStrategy, Option<AnyGenome>),
     config: &RunConfig,
     setup: &Setup,
     folder: &Path,
@@ -138,7 +138,10 @@ pub(crate) fn train_stage_run(
 ) -> Result<Outcome, TrainError> {
     let evaluator = Arc::new(Parallel::new(options.threads)?);
     let (folder, _lock) = RunFolder::create(folder)?;
-    let evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
+    let mut evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
+    if let Some(champion) = champion.filter(|_| setup.reference.is_some()) {
+        evolution = evolution.with_candidate(champion);
+    }
     // The configuration comes last: what is a run can be resumed, wherever it was killed.
     evolution.write_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?;
     folder.write_config(config)?;

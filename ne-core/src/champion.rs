@@ -58,9 +58,10 @@ pub struct TieredFitness {
 pub struct Candidate<G> {
     /// The genome.
     pub genome: G,
-    /// The fitness it had in its generation.
-    pub fitness: Fitness,
-    /// The generation it was evaluated in, from 1.
+    /// The fitness it had in its generation; `None` for one that was not evaluated there.
+    pub fitness: Option<Fitness>,
+    /// The generation it was evaluated in, from 1; 0 for [one from before the
+    /// run](crate::Evolution::with_candidate).
     pub generation: u64,
 }
 

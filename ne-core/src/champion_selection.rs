@@ -68,7 +68,7 @@ impl ReEvaluations {
     /// best of two or four generations in a row is kept, so that never more than 2 × [`every`](Self::every) wait.
     pub(crate) fn keep<G>(&self, waiting: &mut Vec<Candidate<G>>, candidate: Candidate<G>) {
         let group = 1 << self.doublings(candidate.generation).saturating_sub(1);
-        let group_of = |generation: u64| (generation - 1) / group;
+        let group_of = |generation: u64| generation.div_ceil(group);
         match waiting.last_mut().filter(|last| group_of(last.generation) == group_of(candidate.generation)) {
             None => waiting.push(candidate),
             // Of equals the first.
@@ -146,7 +146,7 @@ impl<G: Genome> ScheduledSelection<G> {
             fitness,
             generation: candidates[index].generation,
             seed: self.champion_selection.seed(),
-            trained: Some(candidates[index].fitness),
+            trained: candidates[index].fitness,
             tier: tier_of(index),
             diverged,
         });

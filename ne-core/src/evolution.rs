@@ -108,6 +108,14 @@ impl<S: Strategy> Evolution<S> {
         }
     }
 
+    /// Adds a candidate from before the run, the first that a champion selection judges: what another search has found is not lost
+    /// before this one finds something better. Without a champion selection it is never looked at.
+    #[must_use]
+    pub fn with_candidate(mut self, genome: S::Genome) -> Self {
+        self.candidates.insert(0, Candidate { genome, fitness: None, generation: 0 });
+        self
+    }
+
     /// Asks a promotion after every generation; with its decision the run ends.
     #[must_use]
     pub fn with_promotion(self, promotion: impl Promotion + 'static) -> Self {
@@ -250,7 +258,12 @@ impl<S: Strategy> Evolution<S> {
         let span = selection.re_evaluations.span(generation);
         let count = if span.is_some() { selection.re_evaluations.candidates.max(1) } else { 1 };
         let best = ranking(evaluations).into_iter().take(count);
-        let best = best.map(|(index, fitness)| Candidate { genome: genomes[index].clone(), fitness, generation });
+        let candidate = |(index, fitness): (usize, _)| Candidate {
+            genome: genomes[index].clone(),
+            fitness: Some(fitness),
+            generation,
+        };
+        let best = best.map(candidate);
         match span {
             Some(_) => self.candidates.extend(best),
             None => best.for_each(|best| selection.re_evaluations.keep(&mut self.candidates, best)),

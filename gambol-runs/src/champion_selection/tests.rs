@@ -13,7 +13,12 @@ struct Candidate {
     usable: bool,
     /// In how many perturbed worlds of the short and the long trial its gait is usable.
     steady: [usize; 2],
+    /// In how many near worlds with other commands.
+    commanded: usize,
 }
+
+/// The highest tier of a gait that is told nothing.
+const HIGHEST: u8 = USABLE + STEPS.len() as u8;
 
 impl Genome for Candidate {
     type Phenotype = Self;
@@ -86,7 +91,13 @@ impl ScheduledSelection {
         let register = tried.clone();
         let steadiness = move |phenotype: &dyn Phenotype, trial: Trial, needed: usize| {
             register.lock().expect("no test panics here").push(trial);
-            let worlds = candidate(phenotype).steady[trial as usize];
+            let candidate = candidate(phenotype);
+            let [short, long] = candidate.steady;
+            let worlds = match trial {
+                Trial::Short => short,
+                Trial::Long => long,
+                Trial::Commands => candidate.commanded,
+            };
             // What is too little need not be counted.
             if worlds < needed { 0 } else { worlds }
         };
@@ -96,6 +107,7 @@ impl ScheduledSelection {
             proof: Some(Box::new(Fake(|candidate| Evaluation::new(candidate.varied)))),
             usable: Some(Box::new(usable)),
             steadiness: Some(Box::new(steadiness)),
+            steps: STEPS.into(),
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
@@ -127,7 +139,13 @@ fn failed(_: &Candidate) -> Evaluation {
 fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
     let steady = |usable| if usable { [15, 16] } else { [0, 0] };
     all.iter()
-        .map(|&(reference, varied, usable)| Candidate { reference, varied, usable, steady: steady(usable) })
+        .map(|&(reference, varied, usable)| Candidate {
+            reference,
+            varied,
+            usable,
+            steady: steady(usable),
+            commanded: 0,
+        })
         .collect()
 }
 
@@ -197,7 +215,7 @@ fn the_first_usable_champion_is_not_tried() {
 fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     let selection = ScheduledSelection::new(reference, None);
     let tier = |steady| {
-        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady };
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: 0 };
         selection.tiers(&[one], slow()).0[0]
     };
     let short: Vec<u8> = (0..=15).map(|worlds| tier([worlds, 0])).collect();
@@ -207,7 +225,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     selection.tried();
     // A candidate less fit than the champion must be steadier, or it counts as usable and no more.
     let against = |champion: u8, steady| {
-        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady };
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: 0 };
         (selection.tiers(&[one], standing(champion, 2.0)).0[0], selection.tried())
     };
     assert_eq!(
@@ -222,6 +240,25 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     assert_eq!(against(USABLE + 4, [14, 7]), (USABLE, vec![Trial::Short, Trial::Long]));
     assert_eq!(against(USABLE + 4, [14, 8]), (USABLE + 5, vec![Trial::Short, Trial::Long]));
     assert_eq!(against(HIGHEST, [15, 16]), (0, vec![]), "it could not become champion");
+}
+
+/// That it does as it is told comes first: what fails at it is not tried in perturbed worlds.
+#[test]
+fn a_gait_that_is_told_what_to_do_is_told_more_before_it_is_tried_in_perturbed_worlds() {
+    let mut selection = ScheduledSelection::new(reference, None);
+    selection.champion_selection.steps = steps(true);
+    let tier = |commanded, steady| {
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded };
+        selection.tiers(&[one], slow()).0[0]
+    };
+    let told: Vec<u8> = (0..=16).map(|worlds| tier(worlds, [15, 16])).collect();
+    assert_eq!(told, [vec![1; 12], vec![2, 2, 3, 4, 13]].concat());
+    assert_eq!([[3, 16], [4, 0], [15, 0]].map(|steady| tier(16, steady)), [5, 6, 9]);
+    selection.tried();
+    tier(15, [15, 16]);
+    assert_eq!(selection.tried(), [Trial::Commands]);
+    tier(16, [15, 16]);
+    assert_eq!(selection.tried(), [Trial::Commands, Trial::Short, Trial::Long]);
 }
 
 #[test]

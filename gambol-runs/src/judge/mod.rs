@@ -41,7 +41,7 @@ pub struct Judge {
 }
 
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
-/// perturbed worlds too has up to 8 more; a champion that is not usable has 0.
+/// perturbed worlds too has up to 8 more, of one that is told what to do up to 12; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 const TRAINING: Purpose = Purpose::new("judge of training");

@@ -69,8 +69,9 @@ pub fn train_from(
     if !config.stages.is_empty() {
         return Err(ShapingError::Stages);
     }
-    let strategy = departure.search(&options.registry.strategies)?;
-    Ok(training::train_stage_run(strategy, &config, &departure.setup, folder, config.stop, None, options)?)
+    let strategies = &options.registry.strategies;
+    let search = (departure.search(strategies)?, departure.champion(strategies)?);
+    Ok(training::train_stage_run(search, &config, &departure.setup, folder, config.stop, None, options)?)
 }
 
 /// The configuration with the sensors and the controller of a run (of one with stages, of the last) or a champion: what a
@@ -275,7 +276,7 @@ fn begin(
             .build(&config.strategy, &setup.topology)
             .map_err(|error| TrainError::from(SetupError::from(error)))?;
         let promotion = planned.promotion.clone();
-        return Ok(training::train_stage_run(strategy, &config, &setup, path, now, promotion, options)?);
+        return Ok(training::train_stage_run((strategy, None), &config, &setup, path, now, promotion, options)?);
     };
     // Named as the folders lie beside each other, so that a run may be moved.
     let name = before.folder.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -289,9 +290,10 @@ fn begin(
     let departure = PreparedTransfer::prepare(source, &config, how, &options.registry)?;
     let config = departure.config.clone();
     on_stage_run(planned, config.origin.as_ref());
-    let strategy = departure.search(&options.registry.strategies)?;
+    let strategies = &options.registry.strategies;
+    let search = (departure.search(strategies)?, departure.champion(strategies)?);
     let promotion = planned.promotion.clone();
-    Ok(training::train_stage_run(strategy, &config, &departure.setup, path, now, promotion, options)?)
+    Ok(training::train_stage_run(search, &config, &departure.setup, path, now, promotion, options)?)
 }
 
 /// The limits of a stage run: what is left of the budgets. A fitness, a tier or stagnation ends the run only in a stage without

@@ -5,11 +5,11 @@ use crate::Registry;
 use crate::{
     config::{FrozenTopology, GeneRecord, RunConfig, Transferred},
     setup::Setup,
-    training::TrainError,
+    training::{TrainError, TrainOptions, train},
 };
 use creatures::Sensor;
 use envs_rapier::Variation;
-use ne_core::{EvolutionError, Phenotype, Progress, StopReason, promotion::Decision};
+use ne_core::{EvolutionError, Phenotype, Progress, StopConditions, StopReason, StopSignal, promotion::Decision};
 use ne_net::{Activation, GraphNeuron, GraphShape, TopologyMap};
 use serde_json::json;
 
@@ -109,6 +109,37 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     // It gives up what it has gained only if it may.
     assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), true), frozen);
     assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), false), grown);
+}
+
+/// Steps so wide that all it samples is worse.
+#[test]
+fn what_a_search_goes_on_from_is_champion_until_it_finds_something_better() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let run = |config: &RunConfig, from: Option<Transferred>, name: &str| {
+        let options = TrainOptions {
+            threads: 1,
+            registry: Registry::default(),
+            signal: StopSignal::default(),
+            on_generation: &mut |_| {},
+        };
+        let outcome = match from {
+            None => train(config, &path(name), options).map_err(ShapingError::from),
+            from => train_from(config, &path("first"), from, false, &path(name), options),
+        };
+        outcome.expect("it runs").champion.expect("a champion")
+    };
+    let mut config = config("apod");
+    config.stop = StopConditions { generations: Some(10), ..StopConditions::default() };
+    let first = run(&config, None, "first");
+    config.strategy = serde_json::from_value(json!({ "cma-es": { "step_size": 50.0 } })).expect("settings");
+    config.stop.generations = Some(1);
+    for (from, name) in [(Transferred::Champion, "champion"), (Transferred::Population, "population")] {
+        let next = run(&config, Some(from), name);
+        assert_eq!((next.generation, next.fitness), (0, first.fitness), "{name}");
+        assert_eq!(next.network, first.network, "{name}");
+    }
+    assert_ne!(run(&config, Some(Transferred::Nothing), "nothing").fitness, first.fitness);
 }
 
 fn stages(stages: serde_json::Value) -> Result<Stages, String> {

@@ -8,7 +8,7 @@ use crate::{
     episode_parts::SetupError,
     run_folder::FolderError,
     setup::Setup,
-    strategies::{AnyStrategy, StrategyCatalogue, StrategyEntry, Transfer},
+    strategies::{AnyGenome, AnyStrategy, StrategyCatalogue, StrategyEntry, Transfer},
 };
 use creatures::Channel;
 use ne_core::SettingError;
@@ -189,6 +189,25 @@ impl PreparedTransfer {
             _ => strategies.begin_at(settings, topology, &self.weights),
         };
         Ok(begun.map_err(SetupError::from)?)
+    }
+
+    /// The source's champion in the new search, for which it may be too good to be lost; `None` where what is searched for is not its
+    /// whole net, or the strategy has no genome for it.
+    ///
+    /// # Errors
+    /// If a file of the source cannot be read.
+    pub(crate) fn champion(&self, strategies: &StrategyCatalogue) -> Result<Option<AnyGenome>, TransferError> {
+        let weights = match self.transferred {
+            Transferred::Nothing | Transferred::Held => return Ok(None),
+            Transferred::Champion | Transferred::Topology => self.weights.clone(),
+            Transferred::Population if self.finds_topology => return Ok(None),
+            Transferred::Population => match self.source.champion(false) {
+                Ok(net) => TopologyMap::by_name(&net.names, &self.setup.weight_names).transfer(&net.weights, 0.0),
+                Err(TransferError::NoChampion { .. }) => return Ok(None),
+                Err(error) => return Err(error),
+            },
+        };
+        Ok(strategies.genome(&self.config.strategy, &self.setup.topology, &weights))
     }
 
     fn origin(&self, net: Option<&ChampionNet>) -> Result<Origin, TransferError> {

@@ -52,7 +52,7 @@ impl AnyStrategy {
 }
 
 impl AnyGenome {
-    fn new<S: NetStrategy>(genome: S::Genome) -> Self {
+    pub(super) fn new<S: NetStrategy>(genome: S::Genome) -> Self {
         Self(Arc::new(HeldGenome::<S>(genome)))
     }
 

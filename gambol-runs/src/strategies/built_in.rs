@@ -63,6 +63,10 @@ macro_rules! weight_search {
                 Self::build(settings, topology)?.with_start(&[weights.to_vec()])
             }
 
+            fn genome(topology: &Topology, weights: &[f32]) -> Option<WeightVector> {
+                WeightVector::new(topology.clone(), weights.to_vec(), 0.0).ok()
+            }
+
             fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
                 weights_of(genome, expressed)
             }

@@ -1,6 +1,6 @@
 //! Which strategies there are.
 
-use super::{AnyStrategy, NetStrategy, any::any_checkpoint};
+use super::{AnyGenome, AnyStrategy, NetStrategy, any::any_checkpoint};
 use crate::{config::StrategySettings, suggest};
 use ne_core::{Checkpoint, SettingError, archive::ArchiveError};
 use ne_net::Topology;
@@ -138,6 +138,11 @@ impl StrategyCatalogue {
     ) -> Result<AnyStrategy, StrategyError> {
         self.of(settings)?.kind.begin_at(settings, topology, weights)
     }
+
+    /// As [`NetStrategy::genome`]; `None` too for a strategy that there is not.
+    pub fn genome(&self, settings: &StrategySettings, topology: &Topology, weights: &[f32]) -> Option<AnyGenome> {
+        self.of(settings).ok()?.kind.genome(topology, weights)
+    }
 }
 
 impl StrategyEntry {
@@ -199,6 +204,7 @@ trait Kind: Send + Sync {
         topology: &Topology,
         weights: &[f32],
     ) -> Result<AnyStrategy, StrategyError>;
+    fn genome(&self, topology: &Topology, weights: &[f32]) -> Option<AnyGenome>;
     fn read_checkpoint(&self, path: &Path) -> Result<Checkpoint<AnyStrategy>, ArchiveError>;
 }
 
@@ -243,6 +249,10 @@ impl<S: NetStrategy> Kind for KindOf<S> {
         weights: &[f32],
     ) -> Result<AnyStrategy, StrategyError> {
         Ok(AnyStrategy::new(S::begin_at(&Self::parse(settings)?, topology, weights)?))
+    }
+
+    fn genome(&self, topology: &Topology, weights: &[f32]) -> Option<AnyGenome> {
+        S::genome(topology, weights).map(AnyGenome::new::<S>)
     }
 
     fn read_checkpoint(&self, path: &Path) -> Result<Checkpoint<AnyStrategy>, ArchiveError> {

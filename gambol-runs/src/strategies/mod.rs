@@ -83,6 +83,12 @@ pub trait NetStrategy:
         false
     }
 
+    /// The genome of one net, whose weights these are; `None`, the default: the strategy has none for it.
+    fn genome(topology: &Topology, weights: &[f32]) -> Option<Self::Genome> {
+        let _ = (topology, weights);
+        None
+    }
+
     /// The net of a genome: the topology and its weights, expressed or as they are searched. By default expressed.
     fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>) {
         let _ = expressed;

@@ -242,10 +242,38 @@ fn stop_conditions_look_at_the_champion() {
     assert_eq!(run(StopConditions { target: Some(4.5), ..none }), (StopReason::Target, 8));
 }
 
+/// It waits for the first re-evaluation, even if the run is killed before.
+#[test]
+fn a_candidate_from_before_the_run_is_heard_first() -> Result<(), Box<dyn std::error::Error>> {
+    let lines: &[&[f64]] = &[&[9.0], &[8.0], &[7.0]];
+    let re_evaluations = ReEvaluations { every: 3, candidates: 1 };
+    for (before, champion) in [(5.0, 0), (3.0, 2)] {
+        // Of generation 9, which never comes.
+        let mut worth = vec![vec![1.0], vec![4.0], vec![2.0]];
+        worth.resize(9, vec![before]);
+        let known = Known { worth, ..Known::default() };
+        let mut evolution = Script::evolution(lines, StopConditions::default()).with_candidate(genome(9, 0));
+        let prompter = Prompter::of(&evolution);
+        evolution = evolution.with_champion_selection(re_evaluations, known.clone());
+        evolution.generation(&Unused, &prompter, &mut [])?;
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("checkpoint");
+        evolution.write_checkpoint(&path)?;
+        let mut evolution = Evolution::resume(Checkpoint::<Script>::read(&path)?, StopConditions::default())
+            .with_champion_selection(re_evaluations, known.clone());
+        evolution.generation(&Unused, &prompter, &mut [])?;
+        evolution.generation(&Unused, &prompter, &mut [])?;
+        assert_eq!(evolution.champion().map(|champion| champion.generation), Some(champion));
+        let heard = known.heard.lock().expect("no test panics here").clone();
+        assert_eq!(heard, [vec![genome(9, 0), genome(1, 0), genome(2, 0), genome(3, 0)]]);
+    }
+    Ok(())
+}
+
 #[test]
 fn a_candidate_is_heard_once_however_often_it_was_best() {
     let candidate =
-        |genome, fitness: f64, generation| Candidate { genome, fitness: self::fitness(fitness), generation };
+        |genome, fitness: f64, generation| Candidate { genome, fitness: Some(self::fitness(fitness)), generation };
     let candidates =
         vec![candidate(genome(1, 1), 5.0, 1), candidate(genome(1, 0), 6.0, 2), candidate(genome(1, 1), 9.0, 3)];
     let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], ReEvaluations { every: 1, candidates: 1 });
@@ -475,7 +503,7 @@ fn candidates_share_what_is_the_same_in_a_checkpoint() -> Result<(), Box<dyn std
     let path = folder.path().join("checkpoint");
     let evolution = Script::evolution(&[&[1.0]], StopConditions::default());
     evolution.write_checkpoint(&path)?;
-    let candidate = |generation| Candidate { genome: genome(generation, 0), fitness: fitness(7.0), generation };
+    let candidate = |generation| Candidate { genome: genome(generation, 0), fitness: Some(fitness(7.0)), generation };
     for count in [1, 2, 9] {
         let candidates: Vec<_> = (1..=count).map(candidate).collect();
         let checkpoint: Checkpoint<Script> = Checkpoint::read(&path)?;
