@@ -197,7 +197,7 @@ impl Default for MovementCatalogue {
         catalogue.add::<Backwards>(Some(2000), backwards).judged_by(RunningRules { backwards: true });
         catalogue.add_with_settings(
             Some(1000),
-            "time it does as it is told: a speed, standing still, a jump; settings: jump, s (3), what one is worth",
+            "time it does as it is told: a speed, standing still, a jump; settings: jump, s (1.5), what one is worth",
             Playing::new,
         );
         catalogue.judged_by(PlayingRules);

@@ -10,31 +10,49 @@ use tasks::{Commands, RandomCommands, TermSpec};
 /// 40 s, of which training has 10: a champion that falls after half a minute is none.
 const STEPS: (Option<u32>, Option<u32>) = (Some(2000), Some(500));
 
-/// The fewest and the most steps of a stage. What is usable after fewer is a lucky one; what is not after so many goes on all the same.
-struct StageSteps {
+/// What differs between bodies that balance and others. Of a stage the fewest and the most steps: what is usable after fewer is a lucky
+/// one; what is not after so many goes on all the same.
+struct Lengths {
     move_on: [u64; 2],
     follow: [u64; 2],
     jump: [u64; 2],
+    polish: [u64; 2],
+    /// What earns less than this, in s of about 57, after so many steps of `jump` is given up so often: another stride is searched for.
+    give_up_jump: (f64, u64, u32),
+    /// And so is what is not playable after so many steps of `polish`.
+    give_up_polish: Option<(u64, u32)>,
+    /// Of a few searches for the stride, or for the jump, the best goes on.
+    starts: u64,
+    /// What a jump is worth in `polish`, s. A press that fails by a few centimetres costs little of it, and all of a schedule of commands; where a jump was worth
+    /// as much a biped fell more (docs/playing.md).
+    polished_jump: f64,
 }
 
-const STAGE_STEPS: StageSteps =
-    StageSteps { move_on: [8_000_000, 16_000_000], follow: [8_000_000, 100_000_000], jump: [8_000_000, 30_000_000] };
+/// Five of five tetrapods that earned less than 45 s after 15 million steps of `jump` were not playable after 70 million, and of ten that
+/// earned more six were (docs/playing.md).
+const LENGTHS: Lengths = Lengths {
+    move_on: [8_000_000, 16_000_000],
+    follow: [8_000_000, 100_000_000],
+    jump: [8_000_000, 30_000_000],
+    polish: [60_000_000, 120_000_000],
+    give_up_jump: (45.0, 15_000_000, 3),
+    give_up_polish: Some((40_000_000, 2)),
+    starts: 1,
+    polished_jump: 10.0,
+};
 
-/// Those of bodies that balance: they find each of it later.
-const BALANCED_STAGE_STEPS: StageSteps =
-    StageSteps { move_on: [8_000_000, 100_000_000], follow: [20_000_000, 100_000_000], jump: [8_000_000, 80_000_000] };
-
-/// It has most of a run of some minutes: of four tetrapods `harden` made one playable in its time, this two (docs/playing.md).
-const POLISH_STEPS: [u64; 2] = [60_000_000, 120_000_000];
-
-/// What earns less than this, in s of about 57, after so many steps of `jump` is given up, and another stride is searched for: five of
-/// five tetrapods that did were not playable after 70 million steps, and of ten that earned more six were. Not of bodies that
-/// balance: with them another stride takes too long.
-const LEAST_OF_JUMP: f64 = 45.0;
-const ATTEMPT_OF_JUMP: u64 = 15_000_000;
-
-/// And so is what is not playable after so many steps of `polish`.
-const ATTEMPT_OF_POLISH: u64 = 40_000_000;
+/// Bodies that balance find each of it later. Of nine searches for their jump three earned less than 36 s after 25 million steps, and 32,
+/// 36 and 48 in the end; the others 47 to 52 (docs/playing.md).
+const BALANCED_LENGTHS: Lengths = Lengths {
+    move_on: [8_000_000, 60_000_000],
+    follow: [20_000_000, 40_000_000],
+    jump: [8_000_000, 60_000_000],
+    polish: [200_000_000, 400_000_000],
+    give_up_jump: (36.0, 25_000_000, 2),
+    give_up_polish: None,
+    starts: 3,
+    polished_jump: 4.0,
+};
 
 /// The slowest and the fastest speed that two legs are told, body lengths/s: alone they run at 0.6 to 0.7.
 const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
@@ -53,8 +71,7 @@ const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.6, 1.2];
 /// What a jump is worth while there is nothing else to learn, s.
 const JUMP_WORTH: f64 = 4.0;
 
-/// Of a few searches for the stride of two legs, or for their jump, the best goes on.
-const STARTS: u64 = 3;
+/// How long each of several searches lasts.
 const START_GENERATIONS: u64 = 40;
 
 /// First it learns to move as fast as it is told, and nothing else: a body that has to balance, and may also stand, stands. Then it
@@ -72,13 +89,13 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     }));
     let random = RandomCommands { jumps: 0.0, ..RandomCommands::default() };
     let random = if is_biped { RandomCommands { speeds: BIPED_SPEEDS, ..random } } else { random };
-    let (steps, starts) = if is_biped { (&BALANCED_STAGE_STEPS, STARTS) } else { (&STAGE_STEPS, 1) };
+    let lengths = if is_biped { &BALANCED_LENGTHS } else { &LENGTHS };
     let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
-    let give_up_jump = give_up(ATTEMPT_OF_JUMP, PromotionRule::Fitness(LEAST_OF_JUMP), 3);
-    let give_up_polish = give_up(ATTEMPT_OF_POLISH, PromotionRule::Usable, 2);
-    let [give_up_jump, give_up_polish] = [give_up_jump, give_up_polish].map(|rule| (!is_biped).then_some(rule));
-    let strategy: [(&str, Value); 3] =
-        [("restart", "anew".into()), ("starts", starts.into()), ("start_generations", START_GENERATIONS.into())];
+    let strategy: [(&str, Value); 3] = [
+        ("restart", "anew".into()),
+        ("starts", lengths.starts.into()),
+        ("start_generations", START_GENERATIONS.into()),
+    ];
     MovementDefaults {
         steps: STEPS.0,
         training_steps: STEPS.1,
@@ -87,46 +104,42 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![
-            move_on(steps),
-            follow(steps),
-            jump(steps, clocks, give_up_jump),
-            polish(give_up_polish),
-            harden(),
-        ],
+        stages: vec![move_on(lengths), follow(lengths), jump(lengths, clocks), polish(lengths), harden()],
         strategy: strategy.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ..unknown
     }
 }
 
-fn move_on(steps: &StageSteps) -> StageSettings {
+fn move_on(lengths: &Lengths) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": 0.0 } } });
-    StageSettings { near: true, promotion: usable_within(steps.move_on), ..stage("move", changes) }
+    StageSettings { near: true, promotion: usable_within(lengths.move_on), ..stage("move", changes) }
 }
 
-fn follow(steps: &StageSteps) -> StageSettings {
+fn follow(lengths: &Lengths) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": STANDING } } });
-    StageSettings { near: true, promotion: usable_within(steps.follow), ..stage("follow", changes) }
+    StageSettings { near: true, promotion: usable_within(lengths.follow), ..stage("follow", changes) }
 }
 
 /// With the stride held, jumps are all there is to learn: out of every hold.
-fn jump(steps: &StageSteps, clocks: [f32; 2], give_up: Option<GiveUp>) -> StageSettings {
+fn jump(lengths: &Lengths, clocks: [f32; 2]) -> StageSettings {
     let changes =
         json!({ "commands": { "random": { "jumps": 1.0 } }, "movement": { "settings": { "jump": JUMP_WORTH } } });
     let add_sensors = clocks.map(|period| Sensor::JumpClock { period }).into();
-    let (promotion, transfer) = (usable_within(steps.jump), Some(Transferred::Held));
+    let (promotion, transfer) = (usable_within(lengths.jump), Some(Transferred::Held));
+    let (least, steps, times) = lengths.give_up_jump;
+    let give_up = Some(give_up(steps, PromotionRule::Fitness(least), times));
     StageSettings { near: true, add_sensors, promotion, give_up, transfer, ..stage("jump", changes) }
 }
 
-/// All of it together: a stride that has never landed learns to go on from there. A jump counts no more than its time.
-fn polish(give_up: Option<GiveUp>) -> StageSettings {
-    let worth = tasks::PlayingSettings::default().jump;
+/// All of it together: a stride that has never landed learns to go on from there.
+fn polish(lengths: &Lengths) -> StageSettings {
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
-        "movement": { "settings": { "jump": worth } },
+        "movement": { "settings": { "jump": lengths.polished_jump } },
         "trials": { "count": 8 },
     });
-    let (promotion, transfer) = (usable_within(POLISH_STEPS), Some(Transferred::Champion));
+    let (promotion, transfer) = (usable_within(lengths.polish), Some(Transferred::Champion));
+    let give_up = lengths.give_up_polish.map(|(steps, times)| give_up(steps, PromotionRule::Usable, times));
     StageSettings { near: true, promotion, give_up, transfer, ..stage("polish", changes) }
 }
 
