@@ -181,7 +181,10 @@ pub fn write_replay(
             Fact::new("Creature", &champion.creature.name),
             Fact::new("Movement", &champion.movement.name),
             Fact::new("Fitness", fitness(champion, &unit)),
-            Fact::new("Found in generation", champion.generation),
+            match champion.generation {
+                0 => Fact::new("Found", "before its run"),
+                found => Fact::new("Found in generation", found),
+            },
             Fact::new("Strategy", &champion.strategy),
             Fact::new("Net", champion.network.topology()),
             Fact::new("Terrain", data::terrain(&champion.terrain, &champion.physics)),

@@ -157,9 +157,13 @@ impl Show {
             Some(champion) => {
                 // Of a run with stages that had ended before, no stage was begun.
                 let best = worth(champion, &unit_of(&self.registry, &champion.movement.name));
-                let of = if self.staged { "its stage".into() } else { generations.to_string() };
-                let found = champion.generation;
-                say!("best {best}, found in generation {found} of {of}; {reason} after {seconds:.1} s")?;
+                let found = match champion.generation {
+                    0 if self.staged => "found before its stage".into(),
+                    0 => "found before this run".into(),
+                    found if self.staged => format!("found in generation {found} of its stage"),
+                    found => format!("found in generation {found} of {generations}"),
+                };
+                say!("best {best}, {found}; {reason} after {seconds:.1} s")?;
                 if champion.diverged() {
                     say!("warning   {DIVERGED_NOTE}")?;
                 }

@@ -52,6 +52,22 @@ fn what_is_set_is_changed_in_what_was_learned_with_and_nothing_else() -> Outcome
     Ok(())
 }
 
+/// Steps so wide that all it samples is worse.
+#[test]
+fn of_what_stays_best_it_is_said_that_it_was_found_before() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = |name: &str| folder.path().join(name);
+    succeed(small_run(&path("first"), 4).arg("--quiet"));
+    let mut train = small_run(&path("second"), 1);
+    train.arg("--from").arg(path("first")).args(["--transfer", "champion", "--set", "strategy.cma-es.step_size=50"]);
+    assert_says(&succeed(&mut train), &["found before this run; "]);
+    let [first, second] = ["first", "second"].map(|run| json(&path(run).join("champion.json"))["content"].take());
+    assert_eq!(first["network"], second["network"]);
+    succeed(gambol("replay").arg(path("second/champion.json")).arg("--html").arg(path("page.html")));
+    assert!(fs::read_to_string(path("page.html"))?.contains("before its run"));
+    Ok(())
+}
+
 /// Each stage's figures are in its movement's unit, and its generations are not counted against those of the run.
 #[test]
 fn what_is_said_of_a_stage_is_in_its_unit() -> Outcome {
@@ -67,7 +83,7 @@ fn what_is_said_of_a_stage_is_in_its_unit() -> Outcome {
             {
                 "name": "stand",
                 "changes": { "movement": { "name": "standing", "steps": 60, "settings": { "after": 0 } } },
-                "promotion": { "generations": 4 }
+                "promotion": { "generations": 12 }
             }
         ]
     });
