@@ -174,6 +174,21 @@ mod tests {
     }
 
     #[test]
+    fn commands_are_others_in_worlds_that_are_near() {
+        let judge = judge("biped-1", "jumping");
+        let check = |seed| RobustnessCheck::new(judge.clone(), Seed::of_run(seed));
+        let seed = |seed, trial| check(seed).judge_of(trial).seed();
+        assert_eq!(seed(1, Trial::Short), judge.seed());
+        assert_ne!(seed(1, Trial::Commands), judge.seed());
+        assert_ne!(seed(1, Trial::Commands), seed(2, Trial::Commands));
+        for (conditions, landscape) in check(1).draw(Trial::Commands) {
+            assert!((conditions.friction - 1.0).abs() <= 0.01 + 1e-6 && conditions.pushes.is_empty(), "{conditions:?}");
+            assert_eq!(landscape, Ground::flat().into());
+        }
+        assert!(!check(1).needs_commands(), "a jump is told nothing");
+    }
+
+    #[test]
     fn every_run_has_worlds_of_its_own() {
         let judge = judge("biped-1", "jumping");
         let worlds = |seed, trial| RobustnessCheck::new(judge.clone(), Seed::of_run(seed)).draw(trial);
