@@ -62,7 +62,7 @@ pub struct Champion {
     pub engine: Engine,
     /// The seed it was evaluated with.
     pub seed: Seed,
-    /// The generation it was found in, from 1.
+    /// The generation it was found in, from 1; 0 for one from before the run.
     pub generation: u64,
     /// The strategy that found it.
     pub strategy: String,
@@ -82,7 +82,7 @@ pub struct Champion {
 pub struct Training {
     /// The engine it was trained in.
     pub engine: EngineChoice,
-    /// Its fitness there, in the worlds of its generation.
+    /// Its fitness there, in the worlds of its generation; its own for one from before the run, which had none there.
     pub fitness: Fitness,
     /// Trials that fitness is made of.
     pub trials: Trials,

@@ -10,7 +10,7 @@ pub struct Champion<G> {
     pub genome: G,
     /// Its fitness.
     pub fitness: Fitness,
-    /// The generation it was evaluated in, from 1.
+    /// The generation it was evaluated in, from 1; 0 for one from before the run.
     pub generation: u64,
     /// The seed it was evaluated with: with it the task, or the champion selection, gives the fitness again.
     pub seed: Seed,

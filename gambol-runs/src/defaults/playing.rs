@@ -12,25 +12,25 @@ const STEPS: (Option<u32>, Option<u32>) = (Some(2000), Some(500));
 
 /// What differs between bodies that balance and others. Of a stage the fewest and the most steps: what is usable after fewer is a lucky
 /// one; what is not after so many goes on all the same.
-struct Lengths {
+struct Plan {
     move_on: [u64; 2],
     follow: [u64; 2],
     jump: [u64; 2],
     polish: [u64; 2],
-    /// What earns less than this, in s of about 57, after so many steps of `jump` is given up so often: another stride is searched for.
+    /// Another stride is searched for if `jump` earns less than this, in s of about 57, after so many steps; so often.
     give_up_jump: (f64, u64, u32),
-    /// And so is what is not playable after so many steps of `polish`.
+    /// And if `polish` has nothing playable after so many steps; so often.
     give_up_polish: Option<(u64, u32)>,
     /// Of a few searches for the stride, or for the jump, the best goes on.
     starts: u64,
-    /// What a jump is worth in `polish`, s. A press that fails by a few centimetres costs little of it, and all of a schedule of commands; where a jump was worth
-    /// as much a biped fell more (docs/playing.md).
+    /// What a jump is worth in `polish`, s. A press that fails by a few centimetres costs little of it, and all of a schedule of
+    /// commands; where a jump was worth as much as of other bodies, a biped fell more (docs/playing.md).
     polished_jump: f64,
 }
 
 /// Five of five tetrapods that earned less than 45 s after 15 million steps of `jump` were not playable after 70 million, and of ten that
 /// earned more six were (docs/playing.md).
-const LENGTHS: Lengths = Lengths {
+const PLAN: Plan = Plan {
     move_on: [8_000_000, 16_000_000],
     follow: [8_000_000, 100_000_000],
     jump: [8_000_000, 30_000_000],
@@ -43,7 +43,7 @@ const LENGTHS: Lengths = Lengths {
 
 /// Bodies that balance find each of it later. Of nine searches for their jump three earned less than 36 s after 25 million steps, and 32,
 /// 36 and 48 in the end; the others 47 to 52 (docs/playing.md).
-const BALANCED_LENGTHS: Lengths = Lengths {
+const BALANCED_PLAN: Plan = Plan {
     move_on: [8_000_000, 60_000_000],
     follow: [20_000_000, 40_000_000],
     jump: [8_000_000, 60_000_000],
@@ -89,13 +89,10 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     }));
     let random = RandomCommands { jumps: 0.0, ..RandomCommands::default() };
     let random = if is_biped { RandomCommands { speeds: BIPED_SPEEDS, ..random } } else { random };
-    let lengths = if is_biped { &BALANCED_LENGTHS } else { &LENGTHS };
+    let plan = if is_biped { &BALANCED_PLAN } else { &PLAN };
     let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
-    let strategy: [(&str, Value); 3] = [
-        ("restart", "anew".into()),
-        ("starts", lengths.starts.into()),
-        ("start_generations", START_GENERATIONS.into()),
-    ];
+    let strategy: [(&str, Value); 3] =
+        [("restart", "anew".into()), ("starts", plan.starts.into()), ("start_generations", START_GENERATIONS.into())];
     MovementDefaults {
         steps: STEPS.0,
         training_steps: STEPS.1,
@@ -104,42 +101,42 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
-        stages: vec![move_on(lengths), follow(lengths), jump(lengths, clocks), polish(lengths), harden()],
+        stages: vec![move_on(plan), follow(plan), jump(plan, clocks), polish(plan), harden()],
         strategy: strategy.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ..unknown
     }
 }
 
-fn move_on(lengths: &Lengths) -> StageSettings {
+fn move_on(plan: &Plan) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": 0.0 } } });
-    StageSettings { near: true, promotion: usable_within(lengths.move_on), ..stage("move", changes) }
+    StageSettings { near: true, promotion: usable_within(plan.move_on), ..stage("move", changes) }
 }
 
-fn follow(lengths: &Lengths) -> StageSettings {
+fn follow(plan: &Plan) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": STANDING } } });
-    StageSettings { near: true, promotion: usable_within(lengths.follow), ..stage("follow", changes) }
+    StageSettings { near: true, promotion: usable_within(plan.follow), ..stage("follow", changes) }
 }
 
 /// With the stride held, jumps are all there is to learn: out of every hold.
-fn jump(lengths: &Lengths, clocks: [f32; 2]) -> StageSettings {
+fn jump(plan: &Plan, clocks: [f32; 2]) -> StageSettings {
     let changes =
         json!({ "commands": { "random": { "jumps": 1.0 } }, "movement": { "settings": { "jump": JUMP_WORTH } } });
     let add_sensors = clocks.map(|period| Sensor::JumpClock { period }).into();
-    let (promotion, transfer) = (usable_within(lengths.jump), Some(Transferred::Held));
-    let (least, steps, times) = lengths.give_up_jump;
+    let (promotion, transfer) = (usable_within(plan.jump), Some(Transferred::Held));
+    let (least, steps, times) = plan.give_up_jump;
     let give_up = Some(give_up(steps, PromotionRule::Fitness(least), times));
     StageSettings { near: true, add_sensors, promotion, give_up, transfer, ..stage("jump", changes) }
 }
 
 /// All of it together: a stride that has never landed learns to go on from there.
-fn polish(lengths: &Lengths) -> StageSettings {
+fn polish(plan: &Plan) -> StageSettings {
     let changes = json!({
         "commands": { "random": { "jumps": 0.4 } },
-        "movement": { "settings": { "jump": lengths.polished_jump } },
+        "movement": { "settings": { "jump": plan.polished_jump } },
         "trials": { "count": 8 },
     });
-    let (promotion, transfer) = (usable_within(lengths.polish), Some(Transferred::Champion));
-    let give_up = lengths.give_up_polish.map(|(steps, times)| give_up(steps, PromotionRule::Usable, times));
+    let (promotion, transfer) = (usable_within(plan.polish), Some(Transferred::Champion));
+    let give_up = plan.give_up_polish.map(|(steps, times)| give_up(steps, PromotionRule::Usable, times));
     StageSettings { near: true, promotion, give_up, transfer, ..stage("polish", changes) }
 }
 

@@ -57,7 +57,8 @@ fn explain(champion: &Champion, verification: &Verification, unchanged: bool) ->
         let (was, is) = (&champion.engine, &engine);
         say!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version)?;
     }
-    if let Some(trained) = &champion.trained {
+    // One from before the run was nothing in its training.
+    if let Some(trained) = champion.trained.as_ref().filter(|_| champion.generation > 0) {
         let worlds = if trained.variation.is_none() { "without variation" } else { "in worlds that vary" };
         let bodies = super::in_bodies(trained.bodies);
         say!("training: fitness {} in {}, {worlds}{bodies}", trained.fitness, trained.engine.name())?;

@@ -63,6 +63,8 @@ fn of_what_stays_best_it_is_said_that_it_was_found_before() -> Outcome {
     assert_says(&succeed(&mut train), &["found before this run; "]);
     let [first, second] = ["first", "second"].map(|run| json(&path(run).join("champion.json"))["content"].take());
     assert_eq!(first["network"], second["network"]);
+    assert!(succeed(gambol("verify").arg(path("first"))).contains("training: fitness"));
+    assert!(!succeed(gambol("verify").arg(path("second"))).contains("training:"), "it was nothing in this training");
     succeed(gambol("replay").arg(path("second/champion.json")).arg("--html").arg(path("page.html")));
     assert!(fs::read_to_string(path("page.html"))?.contains("before its run"));
     Ok(())
