@@ -280,6 +280,17 @@ impl<E: Engine> CreatureEnvironment<E> {
         self.plan.actuated.iter().map(|actuated| -self.state.engine.motor_torque(actuated.hinge))
     }
 
+    /// From the next step on the body is told this, in place of what its trial drew.
+    pub fn tell(&mut self, commands: CommandSchedule) {
+        self.state.commands = commands;
+    }
+
+    /// The physics of the present trial, for playing with a creature: a push, another gravity, a stone in its way. An environment that
+    /// was meddled with repeats nothing; the next reset begins anew.
+    pub fn engine_mut(&mut self) -> &mut E {
+        &mut self.state.engine
+    }
+
     /// The speed each motor was last asked for, rad/s, in order of the outputs.
     pub fn asked_speeds(&self) -> &[f32] {
         &self.state.wanted

@@ -1,5 +1,6 @@
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
 use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings};
+use ne_core::SettingError;
 use rapier2d::prelude::*;
 use tasks::PartState;
 
@@ -58,6 +59,22 @@ const GROUND: Group = Group::GROUP_1;
 const CREATURE: Group = Group::GROUP_2;
 
 impl RapierWorld {
+    /// Another gravity from now on, m/s².
+    pub fn set_gravity(&mut self, [x, y]: [f32; 2]) {
+        self.physics.gravity = Vector::new(x, y);
+    }
+
+    /// Another piece of ground, with this friction.
+    ///
+    /// # Errors
+    /// If the shape is not valid.
+    pub fn add_obstacle(&mut self, shape: &GroundShape, friction: f32) -> Result<(), SettingError> {
+        Ground { shapes: vec![*shape] }.validate()?;
+        SettingError::check_range("friction", friction.into(), 0.0, 10.0)?;
+        self.add_ground(shape, friction);
+        Ok(())
+    }
+
     fn add_ground(&mut self, shape: &GroundShape, friction: f32) {
         let collider = match *shape {
             GroundShape::HalfSpace => ColliderBuilder::new(SharedShape::halfspace(Vector::Y)),

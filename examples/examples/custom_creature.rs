@@ -37,7 +37,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         threads: 0,
         registry: registry.clone(),
         signal: Default::default(),
-        on_generation: &mut |report| {
+        on_generation: &mut |generation| {
+            let report = generation.report;
             if let Some(fitness) = report.fitness {
                 println!("generation {:2}: {:.2} m", report.generation, fitness.best);
             }

@@ -4,9 +4,10 @@ use gambol_runs::{
     Registry,
     config::RunConfig,
     run_folder::{FolderError, RunFolder},
+    strategies::AnyStrategy,
     training::{TrainError, TrainOptions, resume, train},
 };
-use ne_core::{GenerationReport, StopReason, StopSignal, archive};
+use ne_core::{Generation, StopReason, StopSignal, archive};
 use std::{
     fmt, io,
     num::NonZero,
@@ -80,7 +81,7 @@ impl Part {
 
 impl<R> WorkOptions<'_, R> {
     /// How a run is trained.
-    pub(crate) fn training<'b>(&self, unseen: &'b mut dyn FnMut(&GenerationReport)) -> TrainOptions<'b> {
+    pub(crate) fn training<'b>(&self, unseen: &'b mut dyn FnMut(&Generation<'_, AnyStrategy>)) -> TrainOptions<'b> {
         TrainOptions {
             threads: self.threads,
             registry: self.registry.clone(),
@@ -92,7 +93,7 @@ impl<R> WorkOptions<'_, R> {
     /// The folder of a run that has ended: trains it, or goes on with it. `None`: it was interrupted, or another process is at
     /// work on it.
     pub(crate) fn run(&self, config: &RunConfig, path: &Path) -> Result<Option<RunFolder>, TrainError> {
-        let mut unseen = |_: &GenerationReport| {};
+        let mut unseen = |_: &Generation<'_, AnyStrategy>| {};
         let how = self.training(&mut unseen);
         let reason = if RunFolder::at(path).is_begun() {
             match resume(path, None, how) {

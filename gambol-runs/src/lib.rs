@@ -35,7 +35,7 @@
 //!     threads: 1,
 //!     registry: registry.clone(),
 //!     signal: Default::default(),
-//!     on_generation: &mut |report| assert!(report.evaluations > 0),
+//!     on_generation: &mut |generation| assert!(generation.report.evaluations > 0),
 //! };
 //! let outcome = train(&config, &folder.path().join("run"), options)?;
 //! let champion = outcome.champion.expect("one of them jumped");

@@ -9,6 +9,7 @@ use crate::{
         lines::{Kept, LineFile},
     },
     setup::Setup,
+    strategies::AnyStrategy,
 };
 use ne_core::{
     Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy, TieredFitness,
@@ -34,7 +35,7 @@ pub(crate) struct Recorder<'a> {
     last: Instant,
     /// The generation of the champion in the file, once we have written it.
     written: Option<u64>,
-    called: &'a mut dyn FnMut(&GenerationReport),
+    called: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
 }
 
 /// The lines of an earlier run as far as its checkpoint goes: checked, and nothing changed on the disk yet.
@@ -71,7 +72,7 @@ impl<'a> Recorder<'a> {
         config: &'a RunConfig,
         setup: &'a Setup,
         earlier: EarlierLines,
-        called: &'a mut dyn FnMut(&GenerationReport),
+        called: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
     ) -> Result<Self, FolderError> {
         let EarlierLines { log, gallery, timing } = earlier;
         let (log, gallery, timing) = (log.open()?, gallery.open()?, timing.open()?);
@@ -186,13 +187,10 @@ fn spread_by_rank(evaluations: &[Evaluation]) -> Vec<usize> {
     indices
 }
 
-impl<S: Strategy> Observer<S> for &mut Recorder<'_>
-where
-    <S::Genome as Genome>::Phenotype: Into<Network>,
-{
-    fn generation(&mut self, event: &Generation<'_, S>) -> Result<(), ObserverError> {
+impl Observer<AnyStrategy> for &mut Recorder<'_> {
+    fn generation(&mut self, event: &Generation<'_, AnyStrategy>) -> Result<(), ObserverError> {
         self.record(event)?;
-        (self.called)(event.report);
+        (self.called)(event);
         Ok(())
     }
 }

@@ -12,8 +12,8 @@ use crate::{
     strategies::{AnyGenome, AnyStrategy},
 };
 use ne_core::{
-    Evolution, EvolutionError, GenerationReport, Genome, Observer, Parallel, Progress, Seed, SettingError,
-    StopConditions, StopReason, StopSignal, Task, ThreadsError,
+    Evolution, EvolutionError, Generation, Genome, Observer, Parallel, Progress, Seed, SettingError, StopConditions,
+    StopReason, StopSignal, Task, ThreadsError,
     promotion::{Decision, Promotion, StageState},
     successive_halving::SuccessiveHalving,
 };
@@ -27,8 +27,9 @@ pub struct TrainOptions<'a> {
     pub registry: Registry,
     /// Ends the run after the generation under way.
     pub signal: StopSignal,
-    /// Called after each generation, for a progress bar.
-    pub on_generation: &'a mut dyn FnMut(&GenerationReport),
+    /// Called after each generation, once it is written down: for a progress bar, for a viewer. What it does cannot change the run; the
+    /// run waits for it.
+    pub on_generation: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
 }
 
 /// How a run ended.

@@ -66,8 +66,8 @@ impl GaitRun {
             registry: registry.clone(),
             signal: Default::default(),
             on_generation: &mut |generation| {
-                if first.is_none() && generation.tier >= USABLE {
-                    first = Some((began.elapsed().as_secs_f64(), generation.steps));
+                if first.is_none() && generation.report.tier >= USABLE {
+                    first = Some((began.elapsed().as_secs_f64(), generation.report.steps));
                 }
             },
         };

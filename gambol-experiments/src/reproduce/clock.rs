@@ -5,9 +5,10 @@ use super::{
 };
 use gambol_runs::{
     run_folder::FolderError,
+    strategies::AnyStrategy,
     training::{Outcome, TrainError, resume, train},
 };
-use ne_core::{GenerationReport, StopConditions, StopReason};
+use ne_core::{Generation, StopConditions, StopReason};
 use std::{path::Path, time::Instant};
 
 /// A run that goes on for some minutes and is looked at after each of these; while its champion is judged the clock
@@ -60,7 +61,7 @@ fn leg(
     first: bool,
     options: &WorkOptions<'_, Judged>,
 ) -> Result<Result<Outcome, TrainError>, ReproduceError> {
-    let mut unseen = |_: &GenerationReport| {};
+    let mut unseen = |_: &Generation<'_, AnyStrategy>| {};
     let how = options.training(&mut unseen);
     Ok(if first { train(&cell.config(1, stop, &options.registry)?, path, how) } else { resume(path, Some(stop), how) })
 }

@@ -1,5 +1,7 @@
 //! What all pages have in common: their look, their charts, and how data and text get into them.
 
+pub mod ground;
+
 use base64::{Engine, engine::general_purpose::STANDARD};
 use sha2::{Digest, Sha256};
 
@@ -8,6 +10,18 @@ pub const STYLE: &str = include_str!("assets/style.css");
 
 /// The script that reads a page's data and formats numbers; first of all scripts.
 pub const DATA_SCRIPT: &str = include_str!("assets/data.js");
+
+/// The script of clocks, and of the one loop that draws.
+pub const CLOCK_SCRIPT: &str = include_str!("assets/clock.js");
+
+/// The script of ground that is not flat.
+pub const TERRAIN_SCRIPT: &str = include_str!("assets/terrain.js");
+
+/// The script of stages: camera and scenery.
+pub const STAGE_SCRIPT: &str = include_str!("assets/stage.js");
+
+/// The script that draws creatures.
+pub const DRAWING_SCRIPT: &str = include_str!("assets/drawing.js");
 
 /// The script of charts.
 pub const CHART_SCRIPT: &str = include_str!("assets/chart.js");

@@ -3,11 +3,11 @@
 use super::{
     front::FrontData,
     gait::GaitData,
-    ground::GroundData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
     network::NetworkData,
     stages::StageData,
 };
+use crate::page::ground::GroundData;
 use creatures::{Creature, Terrain};
 use envs_rapier::PhysicsSettings;
 use gambol_runs::{Registry, champion::Champion, config::RunConfig, strategies::StrategyEntry, trajectory::Recording};

@@ -5,13 +5,13 @@ mod data;
 mod divergence;
 mod front;
 mod gait;
-pub(crate) mod ground;
 mod history;
 mod network;
 mod page;
 mod replays;
 mod stages;
 
+use crate::page::ground::GroundData;
 use crate::{drawing::DrawingError, sheet};
 use data::{ChampionData, Command, Fact, MovementData, Report, Summary};
 use front::FrontData;
@@ -25,7 +25,6 @@ use gambol_runs::{
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     trajectory::Recording,
 };
-use ground::GroundData;
 use ne_core::{StopReason, archive};
 use replays::{Stills, play};
 use std::{

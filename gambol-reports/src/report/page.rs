@@ -1,15 +1,18 @@
 //! Puts style, script and data into the page.
 
 use super::data::{Report, Summary};
-use crate::page::{CHART_SCRIPT, DATA_SCRIPT, STYLE, data, escaped, filled, policy, script};
+use crate::page::{
+    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT, data, escaped,
+    filled, policy, script,
+};
 
 const PAGE: &str = include_str!("assets/page.html");
 const SCRIPTS: &[&str] = &[
     DATA_SCRIPT,
-    include_str!("assets/clock.js"),
-    include_str!("assets/terrain.js"),
-    include_str!("assets/stage.js"),
-    include_str!("assets/drawing.js"),
+    CLOCK_SCRIPT,
+    TERRAIN_SCRIPT,
+    STAGE_SCRIPT,
+    DRAWING_SCRIPT,
     include_str!("assets/replay.js"),
     CHART_SCRIPT,
     include_str!("assets/statistics.js"),

@@ -1,9 +1,7 @@
 //! Replays of champions and populations for the page, played anew: a run keeps the nets, not the films.
 
-use super::{
-    data::{PopulationEntry, PopulationMember, Replay, StripEntry},
-    ground::GroundData,
-};
+use super::data::{PopulationEntry, PopulationMember, Replay, StripEntry};
+use crate::page::ground::GroundData;
 use envs_rapier::RapierEnvironment;
 use gambol_runs::{
     run_folder::{GalleryEntry, GalleryMember},

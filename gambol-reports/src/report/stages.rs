@@ -3,9 +3,9 @@
 use super::{
     DRAWN, ReportError, champion_film,
     data::{Fact, Replay, Report, Summary},
-    ground::GroundData,
     history,
 };
+use crate::page::ground::GroundData;
 use creatures::Creature;
 use gambol_runs::Registry;
 use gambol_runs::{

@@ -1,8 +1,10 @@
 //! The folder of a run: which file is what, and how each is written.
 
 pub(crate) mod lines;
+mod new_folder;
 mod occupation;
 
+pub use new_folder::NewFolder;
 pub use occupation::FolderLock;
 
 use crate::{

@@ -22,6 +22,7 @@ mod report;
 mod reproduce;
 mod resume;
 mod robust;
+mod studio;
 mod train;
 mod tune;
 mod verify;
@@ -100,6 +101,7 @@ fn in_bodies(bodies: usize) -> String {
     propagate_version = true,
     after_help = "\
 Examples:
+  gambol studio                            draw, train, watch and play in the browser
   gambol train biped-1 running             train a shipped creature; the run goes to runs/biped-1-running
   gambol train my-creature.json jumping    train a creature of your own
   gambol resume runs/biped-1-running --generations 600
@@ -164,6 +166,8 @@ enum Command {
     Reproduce(reproduce::Reproduce),
     /// Measures the strategies, and how long training takes
     Bench(bench::Bench),
+    /// Opens the studio: draw, train, watch, play, in the browser
+    Studio(studio::Studio),
     /// Lists the creatures that have a name
     Creatures(list::Creatures),
     /// Lists the movements and the terms that can be added to them
@@ -194,6 +198,7 @@ impl Command {
             Self::Merge(merge) => merge.run(),
             Self::Reproduce(reproduce) => reproduce.run(registry),
             Self::Bench(bench) => bench.run(registry),
+            Self::Studio(studio) => studio.run(registry),
             Self::Creatures(creatures) => creatures.run(registry),
             Self::Movements(movements) => movements.run(registry),
             Self::Terrains(terrains) => terrains.run(registry),

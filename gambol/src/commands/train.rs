@@ -5,6 +5,7 @@ use crate::{
     config::{RunConfig, Transferred},
     gait, report,
     request::Request,
+    run_folder::NewFolder,
     shaping::{self, ShapingError, StageProgress},
     suggest,
     training::{self, TrainError, TrainOptions},
@@ -14,7 +15,6 @@ use creatures::Blueprint;
 use ne_core::{StopConditions, StopReason, StopSignal};
 use std::{
     cell::RefCell,
-    fs, io,
     path::{Path, PathBuf},
     process::ExitCode,
     time::Instant,
@@ -240,8 +240,8 @@ impl Train {
                 }
             }
         }
-        let made = if self.out.is_none() { Some(NewFolder::make(&config)?) } else { None };
-        let folder = self.out.clone().or_else(|| made.as_ref().map(|made| made.0.clone())).unwrap_or_default();
+        let made = if self.out.is_none() { Some(NewFolder::make(Path::new("runs"), &config)?) } else { None };
+        let folder = self.out.clone().or_else(|| made.as_ref().map(|made| made.path().to_owned())).unwrap_or_default();
         if let Some(source) = &self.from {
             config.origin = None;
             return carry_out(&self.flags, &config, registry, |options, _| {
@@ -282,36 +282,6 @@ fn located(error: &str, request: Request, registry: &Registry) -> String {
     file.filter(|_| same).map_or_else(|| error.to_owned(), |file| format!("{}: {error}", file.display()))
 }
 
-/// A folder that was made for a run, and goes again if the run does not begin.
-struct NewFolder(PathBuf);
-
-impl NewFolder {
-    /// `runs/biped-1-running`, or with a number behind it if that is taken. To make a folder is to have it: another process
-    /// that starts at the same time takes the next number.
-    fn make(config: &RunConfig) -> Result<Self, String> {
-        let name = format!("{}-{}", config.creature.name, config.movement.name);
-        let runs = Path::new("runs");
-        let failed = |path: &Path, error: io::Error| format!("cannot create the folder {}: {error}", path.display());
-        fs::create_dir_all(runs).map_err(|error| failed(runs, error))?;
-        let numbered = (2..).map(|number| format!("{name}-{number}"));
-        for path in std::iter::once(name.clone()).chain(numbered).map(|name| runs.join(name)) {
-            match fs::create_dir(&path) {
-                Ok(()) => return Ok(Self(path)),
-                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
-                Err(error) => return Err(failed(&path, error)),
-            }
-        }
-        Err("every number is taken".into())
-    }
-}
-
-impl Drop for NewFolder {
-    fn drop(&mut self) {
-        // One with anything in it stays.
-        let _ = fs::remove_dir(&self.0);
-    }
-}
-
 /// Runs what `start` starts, with progress shown, Ctrl-C caught, and a report at the end.
 pub(super) fn carry_out(
     flags: &RunFlags,
@@ -327,7 +297,7 @@ pub(super) fn carry_out(
         threads: flags.threads,
         registry: registry.clone(),
         signal,
-        on_generation: &mut |generation| show.borrow_mut().generation(generation),
+        on_generation: &mut |generation| show.borrow_mut().generation(generation.report),
     };
     let stages = config.stages.len();
     let ended = start(

@@ -1,11 +1,4 @@
-// Small pieces of the page: elements, numbers as text, tables, and figures with their numbers.
-
-function element(name, text, className) {
-  const made = document.createElement(name);
-  if (text !== undefined) made.textContent = text;
-  if (className) made.className = className;
-  return made;
-}
+// Small pieces of the page: numbers as text, tables, and figures with their numbers.
 
 // A method's colour; with more methods than colours they come again, dashed.
 function methodClass(place) { return place === null ? "no-method" : `method-${place % 8}${place < 8 ? "" : " again"}`; }

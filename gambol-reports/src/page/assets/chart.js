@@ -70,26 +70,39 @@ const SERIES = [
 
 class FitnessChart {
   constructor(run) {
-    this.rows = run.history;
     this.unit = run.unit;
-    this.stages = run.stages || [];
-    this.starts = new Set(this.stages.map(stage => stage.first_generation));
     this.picked = null;
-    this.failures = this.rows.some(row => row.failures > 0);
-    const usable = value => value !== null && value !== undefined && Number.isFinite(value);
-    this.series = SERIES.filter(series => this.rows.some(row => usable((series.value || series.low)(row))))
-      .map(series => run.summary?.judged && series.kind === "best-so-far" ? { ...series, name: "champion, in rapier" } : series);
-    this.usable = usable;
+    this.usable = value => value !== null && value !== undefined && Number.isFinite(value);
     this.place = document.getElementById("fitness-chart");
-    this.buildLegend();
+    this.take(run);
     makeSlider(this.place, this.rows, "Fitness over generations; arrow keys choose a generation");
     this.listen();
     new ResizeObserver(() => this.build()).observe(this.place);
     this.build();
   }
 
+  // The history to be drawn: at least a row.
+  take(run) {
+    this.rows = run.history;
+    this.stages = run.stages || [];
+    this.starts = new Set(this.stages.map(stage => stage.first_generation));
+    this.failures = this.rows.some(row => row.failures > 0);
+    this.series = SERIES.filter(series => this.rows.some(row => this.usable((series.value || series.low)(row))))
+      .map(series => run.summary?.judged && series.kind === "best-so-far" ? { ...series, name: "champion, in rapier" } : series);
+    this.buildLegend();
+  }
+
+  // Another history, of a run that goes on.
+  update(run) {
+    this.take(run);
+    this.width = 0;
+    this.place.setAttribute("aria-valuemin", this.rows[0].generation);
+    this.build();
+  }
+
   buildLegend() {
     const legend = document.getElementById("fitness-legend");
+    legend.replaceChildren();
     this.values = [];
     this.generationLabel = document.createElement("div");
     this.generationLabel.className = "legend-generation";

@@ -116,3 +116,11 @@ function count(value, one, many) { return `${fixed(value, 0)} ${value === 1 ? on
 function large(value) {
   return value >= 1e9 ? `${tidy(value / 1e9)} billion` : value >= 1e6 ? `${tidy(value / 1e6)} million` : fixed(value, 0);
 }
+
+// An element with a text and a class.
+function element(name, text, className) {
+  const made = document.createElement(name);
+  if (text !== undefined) made.textContent = text;
+  if (className) made.className = className;
+  return made;
+}

@@ -1,13 +1,6 @@
 // The page: what it says at the top, which sections there are, settings and versions, and the start of it all. A
 // section whose data is missing stays hidden.
 
-function element(name, text, className) {
-  const made = document.createElement(name);
-  if (text !== undefined) made.textContent = text;
-  if (className) made.className = className;
-  return made;
-}
-
 function terms(list, pairs) {
   for (const [term, value] of pairs) {
     const group = element("div");

@@ -5,8 +5,8 @@ use envs_core::Ground;
 use serde::Serialize;
 
 /// Shapes in whole millimetres.
-#[derive(Serialize)]
-pub(super) struct GroundData {
+#[derive(Clone, Debug, Serialize)]
+pub struct GroundData {
     /// Everything below this height is ground.
     floor: Option<i32>,
     /// Convex outlines: x and y of each corner in turn.
@@ -18,7 +18,7 @@ pub(super) struct GroundData {
 
 impl GroundData {
     /// The shapes that come within a range of x, m; `None` for flat ground.
-    pub(super) fn new(ground: &Ground, [from, to]: [f32; 2]) -> Option<Self> {
+    pub fn new(ground: &Ground, [from, to]: [f32; 2]) -> Option<Self> {
         if *ground == Ground::flat() {
             return None;
         }

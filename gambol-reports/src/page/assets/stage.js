@@ -76,7 +76,8 @@ class Stage {
     this.context.setTransform(cos, -sin, -sin, -cos, this.screenX(x) * this.ratio, this.screenY(y) * this.ratio);
   }
 
-  // Sky, hills and ground. Distances are counted from `origin`, where the torso stood at the start.
+  // Sky, hills and ground. Distances are counted from `origin`, where the torso stood at the start; `plain`: without hills,
+  // `bare`: without marks either.
   drawScenery(origin, options = {}) {
     const c = this.context;
     const { width, height } = this;
@@ -102,15 +103,15 @@ class Stage {
     ground.addColorStop(1, theme["ground-deep"]);
     if (this.ground) {
       drawGround(this, this.ground, ground);
-      this.drawMarks(origin, options.small);
+      if (!options.bare) this.drawMarks(origin, options.small);
     } else {
       c.fillStyle = ground;
       c.fillRect(0, groundY, width, Math.max(height - groundY, 0));
-      this.drawMarks(origin, options.small);
+      if (!options.bare) this.drawMarks(origin, options.small);
       c.fillStyle = theme["ground-line"];
       c.fillRect(0, groundY - 0.5, width, 1.5);
     }
-    this.drawStart(origin, options.small);
+    if (!options.bare) this.drawStart(origin, options.small);
   }
 
   // Water: a tint, and the marks along the bottom.

@@ -1,0 +1,42 @@
+//! Who is answered.
+
+use crate::shared::Shared;
+use axum::{
+    extract::{Request, State},
+    http::{HeaderMap, HeaderValue, StatusCode, header},
+    middleware::Next,
+    response::{IntoResponse, Response},
+};
+use std::sync::Arc;
+
+/// Answers who knows the secret, calls us by our name, and comes from us.
+pub(crate) async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
+    let secret = request.uri().path().split('/').nth(1).unwrap_or_default();
+    let is_ours = has_our_name(&shared, request.headers()) && comes_from_us(&shared, request.headers());
+    if !is_ours || !shared.secret.is(secret) {
+        return (StatusCode::FORBIDDEN, "this studio is open to the page whose address its program shows\n")
+            .into_response();
+    }
+    let mut response = next.run(request).await;
+    let headers = response.headers_mut();
+    headers.insert(header::X_CONTENT_TYPE_OPTIONS, HeaderValue::from_static("nosniff"));
+    headers.insert(header::REFERRER_POLICY, HeaderValue::from_static("no-referrer"));
+    headers.insert(header::CACHE_CONTROL, HeaderValue::from_static("no-store"));
+    // A report has a policy of its own.
+    headers.entry(header::CONTENT_SECURITY_POLICY).or_insert_with(|| shared.policy.clone());
+    response
+}
+
+/// Another name would be one that somebody else lets lead here.
+fn has_our_name(shared: &Shared, headers: &HeaderMap) -> bool {
+    let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
+    host.is_some_and(|host| shared.hosts.iter().any(|ours| ours == host))
+}
+
+fn comes_from_us(shared: &Shared, headers: &HeaderMap) -> bool {
+    let Some(origin) = headers.get(header::ORIGIN) else {
+        // Browsers say where a socket comes from.
+        return !headers.contains_key(header::UPGRADE);
+    };
+    origin.to_str().is_ok_and(|origin| shared.hosts.iter().any(|ours| origin.strip_prefix("http://") == Some(ours)))
+}

@@ -1,0 +1,242 @@
+//! What there is: the folder of all runs, the creatures drawn here, and the runs that are trained here.
+
+use crate::session::{Session, SessionError};
+use creatures::{Blueprint, Creature};
+use gambol_exports::Format;
+use gambol_runs::{
+    Registry,
+    champion::Champion,
+    run_folder::{FolderError, NewFolder, RunFolder},
+};
+use ne_core::{
+    archive,
+    bounded_read::{LARGEST_TEXT, read_text},
+};
+use std::{
+    collections::BTreeMap,
+    ffi::OsStr,
+    fs,
+    path::{Component, Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::SystemTime,
+};
+use studio::{
+    choice::ChoiceError,
+    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState},
+};
+
+/// Drawn creatures are kept in this folder among the runs.
+const CREATURES: &str = "creatures";
+
+/// The most runs that a gallery shows.
+const MOST_RUNS: usize = 200;
+
+/// The studio's rooms: all that its pages see.
+pub struct Library {
+    registry: Registry,
+    runs: PathBuf,
+    threads: usize,
+    sessions: Mutex<BTreeMap<String, Arc<Session>>>,
+}
+
+/// Why a run cannot be opened or begun.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum LibraryError {
+    /// There is no run of this name.
+    #[error("there is no run \"{0}\"")]
+    NoRun(String),
+    /// What was chosen cannot be trained.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+    /// A folder cannot be made or read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// The run cannot be shown or begun.
+    #[error(transparent)]
+    Session(#[from] SessionError),
+    /// A drawn creature cannot be kept.
+    #[error("the creature cannot be kept: {0}")]
+    Keep(String),
+}
+
+impl Library {
+    /// Over the runs in a folder, which need not be there yet. `threads` of each training; 0: one for each core.
+    pub fn new(registry: Registry, runs: PathBuf, threads: usize) -> Self {
+        Self { registry, runs, threads, sessions: Mutex::default() }
+    }
+
+    /// What can be named.
+    pub fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    /// The folder of drawn creatures.
+    pub fn creatures(&self) -> PathBuf {
+        self.runs.join(CREATURES)
+    }
+
+    /// What there is to choose from.
+    pub fn catalogue(&self) -> Catalogue {
+        let registry = &self.registry;
+        let thing = |name: &str, description: &str| NamedThing { name: name.into(), description: description.into() };
+        let movements = registry.movements.entries().iter().filter(|movement| movement.steps.is_some());
+        let drawn = self.drawn_creatures();
+        let shipped = registry.creatures.entries().iter().map(|entry| entry.value.clone());
+        let is_drawn = |creature: &Creature| drawn.iter().any(|drawn| drawn.name == creature.name);
+        Catalogue {
+            drawn: drawn.iter().map(|creature| creature.name.clone()).collect(),
+            creatures: shipped.filter(|creature| !is_drawn(creature)).chain(drawn.clone()).collect(),
+            movements: movements.map(|movement| thing(&movement.name, &movement.description)).collect(),
+            presets: registry.presets.entries().map(|preset| thing(preset.name, preset.description)).collect(),
+            strategies: registry
+                .strategies
+                .entries()
+                .iter()
+                .map(|entry| thing(entry.name(), entry.description()))
+                .collect(),
+            terrains: registry.terrains.entries().iter().map(|entry| thing(&entry.name, &entry.description)).collect(),
+            variations: registry
+                .variations
+                .entries()
+                .iter()
+                .map(|entry| thing(&entry.name, &entry.description))
+                .collect(),
+            formats: Format::ALL
+                .iter()
+                .map(|format| ExportFormat { name: format.name(), endings: format.endings() })
+                .collect(),
+            runs: self.gallery(),
+        }
+    }
+
+    /// The runs, the latest first.
+    fn gallery(&self) -> Vec<RunEntry> {
+        let Ok(entries) = fs::read_dir(&self.runs) else { return Vec::new() };
+        let changed = |path: &Path| fs::metadata(path.join("config.json")).and_then(|file| file.modified()).ok();
+        let mut runs: Vec<(SystemTime, String, PathBuf)> = entries
+            .flatten()
+            .filter_map(|entry| Some((changed(&entry.path())?, entry.file_name().into_string().ok()?, entry.path())))
+            .collect();
+        runs.sort_by(|one, other| other.cmp(one));
+        let sessions = self.sessions();
+        let entry = |(_, run, path): (_, String, PathBuf)| {
+            let folder = RunFolder::at(&path);
+            let config = folder.read_config().ok()?;
+            let fitness = Champion::read(&folder.champion()).ok().map(|champion| champion.fitness.get());
+            let is_running = sessions.get(&run).is_some_and(|session| session.is_training());
+            Some(RunEntry { run, creature: config.creature, movement: config.movement.name, fitness, is_running })
+        };
+        runs.into_iter().take(MOST_RUNS).filter_map(entry).collect()
+    }
+
+    fn drawn_creatures(&self) -> Vec<Creature> {
+        let Ok(entries) = fs::read_dir(self.creatures()) else { return Vec::new() };
+        let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+        files.sort();
+        let read = |path: &PathBuf| {
+            path.extension().filter(|extension| *extension == "json")?;
+            let text = read_text(path, LARGEST_TEXT).ok()?;
+            Some(Blueprint::from_json(&text).ok()?.creature().clone())
+        };
+        files.iter().filter_map(read).collect()
+    }
+
+    /// The registry with the creatures that were drawn here.
+    pub fn registry_with_drawn(&self) -> Registry {
+        let mut registry = self.registry.clone();
+        for creature in self.drawn_creatures() {
+            // Each was checked as it was read.
+            let _ = serde_json::to_string(&creature).map(|json| registry.creatures.add_file(&json).map(drop));
+        }
+        registry
+    }
+
+    /// Keeps a drawn creature under its name, in place of what was drawn under it before.
+    ///
+    /// # Errors
+    /// If it is not valid, has the name of one that is shipped, or cannot be written.
+    pub fn keep(&self, creature: &Creature) -> Result<PathBuf, LibraryError> {
+        let failed = |error: &dyn std::fmt::Display| LibraryError::Keep(error.to_string());
+        // A valid name is one of a file, and of none elsewhere.
+        let blueprint = Blueprint::new(creature.clone()).map_err(|error| failed(&error))?;
+        let path = self.creatures().join(format!("{}.json", blueprint.name()));
+        archive::make_folder(&self.creatures()).map_err(|error| failed(&error))?;
+        let json = serde_json::to_string_pretty(creature).map_err(|error| failed(&error))?;
+        archive::write_whole_together(&[(&*path, format!("{json}\n").as_bytes())]).map_err(|error| failed(&error))?;
+        Ok(path)
+    }
+
+    /// Begins a run in a new folder.
+    ///
+    /// # Errors
+    /// If what was chosen cannot be trained, or there is no room for the folder.
+    pub fn train(&self, choice: &Choice) -> Result<Arc<Session>, LibraryError> {
+        let registry = self.registry_with_drawn();
+        let config = choice.resolve(&registry)?;
+        if let Some(drawn) = choice.drawn_creature()? {
+            self.keep(&drawn)?;
+        }
+        let folder = NewFolder::make(&self.runs, &config)?;
+        let name = name_of(folder.path());
+        let command = choice.command(&self.creatures());
+        let session = Session::begin(name.clone(), config, command, folder, self.registry.clone(), self.threads)?;
+        self.sessions().insert(name, Arc::clone(&session));
+        Ok(session)
+    }
+
+    /// The run in the folder of this name.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot be read.
+    pub fn open(&self, run: &str) -> Result<Arc<Session>, LibraryError> {
+        let folder = self.folder(run)?;
+        let mut sessions = self.sessions();
+        if let Some(session) = sessions.get(run) {
+            return Ok(Arc::clone(session));
+        }
+        let session = Session::open(run.to_owned(), folder, self.registry.clone(), self.threads)?;
+        sessions.insert(run.to_owned(), Arc::clone(&session));
+        Ok(session)
+    }
+
+    /// The folder of a run: one in the folder of all runs, whatever its name says.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn folder(&self, run: &str) -> Result<RunFolder, LibraryError> {
+        let none = || LibraryError::NoRun(run.to_owned());
+        let mut components = Path::new(run).components();
+        let (Some(Component::Normal(name)), None) = (components.next(), components.next()) else { return Err(none()) };
+        if name != OsStr::new(run) {
+            return Err(none());
+        }
+        let path = self.runs.join(name);
+        // A link must not lead elsewhere.
+        let (real, runs) = (path.canonicalize().map_err(|_| none())?, self.runs.canonicalize().map_err(|_| none())?);
+        if real.parent() != Some(&*runs) {
+            return Err(none());
+        }
+        RunFolder::open(&path).map_err(|_| none())
+    }
+
+    /// Asks all runs that are trained here to save and end, and waits for them.
+    pub fn close(&self) {
+        let sessions: Vec<Arc<Session>> = self.sessions().values().cloned().collect();
+        sessions.iter().for_each(|session| session.stop());
+        sessions.iter().for_each(|session| session.join());
+    }
+
+    /// How a run of this name stands, if it was opened here.
+    pub fn state(&self, run: &str) -> Option<RunState> {
+        self.sessions().get(run).map(|session| session.state())
+    }
+
+    fn sessions(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Session>>> {
+        self.sessions.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned())
+}

@@ -1,0 +1,452 @@
+//! One run: trained here, or opened from its folder.
+
+use gambol_runs::{
+    Registry,
+    champion::Champion,
+    config::RunConfig,
+    run_folder::{FolderError, GalleryKind, NewFolder, RunFolder},
+    shaping::{self, StageProgress},
+    strategies::{AnyGenome, AnyStrategy},
+    texts::shell_word,
+    training::{self, Outcome, TrainOptions},
+};
+use ne_core::{Fitness, Generation, GenerationReport, Genome, Seed, StopConditions, StopReason, StopSignal};
+use std::{
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak},
+    thread::{self, JoinHandle},
+    time::{Duration, Instant, SystemTime},
+};
+use studio::{
+    Entrant,
+    protocol::{Opened, RunState, Verdict},
+};
+
+/// A run, its thread if it is trained here, and what pages see of it.
+pub struct Session {
+    name: String,
+    folder: RunFolder,
+    config: RunConfig,
+    command: String,
+    unit: String,
+    registry: Registry,
+    threads: usize,
+    inner: Mutex<Inner>,
+    /// Told whenever the pace changes.
+    woken: Condvar,
+    thread: Mutex<Option<JoinHandle<()>>>,
+}
+
+/// How a run goes on after a generation.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pace {
+    Free,
+    /// After so many generations it waits.
+    Steps(u64),
+}
+
+struct Inner {
+    state: RunState,
+    signal: StopSignal,
+    pace: Pace,
+    rows: Vec<GenerationReport>,
+    /// The name of each stage, and the row before which it began.
+    stages: Vec<(usize, String)>,
+    /// The configuration of the stage under way.
+    stage_config: RunConfig,
+    generation: Option<Shown>,
+    verdict: Option<Verdict>,
+    /// Whether something waits for verdicts.
+    is_judged: bool,
+    /// When the log of a run that is trained elsewhere was last read.
+    read: Option<SystemTime>,
+}
+
+/// A generation as it was told to the strategy.
+#[derive(Clone)]
+struct Shown {
+    number: u64,
+    seed: Seed,
+    genomes: Vec<AnyGenome>,
+    fitness: Vec<Option<Fitness>>,
+}
+
+/// Those of a generation, the best first.
+pub(crate) struct Population {
+    pub(crate) generation: u64,
+    pub(crate) seed: Seed,
+    pub(crate) entrants: Vec<Entrant>,
+    /// The run, or the stage that they are of.
+    pub(crate) config: RunConfig,
+}
+
+/// Why a run cannot be opened or begun here.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SessionError {
+    /// The folder cannot be read.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
+    /// Its configuration cannot be built.
+    #[error("{0}")]
+    Setup(String),
+    /// It is trained here already.
+    #[error("the run is under way")]
+    Running,
+    /// There is no room for another thread.
+    #[error("no thread can be started: {0}")]
+    Thread(std::io::Error),
+}
+
+/// What is to be done with a folder.
+enum Work {
+    Begin,
+    Resume(Option<StopConditions>),
+}
+
+/// Judging takes at most this share of one core.
+const SHARE_OF_JUDGING: u32 = 20;
+
+impl Session {
+    /// Begins a run in a new folder.
+    pub(crate) fn begin(
+        name: String,
+        config: RunConfig,
+        command: String,
+        folder: NewFolder,
+        registry: Registry,
+        threads: usize,
+    ) -> Result<Arc<Self>, SessionError> {
+        let session = Self::new(name, RunFolder::at(folder.path()), config, command, registry, threads)?;
+        session.work(Work::Begin, Some(folder))?;
+        Ok(session)
+    }
+
+    /// Opens a run, as it stands in its folder.
+    pub(crate) fn open(
+        name: String,
+        folder: RunFolder,
+        registry: Registry,
+        threads: usize,
+    ) -> Result<Arc<Self>, SessionError> {
+        let config = folder.read_config()?;
+        let command = format!("{} resume {}", gambol_runs::program_name(), shell_word(folder.path()));
+        let session = Self::new(name, folder, config, command, registry, threads)?;
+        session.read_folder()?;
+        Ok(session)
+    }
+
+    fn new(
+        name: String,
+        folder: RunFolder,
+        config: RunConfig,
+        command: String,
+        registry: Registry,
+        threads: usize,
+    ) -> Result<Arc<Self>, SessionError> {
+        let movement = registry.movements.build(&config.movement);
+        let unit = movement.map_err(|error| SessionError::Setup(error.to_string()))?.unit().to_owned();
+        let inner = Inner {
+            state: RunState::Ended { reason: String::new() },
+            signal: StopSignal::default(),
+            pace: Pace::Free,
+            rows: Vec::new(),
+            stages: Vec::new(),
+            stage_config: RunConfig { stages: Vec::new(), ..config.clone() },
+            generation: None,
+            verdict: None,
+            is_judged: false,
+            read: None,
+        };
+        let (inner, woken, thread) = (Mutex::new(inner), Condvar::new(), Mutex::new(None));
+        Ok(Arc::new(Self { name, folder, config, command, unit, registry, threads, inner, woken, thread }))
+    }
+
+    /// The name of its folder.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &RunFolder {
+        &self.folder
+    }
+
+    /// How it stands.
+    pub fn state(&self) -> RunState {
+        self.inner().state.clone()
+    }
+
+    /// Whether it is trained here, be it that it waits.
+    pub fn is_training(&self) -> bool {
+        matches!(self.inner().state, RunState::Running | RunState::Paused)
+    }
+
+    /// What a page is told first.
+    pub fn opened(&self) -> Opened {
+        let (run, config, unit) = (self.name.clone(), self.config.clone(), self.unit.clone());
+        Opened { run, config, unit, command: self.command.clone(), state: self.state() }
+    }
+
+    /// The rows of its history from one on, and the stages that began since another.
+    pub(crate) fn since(&self, row: usize, stage: usize) -> (Vec<GenerationReport>, Vec<(usize, String)>) {
+        let inner = self.inner();
+        let tail = |rows: &[GenerationReport]| rows.get(row..).unwrap_or_default().to_vec();
+        (tail(&inner.rows), inner.stages.get(stage..).unwrap_or_default().to_vec())
+    }
+
+    /// The verdict on the latest champion that was judged.
+    pub(crate) fn verdict(&self) -> Option<Verdict> {
+        self.inner().verdict.clone()
+    }
+
+    /// The champion in its folder.
+    pub(crate) fn champion(&self) -> Option<Champion> {
+        Champion::read(&self.folder.champion()).ok()
+    }
+
+    /// The latest generation; of a run that was opened the latest that its gallery has.
+    pub(crate) fn population(&self) -> Option<Population> {
+        let (shown, config) = {
+            let inner = self.inner();
+            (inner.generation.clone(), inner.stage_config.clone())
+        };
+        let Some(shown) = shown else { return self.kept_population() };
+        let members = shown.genomes.iter().zip(&shown.fitness);
+        let entrant = |(genome, &fitness): (&AnyGenome, _)| Entrant { network: genome.express(), fitness };
+        let entrants = best_first(members.map(entrant).collect());
+        Some(Population { generation: shown.number, seed: shown.seed, entrants, config })
+    }
+
+    fn kept_population(&self) -> Option<Population> {
+        let (folder, config) = self.latest_stage()?;
+        let gallery = folder.read_gallery().ok()?;
+        let entry = gallery.into_iter().rev().find(|entry| entry.kind == GalleryKind::Population)?;
+        let entrant = |member: gambol_runs::run_folder::GalleryMember| Entrant {
+            network: member.network,
+            fitness: member.fitness,
+        };
+        let seed = Seed::of_run(config.seed).generation(entry.generation);
+        let entrants = best_first(entry.members.into_iter().map(entrant).collect());
+        Some(Population { generation: entry.generation, seed, entrants, config })
+    }
+
+    /// The folder and configuration of the latest stage; of a run without stages its own.
+    fn latest_stage(&self) -> Option<(RunFolder, RunConfig)> {
+        if self.config.stages.is_empty() {
+            return Some((self.folder.clone(), self.config.clone()));
+        }
+        let last = shaping::stage_runs(&self.folder).ok()?.pop()?;
+        let folder = RunFolder::at(&last.folder);
+        let config = folder.read_config().ok()?;
+        Some((folder, config))
+    }
+
+    /// Lets it wait before the next generation.
+    pub fn pause(&self) {
+        self.set_pace(Pace::Steps(0));
+    }
+
+    /// Lets one generation pass, then wait.
+    pub fn step(&self) {
+        self.set_pace(Pace::Steps(1));
+    }
+
+    /// Lets it go on: from a pause, or from where it had ended, by so many generations more than it had planned.
+    ///
+    /// # Errors
+    /// If no thread can be started.
+    pub fn go_on(self: &Arc<Self>, generations: Option<u64>) -> Result<(), SessionError> {
+        if self.is_training() {
+            self.set_pace(Pace::Free);
+            return Ok(());
+        }
+        let done = self.inner().rows.len() as u64;
+        let more = generations.map(|more| StopConditions {
+            generations: Some(done.saturating_add(more)),
+            tier: None,
+            ..self.config.stop
+        });
+        self.work(Work::Resume(more), None)
+    }
+
+    /// Saves and ends it.
+    pub fn stop(&self) {
+        self.inner().signal.stop();
+        self.woken.notify_all();
+    }
+
+    /// Waits until its thread has ended.
+    pub fn join(&self) {
+        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
+        if let Some(thread) = thread {
+            // One that panicked has said so.
+            let _ = thread.join();
+        }
+    }
+
+    fn set_pace(&self, pace: Pace) {
+        self.inner().pace = pace;
+        self.woken.notify_all();
+    }
+
+    fn inner(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Reads what another process has written since.
+    pub(crate) fn refresh(&self) {
+        if self.is_training() {
+            return;
+        }
+        let changed = self.latest_stage().and_then(|(folder, _)| std::fs::metadata(folder.log()).ok()?.modified().ok());
+        if changed.is_some() && changed != self.inner().read {
+            // What is half written is read the next time.
+            let _ = self.read_folder();
+        }
+    }
+
+    fn read_folder(&self) -> Result<(), FolderError> {
+        let (mut rows, mut stages) = (Vec::new(), Vec::new());
+        let read = self.latest_stage().and_then(|(folder, _)| std::fs::metadata(folder.log()).ok()?.modified().ok());
+        if self.config.stages.is_empty() {
+            rows = self.folder.read_log()?;
+        } else {
+            for stage_run in shaping::stage_runs(&self.folder)? {
+                stages.push((rows.len(), stage_run.name.clone()));
+                rows.extend(RunFolder::at(&stage_run.folder).read_log()?);
+            }
+        }
+        let latest = self.latest_stage();
+        let mut inner = self.inner();
+        (inner.rows, inner.stages, inner.read) = (rows, stages, read);
+        if let Some((_, config)) = latest {
+            inner.stage_config = config;
+        }
+        if inner.state == (RunState::Ended { reason: String::new() }) {
+            inner.state = RunState::Ended { reason: format!("saved, after {} generations", inner.rows.len()) };
+        }
+        Ok(())
+    }
+
+    fn work(self: &Arc<Self>, work: Work, folder: Option<NewFolder>) -> Result<(), SessionError> {
+        let mut thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner);
+        {
+            let mut inner = self.inner();
+            if matches!(inner.state, RunState::Running | RunState::Paused) {
+                return Err(SessionError::Running);
+            }
+            (inner.state, inner.pace, inner.signal) = (RunState::Running, Pace::Free, StopSignal::default());
+        }
+        let session = Arc::clone(self);
+        let spawned = thread::Builder::new().name(format!("training of {}", self.name)).spawn(move || {
+            let ended = session.train(work);
+            drop(folder);
+            session.inner().state = match ended {
+                Ok(outcome) => RunState::Ended { reason: outcome.reason.to_string() },
+                Err(error) => RunState::Broken { reason: error.to_string() },
+            };
+        });
+        match spawned {
+            Ok(handle) => *thread = Some(handle),
+            Err(error) => {
+                self.inner().state = RunState::Broken { reason: error.to_string() };
+                return Err(SessionError::Thread(error));
+            }
+        }
+        Ok(())
+    }
+
+    fn train(&self, work: Work) -> Result<Outcome, Box<dyn std::error::Error>> {
+        let path = self.folder.path();
+        let mut on_generation = |generation: &Generation<'_, AnyStrategy>| self.see(generation);
+        let signal = self.inner().signal.clone();
+        let registry = self.registry.clone();
+        let options = TrainOptions { threads: self.threads, registry, signal, on_generation: &mut on_generation };
+        let mut on_stage_run = |planned: &shaping::PlannedStage, _: Option<&_>| {
+            let mut inner = self.inner();
+            let row = inner.rows.len();
+            // One that is resumed has begun before.
+            if inner.stages.last().is_none_or(|(_, name)| *name != planned.name) {
+                inner.stages.push((row, planned.name.clone()));
+            }
+            inner.stage_config = planned.config.clone();
+            inner.generation = None;
+        };
+        let stage_progress = StageProgress { on_stage_run: &mut on_stage_run };
+        let outcome = match (work, self.config.stages.is_empty()) {
+            (Work::Begin, true) => training::train(&self.config, path, options)?,
+            (Work::Begin, false) => shaping::train_stages(&self.config, path, stage_progress, options)?,
+            (Work::Resume(stop), true) => training::resume(path, stop, options)?,
+            (Work::Resume(stop), false) => shaping::resume_stages(path, stop, stage_progress, options)?,
+        };
+        let reason = Some(outcome.reason).filter(|reason| *reason != StopReason::Interrupted);
+        gambol_reports::report::write_report(&outcome.folder, &self.registry, reason)?;
+        Ok(outcome)
+    }
+
+    /// Notes a generation, and waits where the run is to wait.
+    fn see(&self, generation: &Generation<'_, AnyStrategy>) {
+        let number = generation.report.generation;
+        let shown = Shown {
+            number,
+            seed: generation.seed.generation(number),
+            genomes: generation.genomes.to_vec(),
+            fitness: generation.evaluations.iter().map(ne_core::Evaluation::fitness).collect(),
+        };
+        let mut inner = self.inner();
+        // One that is resumed does its last generations again.
+        let first = inner.stages.last().map_or(0, |stage| stage.0);
+        let place = usize::try_from(number - 1).unwrap_or(usize::MAX).saturating_add(first);
+        inner.rows.truncate(place);
+        inner.rows.push(generation.report.clone());
+        inner.generation = Some(shown);
+        if let Pace::Steps(steps) = &mut inner.pace {
+            *steps = steps.saturating_sub(1);
+        }
+        while inner.pace == Pace::Steps(0) && !inner.signal.is_set() {
+            inner.state = RunState::Paused;
+            // A signal is not told of: it may be set by who does not know of this.
+            inner = self.woken.wait_timeout(inner, PATIENCE).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        inner.state = RunState::Running;
+    }
+
+    /// Judges each new champion from now on, on a thread of its own, as long as a page looks.
+    pub(crate) fn judge_champions(self: &Arc<Self>, look: &Weak<()>) {
+        if std::mem::replace(&mut self.inner().is_judged, true) {
+            return;
+        }
+        let (session, look) = (Arc::clone(self), look.clone());
+        let judge = move || {
+            let mut judged = None;
+            while look.strong_count() > 0 {
+                let changed = std::fs::metadata(session.folder.champion()).and_then(|file| file.modified()).ok();
+                let began = Instant::now();
+                if changed.is_some() && changed != judged {
+                    judged = changed;
+                    session.judge();
+                }
+                thread::sleep((began.elapsed() * SHARE_OF_JUDGING).max(PATIENCE));
+            }
+            session.inner().is_judged = false;
+        };
+        if let Err(error) = thread::Builder::new().name("judge".into()).spawn(judge) {
+            tracing::warn!(%error, "no gait is judged");
+            self.inner().is_judged = false;
+        }
+    }
+
+    fn judge(&self) {
+        let Some(champion) = self.champion() else { return };
+        let verdict = Verdict::of(&champion, &self.registry);
+        self.inner().verdict = Some(verdict);
+    }
+}
+
+/// How long something waits that nobody wakes.
+const PATIENCE: Duration = Duration::from_millis(200);
+
+fn best_first(mut entrants: Vec<Entrant>) -> Vec<Entrant> {
+    entrants.sort_by_key(|entrant| std::cmp::Reverse(entrant.fitness));
+    entrants
+}

@@ -1,0 +1,268 @@
+//! What one page sees: it answers what the page asks, and tells it what is new.
+
+use crate::{
+    library::Library,
+    session::{Population, Session},
+};
+use creatures::{Creature, Terrain};
+use envs_rapier::RapierEnvironment;
+use gambol_runs::{Registry, champion::Champion, config::RunConfig, judge::Judge};
+use ne_core::Seed;
+use serde_json::Value;
+use std::sync::Arc;
+use studio::{
+    Arena, Entrant, choice,
+    protocol::{Event, Opened, Request, RunState, Verdict, Who},
+};
+
+/// What a page is sent.
+#[derive(Clone, Debug)]
+pub enum Reply {
+    /// A message.
+    Event(Box<Event>),
+    /// What is to be seen: see [`Arena::frame`].
+    Frame(Vec<u8>),
+}
+
+/// One page.
+pub struct Viewer {
+    library: Arc<Library>,
+    session: Option<Arc<Session>>,
+    /// Goes with this viewer: what works for it ends then.
+    look: Arc<()>,
+    /// A champion that was opened from a file, in place of a run.
+    guest: Option<Box<Champion>>,
+    told: Told,
+    arena: Option<Arena>,
+    number: u32,
+}
+
+/// What the page knows of the open run.
+#[derive(Default)]
+struct Told {
+    rows: usize,
+    stages: usize,
+    state: Option<RunState>,
+    verdict: Option<Verdict>,
+}
+
+/// What is wrong, in words for the page.
+type Refusal = Box<dyn std::error::Error>;
+
+/// Lengths of history are sent in pieces of so many generations.
+const ROWS: usize = 2000;
+
+impl From<Event> for Reply {
+    fn from(event: Event) -> Self {
+        Self::Event(Box::new(event))
+    }
+}
+
+impl Viewer {
+    /// A page that sees nothing yet.
+    pub fn new(library: Arc<Library>) -> Self {
+        let told = Told::default();
+        Self { library, session: None, look: Arc::new(()), guest: None, told, arena: None, number: 0 }
+    }
+
+    /// Answers a message.
+    pub fn answer(&mut self, message: &str) -> Vec<Reply> {
+        let request: Request = match serde_json::from_str(message) {
+            Ok(request) => request,
+            Err(error) => return vec![refused("", &error)],
+        };
+        let name = name_of(message);
+        match self.handle(request) {
+            Ok(replies) => replies,
+            Err(error) => vec![refused(&name, &*error)],
+        }
+    }
+
+    /// What is new in the open run.
+    pub fn news(&mut self) -> Vec<Reply> {
+        let Some(session) = self.session.clone() else { return Vec::new() };
+        session.refresh();
+        let mut news: Vec<Reply> = Vec::new();
+        let (rows, stages) = session.since(self.told.rows, self.told.stages);
+        self.told.stages += stages.len();
+        news.extend(stages.into_iter().map(|(row, name)| Event::Stage { name, row }.into()));
+        self.told.rows += rows.len();
+        news.extend(rows.chunks(ROWS).map(|rows| Event::Generations { rows: rows.to_vec() }.into()));
+        if let Some(verdict) = session.verdict().filter(|verdict| self.told.verdict.as_ref() != Some(verdict)) {
+            self.told.verdict = Some(verdict.clone());
+            news.push(Event::Verdict(verdict).into());
+        }
+        // Last: whoever hears that a run has ended has heard of all its generations.
+        let state = session.state();
+        if self.told.state.as_ref() != Some(&state) {
+            self.told.state = Some(state.clone());
+            news.push(Event::State(state).into());
+        }
+        news
+    }
+
+    fn handle(&mut self, request: Request) -> Result<Vec<Reply>, Refusal> {
+        let library = Arc::clone(&self.library);
+        let event = match request {
+            Request::Look => Event::Catalogue(Box::new(library.catalogue())),
+            Request::Describe { choice } => {
+                let described = choice.describe(&library.registry_with_drawn(), &library.creatures());
+                Event::Described(Box::new(described))
+            }
+            Request::Check { creature, number } => Event::Checked { number, problems: choice::check(&creature) },
+            Request::Keep { creature } => {
+                let creature: Creature = serde_json::from_value(creature)?;
+                library.keep(&creature)?;
+                Event::Catalogue(Box::new(library.catalogue()))
+            }
+            Request::Train { choice } => return Ok(self.open(library.train(&choice)?)),
+            Request::Open { run } => return Ok(self.open(library.open(&run)?)),
+            Request::OpenChampion { champion } => return self.open_champion(champion),
+            Request::Pause => return self.control(|session| session.pause()),
+            Request::Step => return self.control(|session| session.step()),
+            Request::Stop => return self.control(|session| session.stop()),
+            Request::GoOn { generations } => {
+                self.session()?.go_on(generations)?;
+                return Ok(self.news());
+            }
+            Request::Show { who, terrain, friction } => {
+                return Ok(vec![self.show(who, terrain.as_deref(), friction)?]);
+            }
+            Request::Advance { steps } => {
+                let number = self.number;
+                let arena = self.arena()?;
+                arena.advance(steps);
+                return Ok(vec![Reply::Frame(arena.frame(number))]);
+            }
+            Request::Tell(told) => {
+                self.arena()?.tell(told);
+                return Ok(Vec::new());
+            }
+            Request::Push { part, velocity } => return self.meddle(|arena| Ok(arena.push(part, velocity)?)),
+            Request::Tilt { angle, factor } => return self.meddle(|arena| Ok(arena.tilt(angle, factor)?)),
+            Request::PutBox { x, width, height } => {
+                let arena = self.arena()?;
+                arena.put_box(x, width, height)?;
+                Event::Ground { ground: arena.ground_data() }
+            }
+        };
+        Ok(vec![event.into()])
+    }
+
+    fn open(&mut self, session: Arc<Session>) -> Vec<Reply> {
+        // What worked for the run that was open may end.
+        self.look = Arc::new(());
+        session.judge_champions(&Arc::downgrade(&self.look));
+        let opened = session.opened();
+        (self.session, self.guest, self.arena, self.told) = (Some(session), None, None, Told::default());
+        self.told.state = Some(opened.state.clone());
+        let mut replies = vec![Event::Opened(Box::new(opened)).into()];
+        replies.extend(self.news());
+        replies
+    }
+
+    /// Opens a champion that a page has read from a file.
+    fn open_champion(&mut self, champion: Value) -> Result<Vec<Reply>, Refusal> {
+        let champion = champion_of(champion)?;
+        let registry = self.library.registry();
+        let config =
+            registry.config(registry.presets.first().name, champion.creature.clone(), &champion.movement.name)?;
+        let unit = registry.movements.build(&champion.movement)?.unit().to_owned();
+        let state = RunState::Ended { reason: format!("a champion of generation {}", champion.generation) };
+        let opened = Opened { run: String::new(), config, unit, command: String::new(), state };
+        let verdict = Event::Verdict(Verdict::of(&champion, registry));
+        let replies = vec![Event::Opened(Box::new(opened)).into(), verdict.into()];
+        (self.session, self.guest, self.arena) = (None, Some(Box::new(champion)), None);
+        Ok(replies)
+    }
+
+    fn show(&mut self, who: Who, terrain: Option<&str>, friction: Option<f32>) -> Result<Reply, Refusal> {
+        let registry = self.library.registry().clone();
+        let terrain = terrain.map(|name| registry.terrains.terrain(name)).transpose()?;
+        let session = self.session.clone();
+        let population = match (who, &session) {
+            (Who::Population, Some(session)) => session.population(),
+            _ => None,
+        };
+        let (arena, who, generation, entrants) = match population {
+            Some(Population { generation, seed, entrants, config }) => {
+                let world = world_of_population(config, terrain, friction, &registry)?;
+                (Arena::new(&world, &entrants, seed.trial(0))?, "population", generation, entrants)
+            }
+            None => {
+                let champion = self.guest.as_deref().cloned().or_else(|| session?.champion());
+                let champion = champion.ok_or("there is no champion yet")?;
+                let world = world_of_champion(&champion, terrain, friction, &registry)?;
+                let entrants = vec![Entrant { network: champion.network, fitness: Some(champion.fitness) }];
+                (Arena::new(&world, &entrants, Seed::of_run(0))?, "champion", champion.generation, entrants)
+            }
+        };
+        self.number += 1;
+        let fitness = entrants.iter().map(|entrant| entrant.fitness.map(|fitness| fitness.get())).collect();
+        let event = Event::Arena { number: self.number, who, generation, fitness, data: Box::new(arena.data()) };
+        self.arena = Some(arena);
+        Ok(event.into())
+    }
+
+    fn session(&self) -> Result<&Arc<Session>, Refusal> {
+        self.session.as_ref().ok_or_else(|| "no run is open".into())
+    }
+
+    fn arena(&mut self) -> Result<&mut Arena, Refusal> {
+        self.arena.as_mut().ok_or_else(|| "nothing is shown".into())
+    }
+
+    fn control(&mut self, act: impl FnOnce(&Session)) -> Result<Vec<Reply>, Refusal> {
+        act(self.session()?);
+        Ok(self.news())
+    }
+
+    fn meddle(&mut self, act: impl FnOnce(&mut Arena) -> Result<(), Refusal>) -> Result<Vec<Reply>, Refusal> {
+        act(self.arena()?)?;
+        Ok(Vec::new())
+    }
+}
+
+fn refused(request: &str, error: &dyn std::fmt::Display) -> Reply {
+    Event::Refused { request: request.to_owned(), reason: error.to_string() }.into()
+}
+
+/// The name of what a message asks for.
+fn name_of(message: &str) -> String {
+    let value: Value = serde_json::from_str(message).unwrap_or_default();
+    value["do"].as_str().unwrap_or_default().to_owned()
+}
+
+fn champion_of(file: Value) -> Result<Champion, Refusal> {
+    // A champion's file has a header around it.
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("champion.json");
+    std::fs::write(&path, file.to_string())?;
+    Ok(Champion::read(&path)?)
+}
+
+/// The world of a generation's first trial.
+fn world_of_population(
+    config: RunConfig,
+    terrain: Option<Terrain>,
+    friction: Option<f32>,
+    registry: &Registry,
+) -> Result<RapierEnvironment, Refusal> {
+    let mut config = config;
+    config.terrain = terrain.unwrap_or(config.terrain);
+    config.physics.ground_friction = friction.unwrap_or(config.physics.ground_friction);
+    Ok(config.episode_parts().build(registry)?.environment().clone())
+}
+
+/// The world in which a champion is judged.
+fn world_of_champion(
+    champion: &Champion,
+    terrain: Option<Terrain>,
+    friction: Option<f32>,
+    registry: &Registry,
+) -> Result<RapierEnvironment, Refusal> {
+    let mut champion = champion.clone();
+    champion.terrain = terrain.unwrap_or(champion.terrain);
+    champion.physics.ground_friction = friction.unwrap_or(champion.physics.ground_friction);
+    Ok(Judge::new(champion.episode_parts(), registry)?.environment().clone())
+}

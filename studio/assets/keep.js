@@ -1,0 +1,94 @@
+// Keeping: the gallery of runs, what the open one can be made into, and files that are dropped on the page.
+
+class Keep {
+  constructor(connection, watch, { open, draw }) {
+    Object.assign(this, { connection, watch, open, draw });
+    connection.on("catalogue", catalogue => this.fill(catalogue));
+    connection.on("opened", event => this.show(event));
+    const get = name => document.getElementById(name);
+    get("keep-verify").addEventListener("click", () => this.verify());
+    get("keep-draw").addEventListener("click", () => draw(this.watch.config.creature));
+    get("keep-file").addEventListener("change", event => this.read(event.target.files[0]));
+    document.addEventListener("dragover", event => { event.preventDefault(); get("keep-drop").classList.add("over"); });
+    document.addEventListener("dragleave", () => get("keep-drop").classList.remove("over"));
+    document.addEventListener("drop", event => {
+      event.preventDefault();
+      get("keep-drop").classList.remove("over");
+      if (event.dataTransfer.files.length) this.read(event.dataTransfer.files[0]);
+    });
+  }
+
+  fill({ runs, formats }) {
+    this.formats = formats;
+    document.getElementById("keep-empty").hidden = runs.length > 0;
+    document.getElementById("keep-runs").replaceChildren(...runs.map(run => this.card(run)));
+    if (this.watch.run) this.show(this.watch);
+  }
+
+  card({ run, creature, movement, fitness, is_running: running }) {
+    const item = element("li");
+    const button = element("button");
+    button.type = "button";
+    button.dataset.run = run;
+    const canvas = element("canvas");
+    const line = element("p");
+    const worth = running ? "training" : fitness === null ? "" : tidy(fitness);
+    line.append(element("b", run), element("span", worth));
+    line.title = `${creature.title || creature.name}, ${movement}`;
+    button.append(canvas, line);
+    button.addEventListener("click", () => this.open(run));
+    item.append(button);
+    drawPortrait(canvas, creature);
+    return item;
+  }
+
+  show({ run }) {
+    const panel = document.getElementById("keep-open");
+    panel.hidden = !run;
+    if (!run) return;
+    document.getElementById("keep-title").textContent = run;
+    document.getElementById("keep-result").textContent = "";
+    const address = `runs/${encodeURIComponent(run)}`;
+    document.getElementById("keep-report").href = `${address}/report`;
+    document.getElementById("keep-champion").href = `${address}/champion.json`;
+    const links = (this.formats || []).flatMap(({ name, endings }) => endings.map((ending, file) => {
+      const link = element("button", endings.length > 1 ? `${name} ${ending}` : name, "small");
+      link.type = "button";
+      link.addEventListener("click", () => this.export(run, name, file));
+      return link;
+    }));
+    document.getElementById("keep-exports").replaceChildren("Export:", ...links);
+  }
+
+  say(text) { document.getElementById("keep-result").textContent = text; }
+
+  // Fetched first, so that what is wrong can be said.
+  async export(run, format, file) {
+    this.say(`${format} is being made …`);
+    const answer = await fetch(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
+    if (!answer.ok) return this.say(await answer.text());
+    const name = /filename="([^"]*)"/.exec(answer.headers.get("content-disposition"))?.[1] || format;
+    const link = element("a");
+    link.href = URL.createObjectURL(await answer.blob());
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    return this.say(`${name} is saved.`);
+  }
+
+  async verify() {
+    this.say("The champion is played again …");
+    const answer = await fetch(`runs/${encodeURIComponent(this.watch.run)}/verify`);
+    if (!answer.ok) return this.say(await answer.text());
+    const { identical, diverges_at_step: step } = await answer.json();
+    return this.say(identical ? "Identical: the champion does to the bit what its file says." : `Not identical: it differs from step ${step} on.`);
+  }
+
+  async read(file) {
+    if (!file) return;
+    let parsed;
+    try { parsed = JSON.parse(await file.text()); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
+    if (parsed?.format === "gambol creature") this.draw(parsed);
+    else this.connection.ask({ do: "open-champion", champion: parsed });
+  }
+}

@@ -1,0 +1,250 @@
+// The studio: its chapters, its keys, its one loop, and how it begins.
+
+const CHAPTERS = ["watch", "choose", "draw", "play", "keep"];
+const TOUR = [
+  ["watch", "Watch", "A whole generation runs at once: the best is solid, the others are half transparent. Each generation begins where the last one ended."],
+  ["choose", "Choose", "Pick a creature and a movement, and press Train. Everything else has a default that works."],
+  ["draw", "Draw", "Draw a body of your own: drag parts, join them, give them motors, and press K to see it learn."],
+  ["play", "Play", "Push the champion, tilt the world, put a box in its way. One that was trained for “playing” obeys the arrow keys."],
+  ["keep", "Keep", "All runs stay. Open one, verify it, make a GIF or a character for your game of it."],
+];
+
+class Studio {
+  constructor() {
+    const address = new URL("socket", location.href);
+    address.protocol = "ws:";
+    address.hash = "";
+    this.connection = new Connection(address);
+    this.arena = new Arena(document.getElementById("arena-canvas"), this.connection);
+    this.watch = new Watch(this.connection, this.arena);
+    this.watch.refuse = text => this.refuse(text);
+    this.play = new Play(this.connection, this.arena);
+    this.choose = new Choose(this.connection, () => this.go("watch"));
+    this.keep = new Keep(this.connection, this.watch, {
+      open: run => { this.connection.ask({ do: "open", run }); this.go("watch"); },
+      draw: creature => { this.go("draw"); this.editor.load(creature); },
+    });
+    this.who = "population";
+    this.listen();
+    this.buildControls();
+    this.buildReadouts();
+    this.connection.ask({ do: "look" });
+    const chapter = location.hash.slice(2);
+    this.go(CHAPTERS.includes(chapter) ? chapter : "watch");
+  }
+
+  listen() {
+    const { connection } = this;
+    connection.on("refused", ({ request, reason }) => {
+      // Before there is anything to show, nothing is wrong.
+      if (request !== "show" && request !== "advance") this.refuse(reason);
+    });
+    connection.on("catalogue", catalogue => this.begin(catalogue));
+    connection.on("opened", event => {
+      this.opened = event;
+      this.shown = null;
+      this.connection.ask({ do: "look" });
+      this.showAgain();
+    });
+    connection.on("generations", () => { if (!this.shown) this.showAgain(); });
+    connection.onState = on => {
+      document.body.classList.toggle("offline", !on);
+      if (on && this.wasOff) {
+        this.refuse("");
+        if (this.opened?.run) connection.ask({ do: "open", run: this.opened.run });
+      } else if (!on) this.refuse("The studio does not answer. What was trained is saved; the page goes on as soon as the program does.");
+      this.wasOff = !on;
+    };
+    this.arena.onEnter = event => {
+      this.shown = event;
+      this.play.enter(event);
+      const who = event.who === "population" ? `generation ${fixed(event.generation, 0)}, ${count(event.actors, "creature", "creatures")}`
+        : `the champion, of generation ${fixed(event.generation, 0)}`;
+      document.getElementById("arena-caption").textContent = who;
+    };
+    this.arena.onHit = hit => this.chapter === "play" && this.play.push(hit);
+    document.addEventListener("keydown", event => this.key(event));
+    window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readTheme(); loop.redrawAll(); });
+  }
+
+  // The first time: what was asked for on the command line, else the latest run, else a biped that learns to run.
+  begin({ runs, creatures }) {
+    if (this.begun) return;
+    this.begun = true;
+    const asked = new URLSearchParams(location.search);
+    if (asked.get("creature")) {
+      this.choose.choice.creature = asked.get("creature");
+      this.go("choose");
+      this.choose.fill(this.choose.catalogue);
+    } else if (asked.get("run")) this.connection.ask({ do: "open", run: asked.get("run") });
+    else if (runs.length) this.connection.ask({ do: "open", run: runs[0].run });
+    else if (creatures.length) this.connection.ask({ do: "train", choice: { creature: "biped-1", movement: "running" } });
+  }
+
+  go(chapter) {
+    const before = this.chapter;
+    this.chapter = chapter;
+    for (const section of document.querySelectorAll("main > section")) section.hidden = !section.dataset.chapters.split(" ").includes(chapter);
+    for (const button of document.querySelectorAll("nav button")) {
+      if (button.dataset.chapter === chapter) button.setAttribute("aria-current", "page"); else button.removeAttribute("aria-current");
+    }
+    history.replaceState(null, "", `#/${chapter}`);
+    this.play.active = chapter === "play";
+    if (chapter === "draw" && !this.editor) this.buildEditor();
+    if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
+    if (before && before !== chapter && (chapter === "play" || before === "play")) this.showAgain();
+    if (chapter === "play") document.getElementById("arena-canvas").focus();
+  }
+
+  buildEditor() {
+    let number = 0;
+    const waiting = new Map();
+    this.connection.on("checked", ({ number: of, problems }) => { waiting.get(of)?.(problems); waiting.delete(of); });
+    this.editor = new Editor(document.getElementById("draw-editor"), {
+      check: creature => new Promise(resolve => {
+        number += 1;
+        waiting.set(number, resolve);
+        this.connection.ask({ do: "check", creature, number });
+      }),
+      changed: () => {},
+      play: creature => {
+        this.choose.setDrawn(creature);
+        this.choose.train();
+      },
+    });
+    const creatures = this.choose.catalogue?.creatures;
+    if (creatures) this.editor.load(this.watch.config?.creature || creatures[0]);
+  }
+
+  showAgain() {
+    if (!this.opened) return;
+    if (this.chapter === "play") this.play.begin();
+    else this.connection.ask({ do: "show", who: this.who });
+  }
+
+  buildControls() {
+    const get = name => document.getElementById(name);
+    const { arena } = this;
+    const play = get("show-play");
+    const label = () => {
+      play.textContent = arena.playing ? "❚❚" : "▶";
+      play.setAttribute("aria-label", arena.playing ? "Pause the picture" : "Let the picture go on");
+      get("show-follow").setAttribute("aria-pressed", String(arena.follow));
+    };
+    this.toggle = () => { arena.playing = !arena.playing; label(); };
+    arena.onFollow = label;
+    get("show-again").textContent = "⟲";
+    play.addEventListener("click", this.toggle);
+    get("show-again").addEventListener("click", () => this.showAgain());
+    get("show-speed").addEventListener("change", event => { arena.speed = Number(event.target.value); });
+    get("show-who").addEventListener("change", event => { this.who = event.target.value; this.showAgain(); });
+    get("show-follow").addEventListener("click", () => { arena.follow = !arena.follow; label(); });
+    get("show-in").addEventListener("click", () => arena.zoomBy(1.25));
+    get("show-out").addEventListener("click", () => arena.zoomBy(0.8));
+    label();
+    for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => this.go(button.dataset.chapter));
+    for (const button of document.querySelectorAll("[data-copy]")) {
+      button.addEventListener("click", () => navigator.clipboard?.writeText(get(button.dataset.copy).textContent));
+    }
+    get("notice").querySelector("button").addEventListener("click", () => this.refuse(""));
+    get("tour").addEventListener("click", () => this.tour(0));
+    get("tour-next").addEventListener("click", () => this.tour(this.tourStep + 1));
+    get("tour-back").addEventListener("click", () => this.tour(this.tourStep - 1));
+    get("tour-close").addEventListener("click", () => get("tour-dialog").close());
+  }
+
+  tour(step) {
+    const dialog = document.getElementById("tour-dialog");
+    if (step >= TOUR.length) return dialog.close();
+    this.tourStep = Math.max(step, 0);
+    const [chapter, title, text] = TOUR[this.tourStep];
+    this.go(chapter);
+    document.getElementById("tour-title").textContent = `${this.tourStep + 1} of ${TOUR.length}: ${title}`;
+    document.getElementById("tour-text").textContent = text;
+    document.getElementById("tour-back").disabled = this.tourStep === 0;
+    if (!dialog.open) dialog.showModal();
+    return undefined;
+  }
+
+  buildReadouts() {
+    const list = document.getElementById("arena-readouts");
+    this.readouts = {};
+    for (const [name, unit] of [["time", "s"], ["distance", "m"], ["height", "m"]]) {
+      const group = element("div");
+      const value = element("dd");
+      const number = element("span", "–");
+      value.append(number, `\u00a0${unit}`);
+      group.append(element("dt", name), value);
+      list.append(group);
+      this.readouts[name] = number;
+    }
+  }
+
+  readOut() {
+    const { arena } = this;
+    if (!arena.now) return;
+    const at = Math.min(arena.followed, arena.now.actors - 1) * arena.now.size;
+    this.readouts.time.textContent = fixed(arena.seconds, 1);
+    this.readouts.distance.textContent = fixed(arena.now.poses[at] - arena.origin, 2);
+    this.readouts.height.textContent = fixed(arena.now.poses[at + 1], 2);
+  }
+
+  refuse(text) {
+    const notice = document.getElementById("notice");
+    notice.hidden = !text;
+    notice.querySelector("p").textContent = text;
+  }
+
+  key(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, dialog, .editor")) return;
+    const chapter = CHAPTERS[Number(event.key) - 1];
+    if (chapter && this.chapter !== "draw") return void this.go(chapter);
+    if (this.chapter !== "watch" && this.chapter !== "play") return;
+    if (event.key === "f" || event.key === "F") document.getElementById("show-follow").click();
+    else if (event.key === "+" || event.key === "=") this.arena.zoomBy(1.25);
+    else if (event.key === "-" || event.key === "−") this.arena.zoomBy(0.8);
+    else if (event.key === "r" || event.key === "R") this.showAgain();
+    else if (event.key === " " && this.chapter === "watch" && !event.target.closest("button")) { event.preventDefault(); this.toggle(); }
+  }
+
+  // A generation is shown for a while; then the next is, if there is one.
+  next() {
+    const shown = this.shown;
+    if (!shown || this.chapter !== "watch" || !this.arena.playing) return;
+    const seconds = this.arena.seconds;
+    const newer = this.watch.last && this.watch.last.generation !== shown.generation;
+    const lasts = shown.who === "population" ? 5 : 10;
+    if (seconds < lasts) return;
+    if (!newer && this.watch.state === "paused" && document.getElementById("run-pace").value === "shown") this.connection.ask({ do: "step" });
+    if (!newer && seconds < 4 * lasts) return;
+    this.shown = null;
+    this.showAgain();
+  }
+
+  start() {
+    readTheme();
+    loop.start();
+    let last = performance.now();
+    let counted = 0, since = last;
+    const frame = stamp => {
+      const seconds = Math.min((stamp - last) / 1000, 0.1);
+      last = stamp;
+      if (this.arena.visible) {
+        this.arena.tick(Math.max(seconds, 0));
+        this.arena.draw();
+        this.readOut();
+        this.next();
+        counted += 1;
+      }
+      if (stamp - since > 1000) {
+        document.body.dataset.frames = Math.round(counted * 1000 / (stamp - since));
+        [counted, since] = [0, stamp];
+      }
+      if (this.chapter === "watch") this.watch.draw(stamp);
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+}
+
+new Studio().start();

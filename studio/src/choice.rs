@@ -1,0 +1,201 @@
+//! From what was chosen on a page to a configuration, and to the command line that does the same.
+
+use crate::protocol::{Choice, Described, Mistake};
+use creatures::{Blueprint, Creature, CreatureError};
+use gambol_runs::{
+    Registry,
+    config::RunConfig,
+    program_name,
+    request::{Request, RequestError},
+    setup::Setup,
+    shaping::Stages,
+    suggest,
+    texts::shell_word,
+};
+use serde_json::Value;
+use std::path::Path;
+
+/// Why a choice cannot be trained: in the words of the library, which name field and range.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+pub struct ChoiceError(String);
+
+impl From<RequestError> for ChoiceError {
+    fn from(error: RequestError) -> Self {
+        Self(error.to_string())
+    }
+}
+
+impl Choice {
+    /// The configuration, checked as the program checks it before it trains. A choice names things of the registry alone: no path from a
+    /// page is ever opened.
+    ///
+    /// # Errors
+    /// Says what is wrong, and where.
+    pub fn resolve(&self, registry: &Registry) -> Result<RunConfig, ChoiceError> {
+        let config = self.configure(registry, &self.set)?;
+        let wrong = |error: &dyn std::fmt::Display| ChoiceError(error.to_string());
+        Setup::new(&config, registry).map_err(|error| wrong(&error))?;
+        if !config.stages.is_empty() {
+            Stages::new(&config, registry).map_err(|error| wrong(&error))?;
+        }
+        Ok(config)
+    }
+
+    /// What the choice comes to, or what is wrong with it. `creatures`: the folder in which drawn creatures are kept, for the command.
+    pub fn describe(&self, registry: &Registry, creatures: &Path) -> Described {
+        let (config, problem) = match self.resolve(registry) {
+            Ok(config) => (Some(config), None),
+            Err(ChoiceError(problem)) => (None, Some(problem)),
+        };
+        let preset = self.configure(registry, &[]).ok();
+        Described { config, preset, problem, command: self.command(creatures) }
+    }
+
+    /// The creature that was drawn, if one was.
+    ///
+    /// # Errors
+    /// If it is not valid.
+    pub fn drawn_creature(&self) -> Result<Option<Creature>, ChoiceError> {
+        let Some(drawn) = &self.drawn else { return Ok(None) };
+        let blueprint = Blueprint::from_json(&drawn.to_string()).map_err(|error| ChoiceError(error.to_string()))?;
+        Ok(Some(blueprint.creature().clone()))
+    }
+
+    fn configure(&self, registry: &Registry, set: &[String]) -> Result<RunConfig, ChoiceError> {
+        let mut registry = registry.clone();
+        let name = match (self.drawn_creature()?, &self.creature) {
+            (Some(drawn), _) => {
+                let name = drawn.name.clone();
+                let json = serde_json::to_string(&drawn).map_err(|error| ChoiceError(error.to_string()))?;
+                registry.creatures.add_file(&json).map_err(|error| ChoiceError(error.to_string()))?;
+                name
+            }
+            (None, Some(name)) => name.clone(),
+            (None, None) => return Err(ChoiceError("creature: choose one, or draw one".into())),
+        };
+        // What is no name would be taken for a path.
+        registry.creatures.find(&name).map_err(|error| ChoiceError(error.to_string()))?;
+        if name.contains(['/', '\\']) || name.ends_with(".json") {
+            return Err(ChoiceError(suggest::unknown("creature", &name, &registry.creatures.names())));
+        }
+        let request = Request {
+            creature: Some(name),
+            movement: Some(self.movement.clone()),
+            preset: self.preset.clone(),
+            strategy: self.strategy.clone(),
+            terrain: self.terrain.clone(),
+            variation: self.variation.clone(),
+            set: set.to_vec(),
+            ..Request::default()
+        };
+        let mut config = request.resolve(&registry)?;
+        if let Some(seed) = self.seed {
+            config.seed = seed;
+        }
+        if let Some(generations) = self.generations {
+            config.stop.generations = Some(generations);
+        }
+        Ok(config)
+    }
+
+    /// What to type for the same run.
+    pub fn command(&self, creatures: &Path) -> String {
+        let drawn = self.drawn.as_ref().and_then(|drawn| drawn.get("name")?.as_str());
+        let creature = match drawn {
+            Some(name) => creatures.join(format!("{name}.json")),
+            None => self.creature.clone().unwrap_or_else(|| "CREATURE".into()).into(),
+        };
+        let word = |text: &str| shell_word(Path::new(text));
+        let mut command = format!("{} train {} {}", program_name(), shell_word(&creature), word(&self.movement));
+        let mut add = |flag: &str, value: Option<String>| {
+            if let Some(value) = value {
+                command.push_str(&format!(" --{flag} {}", word(&value)));
+            }
+        };
+        add("preset", self.preset.clone());
+        add("strategy", self.strategy.clone());
+        add("terrain", self.terrain.clone());
+        add("variation", self.variation.clone());
+        add("seed", self.seed.map(|seed| seed.to_string()));
+        add("generations", self.generations.map(|generations| generations.to_string()));
+        self.set.iter().for_each(|set| add("set", Some(set.clone())));
+        command
+    }
+}
+
+/// What is wrong with a creature, as in a file.
+pub fn check(creature: &Value) -> Vec<Mistake> {
+    match Blueprint::from_json(&creature.to_string()) {
+        Ok(_) => Vec::new(),
+        Err(CreatureError::Invalid(problems)) => problems.iter().map(Mistake::from).collect(),
+        Err(error) => vec![Mistake { place: String::new(), message: error.to_string() }],
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    fn choice(creature: &str, movement: &str) -> Choice {
+        Choice { creature: Some(creature.into()), movement: movement.into(), ..Choice::default() }
+    }
+
+    fn problem(choice: &Choice) -> String {
+        choice.describe(&Registry::default(), Path::new("runs/creatures")).problem.expect("something is wrong")
+    }
+
+    #[test]
+    fn a_choice_is_what_the_command_line_makes_of_it() {
+        let registry = Registry::default();
+        let choice =
+            Choice { seed: Some(7), set: vec!["controller.hidden=[4]".into()], ..choice("biped-1", "running") };
+        let described = choice.describe(&registry, Path::new("runs/creatures"));
+        assert_eq!(described.problem, None);
+        assert_eq!(described.command, "gambol train biped-1 running --seed 7 --set 'controller.hidden=[4]'");
+        let request = Request {
+            creature: Some("biped-1".into()),
+            movement: Some("running".into()),
+            set: choice.set.clone(),
+            ..Request::default()
+        };
+        let mut expected = request.resolve(&registry).expect("a configuration");
+        expected.seed = 7;
+        assert_eq!(described.config, Some(expected.clone()));
+        assert_ne!(described.preset, Some(expected));
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_in_the_words_of_the_library() {
+        assert!(problem(&choice("bipet-1", "running")).contains("did you mean \"biped-1\"?"));
+        assert!(problem(&choice("biped-1", "runing")).contains("did you mean \"running\"?"));
+        let set = |set: &str| Choice { set: vec![set.into()], ..choice("biped-1", "running") };
+        assert!(problem(&set("controller.input_range=-1")).contains("controller.input_range"));
+        assert!(problem(&Choice::default()).contains("creature"));
+    }
+
+    #[test]
+    fn no_path_is_opened() {
+        for path in ["../../etc/passwd", "/etc/passwd", "./biped.json", "creatures/shipped/biped-1.json", "x.json"] {
+            let problem = problem(&choice(path, "running"));
+            assert!(problem.contains("creature") && !problem.contains("cannot read"), "{problem}");
+        }
+    }
+
+    #[test]
+    fn a_drawn_creature_is_trained_under_its_name() {
+        let mut drawn = serde_json::to_value(creatures::find("tetrapod-1").expect("it is shipped")).expect("JSON");
+        drawn["name"] = json!("mine");
+        let choice = Choice { drawn: Some(drawn.clone()), ..choice("ignored", "running") };
+        let described = choice.describe(&Registry::default(), Path::new("runs/creatures"));
+        assert_eq!(described.config.map(|config| config.creature.name), Some("mine".into()));
+        assert_eq!(described.command, "gambol train runs/creatures/mine.json running");
+        assert_eq!(check(&drawn), []);
+        drawn["parts"][1]["shape"] = json!({"circle": {"radius": -1}});
+        let mistakes = check(&drawn);
+        assert!(mistakes.iter().any(|mistake| mistake.place.starts_with("parts[1].shape")), "{mistakes:?}");
+        assert!(problem(&Choice { drawn: Some(drawn), ..choice }).contains("parts[1].shape"));
+        assert_eq!(check(&json!({"name": "<b>"})).len(), 1);
+    }
+}

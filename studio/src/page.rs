@@ -1,0 +1,39 @@
+//! The page: its sources, put together. What reports and the studio both draw with is theirs in common.
+
+use gambol_reports::page::{
+    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT, script,
+};
+
+/// The page, which refers to *studio.css* and *studio.js* beside it.
+pub const PAGE: &str = include_str!("../assets/studio.html");
+
+const STYLES: &[&str] = &[STYLE, include_str!("../assets/studio.css"), include_str!("../assets/editor.css")];
+
+const SCRIPTS: &[&str] = &[
+    DATA_SCRIPT,
+    CLOCK_SCRIPT,
+    TERRAIN_SCRIPT,
+    STAGE_SCRIPT,
+    DRAWING_SCRIPT,
+    CHART_SCRIPT,
+    include_str!("../assets/connection.js"),
+    include_str!("../assets/arena.js"),
+    include_str!("../assets/watch.js"),
+    include_str!("../assets/choose.js"),
+    include_str!("../assets/play.js"),
+    include_str!("../assets/keep.js"),
+    include_str!("../assets/editor_geometry.js"),
+    include_str!("../assets/editor_panel.js"),
+    include_str!("../assets/editor.js"),
+    include_str!("../assets/studio.js"),
+];
+
+/// All styles as one.
+pub fn styles() -> String {
+    STYLES.join("\n")
+}
+
+/// All scripts as one.
+pub fn scripts() -> String {
+    script(SCRIPTS)
+}
