@@ -265,9 +265,10 @@ class Editor {
     this.edit(c => { this.selection = { kind: "part", index: addDrawnPart(c, this.shape, from, tip, part) }; });
   }
 
-  // Joins the selected part, else the topmost one, with the next one at a point.
+  // Joins the selected part, else the topmost one, with the next one at a point, or nearly there.
   joinAt(point, selected) {
-    const found = point ? partsAt(this.present, point) : [];
+    const around = point ? [0, this.hand.reach].map(reach => partsAt(this.present, point, reach)) : [[]];
+    const found = around.find(parts => parts.length > 1) || [];
     const [a, b] = found.includes(selected) ? [selected, ...found.filter(part => part !== selected)] : found;
     if (b === undefined) { this.say("No two parts overlap here."); return; }
     this.edit(c => {
@@ -281,7 +282,7 @@ class Editor {
   keyDown(event) {
     const { target, key } = event;
     const isNowhere = target === document.body;
-    if (event.defaultPrevented || !this.root.offsetParent || !(isNowhere || this.root.contains(target))) return;
+    if (event.defaultPrevented || !this.root.getClientRects().length || !(isNowhere || this.root.contains(target))) return;
     const field = target.closest("input, select, textarea");
     const isTyping = field && field.dataset.shown !== undefined && field.value !== field.dataset.shown;
     let isDone;
@@ -338,7 +339,9 @@ class EditorHand {
     });
     surface.addEventListener("wheel", event => {
       event.preventDefault();
-      canvas.zoomBy(Math.exp(-0.002 * editorBounded(event.deltaY, [-300, 300], 0)), canvas.pixel(event));
+      // Pinched touchpads report small steps with Ctrl held, some browsers report lines.
+      const step = event.deltaY * (event.ctrlKey ? 5 : 1) * (event.deltaMode ? 30 : 1);
+      canvas.zoomBy(Math.exp(-0.002 * editorBounded(step, [-300, 300], 0)), canvas.pixel(event));
     }, { passive: false });
   }
 
@@ -391,7 +394,11 @@ class EditorHand {
     const reach = pointerType === "touch" ? 22 : 9;
     const pan = { move: this.panning(pixel), click: () => editor.select(null) };
     if (button === 1 || this.isPanning) return { move: pan.move };
-    if (editor.tool === "part") return { move: this.drawing(world, altKey) };
+    if (editor.tool === "part") {
+      const [index] = partsAt(this.present, world);
+      const click = () => editor.select(index === undefined ? null : { kind: "part", index });
+      return { click, move: this.drawing(world, altKey) };
+    }
     if (editor.tool === "joint") return { move: pan.move, click: () => editor.joinAt(this.snapped(world, altKey), editor.part) };
     const handle = canvas.handles().find(({ at }) => Math.hypot(at[0] - pixel[0], at[1] - pixel[1]) <= reach);
     if (handle) return { move: this.pulling(handle) };
@@ -487,7 +494,7 @@ class EditorHand {
     const parent = below.includes(editor.part) ? editor.part : below[0] ?? -1;
     const isLimb = parent >= 0 || editor.shape === "capsule";
     return (world, isFree) => editor.preview(c => {
-      const to = isFree ? world : isLimb ? snappedTip(c, from, world, this.reach) : this.snapped(world, false);
+      const to = isFree ? world : isLimb ? snappedTip(c, editor.shape, from, world, this.reach) : this.snapped(world, false);
       const isTooSmall = Math.hypot(to[0] - from[0], to[1] - from[1]) < 0.02;
       if (isTooSmall || c.parts.length >= EDITOR_MOST_PARTS) return;
       editor.selection = { kind: "part", index: addDrawnPart(c, editor.shape, from, to, parent) };
@@ -535,7 +542,7 @@ class EditorCanvas {
     const [x, y] = this.world(at);
     stage.scale = editorBounded(stage.scale * factor, [4, 8000], 100);
     const [u, v] = this.world(at);
-    this.lookAt(stage.centreX + x - u, stage.raise + v - y);
+    this.lookAt(stage.centreX + x - u, stage.raise + y - v);
   }
 
   // Shows the whole creature, with room for legs around a small one.
@@ -561,10 +568,11 @@ class EditorCanvas {
 
   paintedAt([x, y]) {
     const { stage } = this;
+    const { ratio } = stage;
     const { model, pose } = this.models();
     const found = [...model.order].reverse().filter(({ index, decorations }) => {
       stage.partTransform(...pose.subarray(3 * index, 3 * index + 3));
-      return decorations.some(({ path, fill }) => fill && stage.context.isPointInPath(path, x * stage.ratio, y * stage.ratio));
+      return decorations.some(({ path, fill }) => fill && stage.context.isPointInPath(path, x * ratio, y * ratio));
     });
     stage.resetTransform();
     return found.map(part => part.index);
@@ -584,9 +592,10 @@ class EditorCanvas {
     const { present } = this.editor;
     const tree = hangingTree(present);
     const points = [...partEnds(present.parts[part]), present.parts[part].position, ...present.parts.flatMap(partEnds)];
+    const isApart = other => other !== part && tree.parent[other] !== part && tree.parent[part] !== other;
     return points.find(point => {
       const found = partsAt(present, point);
-      return found.includes(part) && found.some(other => other !== part && tree.parent[other] !== part && tree.parent[part] !== other);
+      return found.includes(part) && found.some(isApart);
     });
   }
 
@@ -699,16 +708,15 @@ class EditorCanvas {
 
   drawJoints() {
     const { present, joint: active } = this.editor;
-    const { stage } = this;
     const tree = hangingTree(present);
     present.joints.forEach((joint, index) => {
       const child = tree.joint.indexOf(index);
       const ends = [present.parts[child], present.parts[tree.parent[child]]].filter(Boolean);
-      for (const part of ends) if (shapeDistance(part.shape, worldToPart(part, joint.anchor)) > 0) this.drawTether(joint.anchor, part.position);
+      const isApart = part => shapeDistance(part.shape, worldToPart(part, joint.anchor)) > 0;
+      for (const part of ends.filter(isApart)) this.drawTether(joint.anchor, part.position);
       if (child >= 0) this.drawArc(joint, limitDirection(present.parts[child], joint.anchor), index === active);
     });
-    for (const [index, { anchor }] of present.joints.entries()) this.drawDot(this.screen(anchor), index === active ? 6 : 4.5, index === active);
-    stage.resetTransform();
+    present.joints.forEach(({ anchor }, index) => this.drawDot(this.screen(anchor), index === active ? 6 : 4.5, index === active));
   }
 
   // Shows that a hinge away from its part belongs to it.

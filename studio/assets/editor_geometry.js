@@ -11,6 +11,8 @@ const EDITOR_BOUNDS = {
 const EDITOR_WIDEST_RANGE = 340;
 const EDITOR_MOST_PARTS = 256;
 const EDITOR_LONGEST_NAME = 64;
+// Half the thickness of a limb when it is new, as a share of its length.
+const EDITOR_LIMB_HALF = 0.08;
 const EDITOR_LIMB_COLOURS = ["#3d405b", "#81b29a", "#f2cc8f", "#6d8fb3", "#b5838d"];
 const EDITOR_DEGREE = Math.PI / 180;
 
@@ -35,7 +37,7 @@ function emptyCreature() {
 function readableCreature(file) {
   const isObject = value => typeof value === "object" && value !== null && !Array.isArray(value);
   const objects = value => Array.isArray(value) ? value.filter(isObject) : [];
-  const pair = (value, otherwise, bounds) => [0, 1].map(i => typeof value?.[i] === "number" ? editorBounded(value[i], bounds) : otherwise[i]);
+  const pair = (value, otherwise, bounds) => [0, 1].map(i => editorBounded(value?.[i], bounds, otherwise[i]));
   let creature = JSON.parse(JSON.stringify(file ?? null));
   if (!isObject(creature)) creature = emptyCreature();
   creature.parts = objects(creature.parts).slice(0, EDITOR_MOST_PARTS);
@@ -197,7 +199,7 @@ function scaleSubtree(creature, index, factor) {
   const share = editorBounded(factor, [least / Math.min(...sizes), most / Math.max(...sizes)], 1);
   for (const part of parts) {
     const numbers = part.shape[shapeKind(part.shape)];
-    for (const name in numbers) numbers[name] = editorRounded(editorBounded(numbers[name] * share, EDITOR_BOUNDS.size, least));
+    for (const name in numbers) numbers[name] = editorRounded(editorBounded(numbers[name] * share, [least, most], least));
     stretchLook(part.look, share, share);
   }
   placeSubtree(creature, index, point => [x + (point[0] - x) * share, y + (point[1] - y) * share]);
@@ -207,8 +209,9 @@ function scaleSubtree(creature, index, factor) {
 // stretched along its own axes, which is exact unless it is turned and the factors differ.
 function stretchLook(look, sx, sy) {
   const size = Math.sqrt(Math.abs(sx * sy));
-  if (look?.corner_radius) look.corner_radius = editorRounded(editorBounded(look.corner_radius * size, EDITOR_BOUNDS.corner_radius, 0));
-  const point = p => [editorRounded(p[0] * sx), editorRounded(p[1] * sy)];
+  const radius = value => editorRounded(editorBounded(value * size, EDITOR_BOUNDS.corner_radius, 0));
+  if (look?.corner_radius) look.corner_radius = radius(look.corner_radius);
+  const point = place => [editorRounded((place?.[0] ?? 0) * sx), editorRounded((place?.[1] ?? 0) * sy)];
   for (const { form } of look?.decorations || []) {
     const turned = form?.ellipse || form?.rectangle;
     const points = form?.polygon || form?.line;
@@ -218,12 +221,30 @@ function stretchLook(look, sx, sy) {
     const [cos, sin] = turnedPoint([1, 0], turned.angle || 0);
     const axes = [Math.hypot(cos * sx, sin * sy), Math.hypot(sin * sx, cos * sy)];
     for (const name of ["radii", "size"]) {
-      if (Array.isArray(turned[name])) turned[name] = turned[name].map((value, i) => Math.max(editorRounded(value * axes[i]), 1e-4));
+      const sizes = turned[name];
+      if (Array.isArray(sizes)) turned[name] = sizes.map((value, i) => Math.max(editorRounded(value * axes[i]), 1e-4));
     }
     if (turned.angle) turned.angle = editorRounded(Math.atan(sin * sy / (cos * sx || 1e-9)) / EDITOR_DEGREE, 3);
-    if (turned.corner_radius) turned.corner_radius = editorRounded(turned.corner_radius * size);
+    if (turned.corner_radius) turned.corner_radius = radius(turned.corner_radius);
   }
-  if (size !== 1) for (const line of look?.decorations || []) if (line.width) line.width = editorRounded(Math.max(line.width * size, 1e-4));
+  if (size === 1) return;
+  for (const line of look?.decorations || []) if (line.width) line.width = editorRounded(Math.max(line.width * size, 1e-4));
+}
+
+// Stands a lying box on end in its own frame, which is turned instead: nothing is seen of it, but a capsule can take its place.
+function standOnEnd(part) {
+  const { box } = part.shape;
+  [box.width, box.height] = [box.height, box.width];
+  setAngle(part, (part.angle || 0) + 90);
+  const point = place => [place?.[1] ?? 0, 0 - (place?.[0] ?? 0)];
+  for (const { form } of part.look?.decorations || []) {
+    const turned = form?.ellipse || form?.rectangle;
+    const points = form?.polygon || form?.line;
+    if (Array.isArray(points?.points)) points.points = points.points.map(point);
+    if (!Array.isArray(turned?.centre)) continue;
+    turned.centre = point(turned.centre);
+    setAngle(turned, (turned.angle || 0) - 90);
+  }
 }
 
 // Gives a part another shape. What hangs on it moves along with the place it hangs at; the point `from` of the part's own
@@ -254,8 +275,9 @@ function reshapePart(creature, index, shape, from, to) {
 
 // Heights are counted from the ground: lifts a creature that reaches below it; `settle` also lowers one that floats.
 function groundCreature(creature, settle = false) {
-  const lowest = Math.min(...creature.parts.map(({ shape, position, angle = 0 }) => position[1] + lowestPoint(shape, angle * EDITOR_DEGREE)[1]));
-  if (!Number.isFinite(lowest) || Math.abs(lowest) < 2e-5 || (lowest > 0 && !settle)) return false;
+  const bottom = ({ shape, position, angle = 0 }) => position[1] + lowestPoint(shape, angle * EDITOR_DEGREE)[1];
+  const lowest = Math.min(...creature.parts.map(bottom));
+  if (!Number.isFinite(lowest) || Math.abs(lowest) < 5e-5 || (lowest > 0 && !settle)) return false;
   for (const part of creature.parts) part.position = roundedPoint([part.position[0], part.position[1] - lowest]);
   for (const joint of creature.joints) joint.anchor = roundedPoint([joint.anchor[0], joint.anchor[1] - lowest]);
   return true;
@@ -317,13 +339,16 @@ function snappedShift(creature, index, shift, reach) {
 
 // Where a limb ends that is drawn from a point: at another part's end or on the ground within reach, at an angle of whole
 // five degrees, a whole number of centimetres long.
-function snappedTip(creature, from, to, reach) {
+function snappedTip(creature, kind, from, to, reach) {
   const end = nearestEnd(creature, [], to, reach);
   if (end && Math.hypot(end[0] - from[0], end[1] - from[1]) > 2 * reach) return end;
   const direction = Math.round(Math.atan2(to[1] - from[1], to[0] - from[0]) / EDITOR_DEGREE / 5) * 5 * EDITOR_DEGREE;
   const [dx, dy] = [Math.cos(direction), Math.sin(direction)];
   const isOnGround = Math.abs(to[1]) <= reach && dy < -0.2 && from[1] > reach;
-  const length = isOnGround ? from[1] / -dy : editorRounded(Math.hypot(to[0] - from[0], to[1] - from[1]), 2);
+  // What touches the ground of a turned limb is its round end, or the corner of a box.
+  const half = kind === "circle" ? 0.5 : EDITOR_LIMB_HALF;
+  const drop = kind === "box" ? half * Math.abs(dx) - dy : half - dy * (1 - half);
+  const length = isOnGround ? from[1] / drop : editorRounded(Math.hypot(to[0] - from[0], to[1] - from[1]), 2);
   return [from[0] + dx * length, from[1] + dy * length];
 }
 
@@ -336,13 +361,14 @@ function pullSide(creature, index, axis, sign, point, isFree) {
   const snap = size => editorBounded(isFree ? size : editorRounded(size, 2), EDITOR_BOUNDS.size, half[axis] * 2);
   const { capsule } = part.shape;
   if (capsule && axis === 0) {
-    reshapePart(creature, index, { capsule: { ...capsule, radius: snap(2 * Math.abs(place)) / 2 } }, [0, 0], [0, 0]);
+    const radius = Math.max(snap(2 * Math.abs(place)) / 2, EDITOR_BOUNDS.size[0]);
+    reshapePart(creature, index, { capsule: { ...capsule, radius } }, [0, 0], [0, 0]);
     return;
   }
   const size = snap(Math.max((place - opposite) * sign, 0));
   const shape = structuredClone(part.shape);
   if (shape.box) shape.box[axis ? "height" : "width"] = size;
-  else if (capsule) shape.capsule.length = editorRounded(editorBounded(size - 2 * capsule.radius, EDITOR_BOUNDS.size, capsule.length));
+  else if (capsule) shape.capsule.length = Math.max(editorRounded(size - 2 * capsule.radius), EDITOR_BOUNDS.size[0]);
   else shape.circle.radius = Math.max(size / 2, EDITOR_BOUNDS.size[0]);
   const to = -sign * halfExtent(shape)[axis];
   reshapePart(creature, index, shape, axis ? [0, opposite] : [opposite, 0], axis ? [0, to] : [to, 0]);
@@ -390,7 +416,7 @@ function addDrawnPart(creature, kind, from, to, parent) {
     part.position = [from[0] + dx / 2, from[1] + dy / 2];
   } else {
     // The hinge lies as far inside as the limb is thick, so that it bends like a knee.
-    const half = Math.max(length * 0.08, 0.01);
+    const half = Math.max(length * EDITOR_LIMB_HALF, 0.01);
     part.shape = shapeOfKind(kind, [half, (length + half) / 2]);
     part.position = along((length - half) / 2);
     setAngle(part, Math.atan2(dy, dx) / EDITOR_DEGREE + 90);
@@ -401,12 +427,13 @@ function addDrawnPart(creature, kind, from, to, parent) {
   const count = creature.parts.length;
   const above = creature.parts[Math.max(parent, 0)];
   const isLeg = dy <= 0 || parent > 0;
-  part.name = uniqueName(creature, isTorso ? "body" : isLeg ? "leg" : "arm");
+  part.name = uniqueName(creature, isTorso ? "body" : isLeg ? "leg" : kind === "circle" ? "head" : "arm");
   if (!isTorso) part.tag = drivenTags(creature)[0] ?? "leg";
   if (!isTorso && !isLeg) part.leg = false;
-  const colour = isTorso ? "#e07a5f" : parent > 0 ? above.look?.colour : EDITOR_LIMB_COLOURS[(count - 1) % EDITOR_LIMB_COLOURS.length];
-  part.look = { colour: colour || PLAIN_COLOUR, layer: isTorso ? 0 : Math.max((above.look?.layer || 0) - 1, -100) };
-  if (part.shape.box) part.look.corner_radius = editorRounded(Math.min(part.shape.box.width, part.shape.box.height) * 0.35, 3);
+  const colours = isTorso ? ["#e07a5f"] : parent > 0 ? [above.look?.colour] : EDITOR_LIMB_COLOURS;
+  const layer = isTorso ? 0 : Math.max((above.look?.layer || 0) - 1, EDITOR_BOUNDS.layer[0]);
+  part.look = { colour: colours[Math.max(count - 1, 0) % colours.length] || PLAIN_COLOUR, layer };
+  if (part.shape.box) part.look.corner_radius = editorRounded(Math.min(...halfExtent(part.shape)) * 0.7, 3);
   creature.parts.push(part);
   if (parent >= 0) hangPart(creature, parent, count, from);
   return count;
@@ -415,7 +442,8 @@ function addDrawnPart(creature, kind, from, to, parent) {
 function hangPart(creature, parent, child, anchor, before = {}) {
   const reach = Math.hypot(...halfExtent(creature.parts[child].shape)) * 2;
   const { limits = [-60, 60], motor = fittingMotor(creature, reach) } = before;
-  creature.joints.push({ parent: creature.parts[parent].name, child: creature.parts[child].name, anchor: roundedPoint(anchor), limits, motor });
+  const [above, below] = [creature.parts[parent].name, creature.parts[child].name];
+  creature.joints.push({ parent: above, child: below, anchor: roundedPoint(anchor), limits, motor });
 }
 
 // Joins two parts. What is not part of the body yet hangs on what is; of two that are, the later on the earlier. Returns
@@ -429,11 +457,13 @@ function joinParts(creature, a, b, anchor) {
   }
   const chain = index => {
     const parts = [index];
-    while (tree.parent[parts.at(-1)] !== -1 && !parts.includes(tree.parent[parts.at(-1)])) parts.push(tree.parent[parts.at(-1)]);
+    for (const part of parts) if (tree.parent[part] !== -1 && !parts.includes(tree.parent[part])) parts.push(tree.parent[part]);
     return parts;
   };
   const [rootA, rootB] = [chain(a).at(-1), chain(b).at(-1)];
-  let [parent, child] = rootB === 0 && rootA !== 0 ? [b, a] : rootA === 0 && rootB !== 0 ? [a, b] : [Math.min(a, b), Math.max(a, b)];
+  const isBLoose = rootA === 0 && rootB !== 0;
+  const isALoose = rootB === 0 && rootA !== 0;
+  let [parent, child] = isBLoose || (!isALoose && a < b) ? [a, b] : [b, a];
   if (subtreeOf(tree, child).includes(parent)) [parent, child] = [child, parent];
   const before = creature.joints[tree.joint[child]];
   if (rootA !== rootB && chain(child).at(-1) !== 0) chain(child).forEach(i => turnJointRound(creature.joints[tree.joint[i]]));
