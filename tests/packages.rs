@@ -15,13 +15,20 @@ const LICENCES: [&str; 7] = ["MIT", "MIT-0", "Apache-2.0", "BSD-2-Clause", "BSD-
 const TOOLS: [(&str, &str); 1] = [("cbindgen", "MPL-2.0")];
 
 /// What is there in several versions, since those who use it have not agreed on one yet; how many, at the most.
-const SEVERAL_VERSIONS: [(&str, usize); 8] = [
+const SEVERAL_VERSIONS: [(&str, usize); 15] = [
+    ("block-buffer", 2),
+    ("cpufeatures", 2),
+    ("crypto-common", 2),
+    ("digest", 2),
     ("foldhash", 2),
     ("getrandom", 2),
     ("glam", 4),
     ("hashbrown", 3),
     ("miniz_oxide", 2),
     ("r-efi", 2),
+    ("rand", 2),
+    ("rand_chacha", 2),
+    ("rand_core", 2),
     ("syn", 2),
     ("winnow", 2),
 ];

@@ -203,6 +203,14 @@ impl Champion {
         archive::read(path, CHAMPION_FORMAT, CHAMPION_VERSION)
     }
 
+    /// The champion of a file with this text; `path`: what the file is called in an error.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn from_text(path: &Path, text: &str) -> Result<Self, ArchiveError> {
+        archive::parse(path, text.as_bytes(), CHAMPION_FORMAT, CHAMPION_VERSION)
+    }
+
     /// Writes the champion file, whole or not at all.
     ///
     /// # Errors

@@ -165,7 +165,15 @@ pub fn write(
 /// # Errors
 /// Any variant but `Write`; see [`ArchiveError`].
 pub fn read<C: DeserializeOwned>(path: &Path, format: &str, version: u32) -> Result<C, ArchiveError> {
-    let (content, digests) = read_content(path, format, version)?;
+    parse(path, &bytes_of(path)?, format, version)
+}
+
+/// Reads what a file has in it, from memory. `path`: what the file is called in an error.
+///
+/// # Errors
+/// Any variant but `Read` and `Write`; see [`ArchiveError`].
+pub fn parse<C: DeserializeOwned>(path: &Path, bytes: &[u8], format: &str, version: u32) -> Result<C, ArchiveError> {
+    let (content, digests) = parse_content(path, bytes, format, version)?;
     content.and_then(|content| match digests.expected == digests.found {
         true => Ok(content),
         false => Err(digests.damaged(path)),
@@ -192,20 +200,23 @@ impl Digests {
 /// # Errors
 /// As [`read`], without `Damaged`; `Content` only if a field around the content is missing or wrong.
 pub fn read_unverified(path: &Path, format: &str, version: u32) -> Result<(Value, Digests), ArchiveError> {
-    let (content, digests) = read_content(path, format, version)?;
+    let (content, digests) = parse_content(path, &bytes_of(path)?, format, version)?;
     Ok((content?, digests))
 }
 
+/// As bytes: should they not be UTF-8, the parser says where.
+fn bytes_of(path: &Path) -> Result<Vec<u8>, ArchiveError> {
+    bounded_read::read(path, LARGEST_DATA).map_err(|source| ArchiveError::Read { path: path.into(), source })
+}
+
 /// The content, or what is wrong with it, and the digests; an error if there is something wrong around it.
-fn read_content<C: DeserializeOwned>(
+fn parse_content<C: DeserializeOwned>(
     path: &Path,
+    bytes: &[u8],
     format: &str,
     version: u32,
 ) -> Result<(Result<C, ArchiveError>, Digests), ArchiveError> {
-    // As bytes: should they not be UTF-8, the parser says where.
-    let bytes =
-        bounded_read::read(path, LARGEST_DATA).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
-    let mut reader = serde_json::Deserializer::from_slice(&bytes);
+    let mut reader = serde_json::Deserializer::from_slice(bytes);
     let header = read_header(&mut reader).and_then(|header| reader.end().map(|()| header));
     let header = header.map_err(|error| malformed(path, &error))?;
     if header.format.as_str() != Some(format) {
@@ -217,14 +228,14 @@ fn read_content<C: DeserializeOwned>(
         let found = u32::try_from(found).unwrap_or(u32::MAX);
         return Err(ArchiveError::Version { path: path.into(), found, supported: version });
     }
-    let envelope: Envelope<IgnoredAny> = parsed(path, &bytes)?;
+    let envelope: Envelope<IgnoredAny> = parsed(path, bytes)?;
     let digests = Digests { expected: envelope.digest, found: header.found.unwrap_or_default() };
     if digests.expected != digests.found {
         // What was changed is more telling than what it was changed to.
-        let content = parsed::<Envelope<C>>(path, &bytes).map(|envelope| envelope.content);
+        let content = parsed::<Envelope<C>>(path, bytes).map(|envelope| envelope.content);
         return Ok((content.map_err(|_| digests.clone().damaged(path)), digests));
     }
-    Ok((parsed::<Envelope<C>>(path, &bytes).map(|envelope| envelope.content), digests))
+    Ok((parsed::<Envelope<C>>(path, bytes).map(|envelope| envelope.content), digests))
 }
 
 /// What can be known of a file before its content is understood.

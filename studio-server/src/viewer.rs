@@ -9,7 +9,7 @@ use envs_rapier::RapierEnvironment;
 use gambol_runs::{Registry, champion::Champion, config::RunConfig, judge::Judge};
 use ne_core::Seed;
 use serde_json::Value;
-use std::sync::Arc;
+use std::{path::Path, sync::Arc};
 use studio::{
     Arena, Entrant, choice,
     protocol::{Event, Opened, Request, RunState, Verdict, Who},
@@ -32,6 +32,8 @@ pub struct Viewer {
     look: Arc<()>,
     /// A champion that was opened from a file, in place of a run.
     guest: Option<Box<Champion>>,
+    /// The champion that was shown last.
+    shown: Option<Box<Champion>>,
     told: Told,
     arena: Option<Arena>,
     number: u32,
@@ -62,7 +64,7 @@ impl Viewer {
     /// A page that sees nothing yet.
     pub fn new(library: Arc<Library>) -> Self {
         let told = Told::default();
-        Self { library, session: None, look: Arc::new(()), guest: None, told, arena: None, number: 0 }
+        Self { library, session: None, look: Arc::new(()), guest: None, shown: None, told, arena: None, number: 0 }
     }
 
     /// Answers a message.
@@ -117,7 +119,9 @@ impl Viewer {
             }
             Request::Train { choice } => return Ok(self.open(library.train(&choice)?)),
             Request::Open { run } => return Ok(self.open(library.open(&run)?)),
-            Request::OpenChampion { champion } => return self.open_champion(champion),
+            Request::OpenChampion { name, text } => {
+                return self.open_champion(Champion::from_text(Path::new(&name), &text)?);
+            }
             Request::Pause => return self.control(|session| session.pause()),
             Request::Step => return self.control(|session| session.step()),
             Request::Stop => return self.control(|session| session.stop()),
@@ -151,7 +155,7 @@ impl Viewer {
 
     fn open(&mut self, session: Arc<Session>) -> Vec<Reply> {
         // What worked for the run that was open may end.
-        self.look = Arc::new(());
+        (self.look, self.shown) = (Arc::new(()), None);
         session.judge_champions(&Arc::downgrade(&self.look));
         let opened = session.opened();
         (self.session, self.guest, self.arena, self.told) = (Some(session), None, None, Told::default());
@@ -162,8 +166,7 @@ impl Viewer {
     }
 
     /// Opens a champion that a page has read from a file.
-    fn open_champion(&mut self, champion: Value) -> Result<Vec<Reply>, Refusal> {
-        let champion = champion_of(champion)?;
+    fn open_champion(&mut self, champion: Champion) -> Result<Vec<Reply>, Refusal> {
         let registry = self.library.registry();
         let config =
             registry.config(registry.presets.first().name, champion.creature.clone(), &champion.movement.name)?;
@@ -193,7 +196,16 @@ impl Viewer {
                 let champion = self.guest.as_deref().cloned().or_else(|| session?.champion());
                 let champion = champion.ok_or("there is no champion yet")?;
                 let world = world_of_champion(&champion, terrain, friction, &registry)?;
-                let entrants = vec![Entrant { network: champion.network, fitness: Some(champion.fitness) }];
+                let mut entrants = vec![entrant(&champion)];
+                if who == Who::Champions {
+                    let is_ghost = |before: &&Champion| {
+                        let fits = before.inputs == champion.inputs && before.outputs == champion.outputs;
+                        fits && before.generation != champion.generation
+                    };
+                    let before = self.shown.as_deref().filter(is_ghost);
+                    entrants.extend(before.map(entrant));
+                    self.shown = Some(Box::new(champion.clone()));
+                }
                 (Arena::new(&world, &entrants, Seed::of_run(0))?, "champion", champion.generation, entrants)
             }
         };
@@ -233,12 +245,8 @@ fn name_of(message: &str) -> String {
     value["do"].as_str().unwrap_or_default().to_owned()
 }
 
-fn champion_of(file: Value) -> Result<Champion, Refusal> {
-    // A champion's file has a header around it.
-    let folder = tempfile::tempdir()?;
-    let path = folder.path().join("champion.json");
-    std::fs::write(&path, file.to_string())?;
-    Ok(Champion::read(&path)?)
+fn entrant(champion: &Champion) -> Entrant {
+    Entrant { network: champion.network.clone(), fitness: Some(champion.fitness) }
 }
 
 /// The world of a generation's first trial.

@@ -243,7 +243,7 @@ fn a_champion_is_pushed_tilted_and_told_and_what_cannot_be_is_refused() -> Outco
             json!({ "do": "train", "choice": { "creature": "biped-1", "movement": "runing" } }),
             "did you mean \"running\"?",
         ),
-        (json!({ "do": "open-champion", "champion": {} }), "champion"),
+        (json!({ "do": "open-champion", "name": "mine.json", "text": "{}" }), "mine.json"),
         (json!({ "do": "keep", "creature": { "name": "x" } }), "missing field"),
     ];
     for (request, reason) in refused {

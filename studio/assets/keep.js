@@ -86,9 +86,11 @@ class Keep {
 
   async read(file) {
     if (!file) return;
+    const text = await file.text();
     let parsed;
-    try { parsed = JSON.parse(await file.text()); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
+    try { parsed = JSON.parse(text); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
     if (parsed?.format === "gambol creature") this.draw(parsed);
-    else this.connection.ask({ do: "open-champion", champion: parsed });
+    else this.connection.ask({ do: "open-champion", name: file.name, text });
+    return undefined;
   }
 }

@@ -18,11 +18,12 @@ class Studio {
     this.arena = new Arena(document.getElementById("arena-canvas"), this.connection);
     this.watch = new Watch(this.connection, this.arena);
     this.watch.refuse = text => this.refuse(text);
+    this.net = new LiveNet(this.arena);
     this.play = new Play(this.connection, this.arena);
     this.choose = new Choose(this.connection, () => this.go("watch"));
     this.keep = new Keep(this.connection, this.watch, {
       open: run => { this.connection.ask({ do: "open", run }); this.go("watch"); },
-      draw: creature => { this.go("draw"); this.editor.load(creature); },
+      draw: creature => { this.go("draw"); this.editor?.load(creature); },
     });
     this.who = "population";
     this.listen();
@@ -58,6 +59,7 @@ class Studio {
     this.arena.onEnter = event => {
       this.shown = event;
       this.play.enter(event);
+      this.net.enter(event);
       const who = event.who === "population" ? `generation ${fixed(event.generation, 0)}, ${count(event.actors, "creature", "creatures")}`
         : `the champion, of generation ${fixed(event.generation, 0)}`;
       document.getElementById("arena-caption").textContent = who;
@@ -71,10 +73,12 @@ class Studio {
   begin({ runs, creatures }) {
     if (this.begun) return;
     this.begun = true;
+    if (this.chapter === "draw") this.buildEditor();
     const asked = new URLSearchParams(location.search);
     if (asked.get("creature")) {
       this.choose.choice.creature = asked.get("creature");
-      this.go("choose");
+      // Unless somebody has been faster.
+      if (this.chapter === "watch") this.go("choose");
       this.choose.fill(this.choose.catalogue);
     } else if (asked.get("run")) this.connection.ask({ do: "open", run: asked.get("run") });
     else if (runs.length) this.connection.ask({ do: "open", run: runs[0].run });
@@ -90,13 +94,16 @@ class Studio {
     }
     history.replaceState(null, "", `#/${chapter}`);
     this.play.active = chapter === "play";
-    if (chapter === "draw" && !this.editor) this.buildEditor();
+    if (chapter === "draw") this.buildEditor();
     if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
     if (before && before !== chapter && (chapter === "play" || before === "play")) this.showAgain();
     if (chapter === "play") document.getElementById("arena-canvas").focus();
   }
 
+  // Once there are creatures.
   buildEditor() {
+    const creatures = this.choose.catalogue?.creatures;
+    if (this.editor || !creatures) return;
     let number = 0;
     const waiting = new Map();
     this.connection.on("checked", ({ number: of, problems }) => { waiting.get(of)?.(problems); waiting.delete(of); });
@@ -112,8 +119,8 @@ class Studio {
         this.choose.train();
       },
     });
-    const creatures = this.choose.catalogue?.creatures;
-    if (creatures) this.editor.load(this.watch.config?.creature || creatures[0]);
+    const chosen = creatures.find(({ name }) => name === this.choose.choice.creature);
+    this.editor.load(this.watch.config?.creature || chosen || creatures[0]);
   }
 
   showAgain() {
@@ -232,6 +239,7 @@ class Studio {
       if (this.arena.visible) {
         this.arena.tick(Math.max(seconds, 0));
         this.arena.draw();
+        this.net.draw();
         this.readOut();
         this.next();
         counted += 1;

@@ -1,10 +1,11 @@
 //! Creatures that move on the same ground at once, each with a net of its own.
 
 use crate::protocol::{ArenaData, ArenaError, Told};
-use creatures::Creature;
+use creatures::{Channel, Creature};
 use envs_core::{Engine, Ground, GroundShape};
 use envs_rapier::RapierEnvironment;
-use gambol_reports::page::ground::GroundData;
+use gambol_reports::page::{ground::GroundData, network::NetworkData};
+use gambol_runs::champion::ChannelRecord;
 use ne_core::{Fitness, Phenotype, Seed};
 use ne_net::Network;
 use tasks::{CommandChange, Commands, Environment};
@@ -92,7 +93,15 @@ impl Arena {
             time_step: self.time_step,
             ground: self.ground_data(),
             follows_commands: self.actors[0].world.commands().is_some(),
+            network: self.network(),
         }
+    }
+
+    /// The net of the first, with the names of what it hears and moves.
+    fn network(&self) -> NetworkData {
+        let Actor { world, network, .. } = &self.actors[0];
+        let records = |channels: &[Channel]| channels.iter().map(ChannelRecord::from).collect::<Vec<_>>();
+        NetworkData::new(network, &records(world.senses().channels()), &records(world.motors().channels()), &[])
     }
 
     /// The ground with all that was put in the way, for a page.

@@ -1,7 +1,8 @@
 //! The page: its sources, put together. What reports and the studio both draw with is theirs in common.
 
 use gambol_reports::page::{
-    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT, script,
+    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, NETWORK_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT,
+    script,
 };
 
 /// The page, which refers to *studio.css* and *studio.js* beside it.
@@ -16,15 +17,21 @@ const SCRIPTS: &[&str] = &[
     STAGE_SCRIPT,
     DRAWING_SCRIPT,
     CHART_SCRIPT,
+    NETWORK_SCRIPT,
     include_str!("../assets/connection.js"),
     include_str!("../assets/arena.js"),
+    include_str!("../assets/net.js"),
     include_str!("../assets/watch.js"),
     include_str!("../assets/choose.js"),
     include_str!("../assets/play.js"),
     include_str!("../assets/keep.js"),
     include_str!("../assets/editor_geometry.js"),
+    include_str!("../assets/editor_limbs.js"),
+    include_str!("../assets/editor_fields.js"),
     include_str!("../assets/editor_panel.js"),
     include_str!("../assets/editor.js"),
+    include_str!("../assets/editor_hand.js"),
+    include_str!("../assets/editor_canvas.js"),
     include_str!("../assets/studio.js"),
 ];
 

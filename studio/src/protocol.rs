@@ -1,7 +1,7 @@
 //! What a page and the studio say to each other. A message is JSON; only what moves comes as [numbers](crate::Arena::frame).
 
 use creatures::{Creature, Problem};
-use gambol_reports::page::ground::GroundData;
+use gambol_reports::page::{ground::GroundData, network::NetworkData};
 use gambol_runs::{Registry, champion::Champion, config::RunConfig, gait};
 use ne_core::{Failure, GenerationReport};
 use serde::{Deserialize, Serialize};
@@ -43,8 +43,10 @@ pub enum Request {
     },
     /// From now on this champion, from a file of the user's, is what the page sees.
     OpenChampion {
-        /// The file.
-        champion: Value,
+        /// What the file is called.
+        name: String,
+        /// Its text: as numbers of JavaScript it would be another file.
+        text: String,
     },
     /// Let the open run wait before its next generation.
     Pause,
@@ -109,6 +111,8 @@ pub enum Who {
     Population,
     /// The champion.
     Champion,
+    /// The champion, and as its ghost the one that was shown before it.
+    Champions,
 }
 
 /// What a body is told to do.
@@ -381,6 +385,8 @@ pub struct ArenaData {
     pub ground: Option<GroundData>,
     /// Whether it does what it is told.
     pub follows_commands: bool,
+    /// The net of the first.
+    pub network: NetworkData,
 }
 
 /// Why something cannot be shown, or not be done to what is shown.

@@ -1,6 +1,7 @@
 //! What all pages have in common: their look, their charts, and how data and text get into them.
 
 pub mod ground;
+pub mod network;
 
 use base64::{Engine, engine::general_purpose::STANDARD};
 use sha2::{Digest, Sha256};
@@ -22,6 +23,9 @@ pub const STAGE_SCRIPT: &str = include_str!("assets/stage.js");
 
 /// The script that draws creatures.
 pub const DRAWING_SCRIPT: &str = include_str!("assets/drawing.js");
+
+/// The script of nets at work.
+pub const NETWORK_SCRIPT: &str = concat!(include_str!("assets/network_layout.js"), include_str!("assets/network.js"));
 
 /// The script of charts.
 pub const CHART_SCRIPT: &str = include_str!("assets/chart.js");

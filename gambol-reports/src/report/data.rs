@@ -4,10 +4,9 @@ use super::{
     front::FrontData,
     gait::GaitData,
     history::{HistoryPoint, SpeciesHistory, StatisticHistory},
-    network::NetworkData,
     stages::StageData,
 };
-use crate::page::ground::GroundData;
+use crate::page::{ground::GroundData, network::NetworkData};
 use creatures::{Creature, Terrain};
 use envs_rapier::PhysicsSettings;
 use gambol_runs::{Registry, champion::Champion, config::RunConfig, strategies::StrategyEntry, trajectory::Recording};

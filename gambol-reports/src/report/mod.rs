@@ -6,7 +6,6 @@ mod divergence;
 mod front;
 mod gait;
 mod history;
-mod network;
 mod page;
 mod replays;
 mod stages;

@@ -2,8 +2,8 @@
 
 use super::data::{Report, Summary};
 use crate::page::{
-    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT, data, escaped,
-    filled, policy, script,
+    CHART_SCRIPT, CLOCK_SCRIPT, DATA_SCRIPT, DRAWING_SCRIPT, NETWORK_SCRIPT, STAGE_SCRIPT, STYLE, TERRAIN_SCRIPT, data,
+    escaped, filled, policy, script,
 };
 
 const PAGE: &str = include_str!("assets/page.html");
@@ -19,8 +19,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("assets/species.js"),
     include_str!("assets/strip.js"),
     include_str!("assets/front.js"),
-    include_str!("assets/network_layout.js"),
-    include_str!("assets/network.js"),
+    NETWORK_SCRIPT,
     include_str!("assets/gait.js"),
     include_str!("assets/stages.js"),
     include_str!("assets/page.js"),

@@ -19,7 +19,7 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A key that can be pressed: its name, its code, and the number that browsers know it by.
 #[derive(Clone, Copy)]
-pub(crate) struct Key(&'static str, &'static str, u32);
+pub(crate) struct Key(pub(crate) &'static str, pub(crate) &'static str, pub(crate) u32);
 
 pub(crate) const TAB: Key = Key("Tab", "Tab", 9);
 pub(crate) const SPACE: Key = Key(" ", "Space", 32);
@@ -90,13 +90,18 @@ impl Browser {
 
     /// Opens a file in a window of this width, px, and waits until it is loaded. What an earlier page told is forgotten.
     pub(crate) fn open(&mut self, page: &Path, width: u32) {
+        self.visit(&format!("file://{}", page.display()), width);
+    }
+
+    /// The same with an address.
+    pub(crate) fn visit(&mut self, address: &str, width: u32) {
         let metrics = json!({ "width": width, "height": 800, "deviceScaleFactor": 1, "mobile": false });
         self.call("Emulation.setDeviceMetricsOverride", metrics);
         self.events.clear();
-        self.call("Page.navigate", json!({ "url": format!("file://{}", page.display()) }));
+        self.call("Page.navigate", json!({ "url": address }));
         let since = Instant::now();
         while !self.events.iter().any(|event| event["method"] == "Page.loadEventFired") {
-            assert!(since.elapsed() < PATIENCE, "{} is not loaded", page.display());
+            assert!(since.elapsed() < PATIENCE, "{address} is not loaded");
             self.hear();
         }
     }
@@ -112,7 +117,7 @@ impl Browser {
 
     pub(crate) fn press(&mut self, Key(key, code, number): Key) {
         for kind in ["keyDown", "keyUp"] {
-            let text = if key == " " && kind == "keyDown" { " " } else { "" };
+            let text = if key.len() == 1 && kind == "keyDown" { key } else { "" };
             let how = json!({ "type": kind, "key": key, "code": code, "windowsVirtualKeyCode": number, "text": text });
             self.call("Input.dispatchKeyEvent", how);
         }
@@ -141,10 +146,9 @@ impl Browser {
     }
 
     /// What was asked for since the page was opened, but for the page and for data that stand in addresses.
-    pub(crate) fn requests(&self, page: &Path) -> Vec<String> {
+    pub(crate) fn requests(&self, own: &str) -> Vec<String> {
         let asked = self.events.iter().filter(|event| event["method"] == "Network.requestWillBeSent");
         let addresses = asked.filter_map(|event| event["params"]["request"]["url"].as_str());
-        let own = format!("file://{}", page.display());
         addresses.filter(|address| *address != own && !address.starts_with("data:")).map(str::to_owned).collect()
     }
 

@@ -4,6 +4,7 @@
 
 mod browser;
 mod kinds;
+mod studio;
 
 use browser::{Browser, RIGHT, SPACE, TAB};
 use kinds::{KINDS, Kind};
@@ -41,7 +42,24 @@ fn main() -> ExitCode {
         trial("a click on a point of a front plays it".into(), check_front, &FRONT),
         trial("names of a creature run no script".into(), check_hostile, &HOSTILE),
     ];
-    libtest_mimic::run(&arguments, every.chain(others).collect()).exit_code()
+    let chapter = |name: &str, check: fn(&mut Browser, &Path)| {
+        let program = program.clone();
+        let run = move || -> Result<(), Failed> {
+            check(&mut Browser::start(&program), tempfile::tempdir()?.path());
+            Ok(())
+        };
+        Trial::test(format!("the studio {name}"), run).with_ignored_flag(ignored)
+    };
+    let studio = [
+        chapter("begins with a biped that learns to run", studio::begins),
+        chapter("trains what is chosen", studio::chooses),
+        chapter("lets a champion be played with", studio::plays),
+        chapter("trains what is drawn", studio::draws),
+        chapter("keeps, verifies and exports", studio::keeps),
+        chapter("fits a phone and a wall, and names its controls", studio::fits),
+        chapter("does nothing that a creature's name says", studio::hostile),
+    ];
+    libtest_mimic::run(&arguments, every.chain(others).chain(studio).collect()).exit_code()
 }
 
 /// What holds for every page.
@@ -57,7 +75,7 @@ fn check_page(browser: &mut Browser, page: &Path, kind: &Kind) {
             check_replay(browser);
         }
         assert_eq!(browser.complaints(), [""; 0], "errors, {width} px");
-        assert_eq!(browser.requests(page), [""; 0], "requests, {width} px");
+        assert_eq!(browser.requests(&format!("file://{}", page.display())), [""; 0], "requests, {width} px");
     }
     let headings = browser.evaluate("[...document.querySelectorAll('h1')].map(heading => heading.textContent.trim())");
     assert!(texts(&headings).iter().any(|heading| !heading.is_empty()), "a page has a heading");
@@ -126,7 +144,7 @@ fn check_hostile(browser: &mut Browser, page: &Path, _: &Kind) {
     let heading = browser.evaluate("document.body.textContent.includes('window.hostile=1')");
     assert_eq!(heading, true, "the names are shown as they are");
     assert_eq!(browser.complaints(), [""; 0]);
-    assert_eq!(browser.requests(page), [""; 0]);
+    assert_eq!(browser.requests(&format!("file://{}", page.display())), [""; 0]);
     // Were one to slip in, the policy would stop it.
     browser.evaluate(
         "(() => { const script = document.createElement('script'); script.textContent = 'window.hostile=1'; \

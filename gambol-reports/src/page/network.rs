@@ -6,8 +6,8 @@ use serde::Serialize;
 
 /// A net as nodes and connections. Nodes are numbered: inputs first, then neurons in the order they are computed, so that
 /// a connection whose source is not before its target carries what the source put out in the step before.
-#[derive(Serialize)]
-pub(super) struct NetworkData {
+#[derive(Clone, Debug, Serialize)]
+pub struct NetworkData {
     nodes: Vec<Node>,
     inputs: usize,
     /// The node of each output.
@@ -18,7 +18,7 @@ pub(super) struct NetworkData {
     activations: Vec<Vec<i32>>,
 }
 
-#[derive(Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 struct Node {
     name: String,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -32,7 +32,7 @@ struct Node {
 
 impl NetworkData {
     /// The net, the names of its inputs and outputs, and what it did.
-    pub(super) fn new(
+    pub fn new(
         network: &Network,
         input_channels: &[ChannelRecord],
         output_channels: &[ChannelRecord],

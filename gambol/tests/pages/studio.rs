@@ -1,0 +1,322 @@
+//! The studio, used as a person would use it.
+
+use crate::browser::{Browser, Key};
+use serde_json::Value;
+use std::{
+    fs,
+    io::{BufRead, BufReader},
+    path::Path,
+    process::{Child, Command, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+
+const ONE: Key = Key("1", "Digit1", 49);
+const FOUR: Key = Key("4", "Digit4", 52);
+
+/// How long a chapter may take for anything.
+const PATIENCE: Duration = Duration::from_secs(90);
+
+/// A studio over the runs in a folder; it ends with this value.
+pub(crate) struct Studio {
+    process: Child,
+    pub(crate) url: String,
+}
+
+impl Studio {
+    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
+        let mut process = Command::new(env!("CARGO_BIN_EXE_gambol"))
+            .args(["studio", "--no-open", "--threads", "1"])
+            .args(arguments)
+            .current_dir(folder)
+            .stdout(Stdio::piped())
+            .spawn()
+            .expect("the studio starts");
+        let mut lines = BufReader::new(process.stdout.take().expect("a pipe")).lines();
+        let first = lines.next().expect("it tells its address").expect("text");
+        let url = first.strip_prefix("The studio is at ").expect("an address").to_owned();
+        thread::spawn(move || lines.for_each(drop));
+        Self { process, url }
+    }
+
+    fn origin(&self) -> &str {
+        let end = self.url.match_indices('/').nth(2).map_or(self.url.len(), |(end, _)| end);
+        &self.url[..end]
+    }
+}
+
+impl Drop for Studio {
+    fn drop(&mut self) {
+        // It may have ended by itself.
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+/// Waits until an expression is true.
+#[track_caller]
+fn wait(browser: &mut Browser, what: &str, expression: &str) {
+    let since = Instant::now();
+    while browser.evaluate(expression) != true {
+        if since.elapsed() > PATIENCE {
+            let says = browser.evaluate("document.body.innerText");
+            panic!("{what} never came; the page says: {says}\n{:?}", browser.complaints());
+        }
+        thread::sleep(Duration::from_millis(50));
+    }
+}
+
+fn text(browser: &mut Browser, id: &str) -> String {
+    browser.evaluate(&format!("document.getElementById('{id}').textContent")).as_str().unwrap_or_default().to_owned()
+}
+
+/// Presses the middle of an element as a pointer would.
+#[track_caller]
+fn click(browser: &mut Browser, selector: &str) {
+    let middle = format!(
+        "(() => {{ const found = document.querySelector({selector:?}); found.scrollIntoView({{ block: 'center' }}); \
+         const box = found.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]; }})()"
+    );
+    let place = browser.evaluate(&middle);
+    let at = |index: usize| place[index].as_f64().expect("a place");
+    browser.click(at(0), at(1));
+}
+
+/// Sets a field, and tells the page.
+fn set(browser: &mut Browser, selector: &str, value: &str) {
+    browser.evaluate(&format!(
+        "(() => {{ const field = document.querySelector({selector:?}); field.value = {value:?}; \
+         for (const kind of ['input', 'change']) field.dispatchEvent(new Event(kind, {{ bubbles: true }})); }})()"
+    ));
+}
+
+/// Neither errors nor requests to anybody else.
+#[track_caller]
+fn is_clean(browser: &Browser, studio: &Studio) {
+    assert_eq!(browser.complaints(), [""; 0], "errors");
+    let elsewhere: Vec<String> = browser.requests(&studio.url);
+    let elsewhere =
+        elsewhere.iter().filter(|address| !address.starts_with(studio.origin()) && !address.starts_with("blob:"));
+    assert_eq!(elsewhere.count(), 0, "requests to others");
+}
+
+/// A short training, begun by pointing.
+fn train(browser: &mut Browser, creature: &str, movement: &str, generations: u32) {
+    click(browser, "[data-chapter=choose]");
+    wait(browser, "the creatures", "document.querySelectorAll('#choose-creature label').length > 6");
+    browser.evaluate(&format!("document.querySelector('#choose-creature input[value={creature:?}]').click()"));
+    browser.evaluate(&format!("document.querySelector('#choose-movement input[value={movement:?}]').click()"));
+    set(browser, "#choose-generations", &generations.to_string());
+    wait(
+        browser,
+        "the command",
+        &format!("document.getElementById('choose-command').textContent.includes('--generations {generations}')"),
+    );
+    click(browser, "#choose-train");
+    wait(browser, "the end", "document.getElementById('run-state').textContent.includes('the generations were done')");
+}
+
+pub(crate) fn begins(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &[]);
+    browser.visit(&studio.url, 1280);
+    wait(browser, "a biped that learns", "/generation \\d+/.test(document.getElementById('run-state').textContent)");
+    wait(
+        browser,
+        "the first generation",
+        "/generation \\d+, 64 creatures/.test(document.getElementById('arena-caption').textContent)",
+    );
+    let moved = "(() => { const shown = document.querySelector('#arena-readouts dd').textContent; return parseFloat(shown) > 0.3; })()";
+    wait(browser, "a picture that moves", moved);
+    wait(browser, "a usable gait", "document.getElementById('verdict').textContent === 'Usable'");
+    wait(browser, "a chart", "document.querySelectorAll('#fitness-chart path').length > 1");
+    click(browser, "#run-pause");
+    wait(browser, "the pause", "document.getElementById('run-state').textContent.includes('training waits')");
+    let generation = |text: String| -> u32 {
+        let digits: String =
+            text.split("generation ").nth(1).expect("a generation").chars().take_while(char::is_ascii_digit).collect();
+        digits.parse().expect("a number")
+    };
+    let before = generation(text(browser, "run-state"));
+    click(browser, "#run-step");
+    wait(
+        browser,
+        "one generation",
+        &format!("document.getElementById('run-state').textContent.includes('generation {}')", before + 1),
+    );
+    click(browser, "#run-stop");
+    wait(browser, "the end", "document.getElementById('run-state').textContent.includes('interrupted')");
+    // The page is loaded anew: the run is there, and goes on.
+    browser.visit(&studio.url, 1280);
+    wait(
+        browser,
+        "the run",
+        &format!("document.getElementById('run-state').textContent.includes('generation {}')", before + 1),
+    );
+    set(browser, "#run-more", "50");
+    click(browser, "#run-go-on");
+    wait(
+        browser,
+        "more",
+        &format!("document.getElementById('run-state').textContent.includes('generation {}')", before + 51),
+    );
+    is_clean(browser, &studio);
+}
+
+pub(crate) fn chooses(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["tetrapod-1"]);
+    browser.visit(&studio.url, 1280);
+    wait(
+        browser,
+        "the choice",
+        "document.getElementById('choose-command').textContent === 'gambol train tetrapod-1 running'",
+    );
+    set(browser, "#settings-search", "population");
+    let field = "[data-key='strategy.cma-es.population']";
+    set(browser, field, "0");
+    wait(
+        browser,
+        "what is wrong",
+        "document.querySelector('.setting.wrong .problem')?.textContent.includes('population')",
+    );
+    assert_eq!(browser.evaluate("document.getElementById('choose-train').disabled"), true);
+    set(browser, field, "16");
+    wait(browser, "what is right", "!document.querySelector('.setting.wrong')");
+    assert!(text(browser, "choose-command").ends_with("--set 'strategy.cma-es.population=16'"));
+    assert!(text(browser, "settings-count").contains("1 is not as the preset has it"));
+    click(browser, "#settings-undo");
+    wait(browser, "the wrong one again", "document.querySelector('.setting.wrong') !== null");
+    click(browser, "#settings-undo");
+    wait(
+        browser,
+        "the preset",
+        "document.getElementById('choose-command').textContent === 'gambol train tetrapod-1 running'",
+    );
+    train(browser, "tetrapod-2", "jumping", 3);
+    let run = folder.join("runs/tetrapod-2-jumping");
+    let verified = Command::new(env!("CARGO_BIN_EXE_gambol"))
+        .arg("verify")
+        .arg(run.join("champion.json"))
+        .output()
+        .expect("it runs");
+    assert!(verified.status.success(), "what was trained in the studio is verified");
+    is_clean(browser, &studio);
+}
+
+pub(crate) fn plays(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["biped-1"]);
+    browser.visit(&studio.url, 1280);
+    train(browser, "biped-1", "running", 12);
+    browser.press(FOUR);
+    wait(browser, "the champion", "document.getElementById('arena-caption').textContent.startsWith('the champion')");
+    assert!(text(browser, "play-hint").contains("runs by itself"));
+    click(browser, "#play-box");
+    click(browser, "#play-push");
+    set(browser, "#play-tilt", "30");
+    set(browser, "#play-terrain", "steps");
+    wait(browser, "the champion again", "parseFloat(document.querySelector('#arena-readouts dd').textContent) > 0.5");
+    browser.press(ONE);
+    wait(browser, "the generation", "document.getElementById('arena-caption').textContent.includes('creatures')");
+    assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
+    is_clean(browser, &studio);
+}
+
+pub(crate) fn draws(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["tetrapod-1"]);
+    browser.visit(&studio.url, 1280);
+    click(browser, "[data-chapter=draw]");
+    wait(browser, "the editor", "document.querySelector('.editor-canvas') !== null");
+    wait(browser, "its problems", "document.querySelector('.editor').textContent.includes('No problem')");
+    let name = "[...document.querySelectorAll('.editor input')].find(field => field.type === 'text')";
+    let rename = format!(
+        "(() => {{ const field = {name}; field.value = 'my piano'; \
+         for (const kind of ['input', 'change']) field.dispatchEvent(new Event(kind, {{ bubbles: true }})); }})()"
+    );
+    browser.evaluate(&rename);
+    browser.evaluate("document.querySelector('.editor-canvas').focus()");
+    browser.press(Key("k", "KeyK", 75));
+    wait(browser, "a training of it", "document.getElementById('run-state').textContent.includes('generation')");
+    wait(browser, "its gait", "document.getElementById('verdict').textContent === 'Usable'");
+    assert!(folder.join("runs/creatures/my piano.json").is_file());
+    assert!(text(browser, "run-command").contains("'runs/creatures/my piano.json'"));
+    is_clean(browser, &studio);
+}
+
+pub(crate) fn keeps(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["biped-1"]);
+    browser.visit(&studio.url, 1280);
+    train(browser, "biped-1", "running", 60);
+    click(browser, "[data-chapter=keep]");
+    wait(browser, "the gallery", "document.querySelectorAll('#keep-runs button').length === 1");
+    click(browser, "#keep-verify");
+    wait(browser, "the proof", "document.getElementById('keep-result').textContent.startsWith('Identical')");
+    let said = |browser: &mut Browser, format: &str| {
+        browser.evaluate(&format!("[...document.querySelectorAll('#keep-exports button')].find(button => button.textContent === {format:?}).click()"));
+        wait(browser, format, "!document.getElementById('keep-result').textContent.includes('being made')");
+        text(browser, "keep-result")
+    };
+    assert_eq!(said(browser, "player"), "biped-1-running.player is saved.");
+    assert_eq!(said(browser, "csv"), "biped-1-running.csv is saved.");
+    let report = browser.evaluate("fetch(document.getElementById('keep-report').href).then(answer => answer.text())");
+    assert!(report.as_str().is_some_and(|page| page.contains("<title>")), "the report");
+    // A champion from a file, and one that is none.
+    let champion = fs::read_to_string(folder.join("runs/biped-1-running/champion.json")).expect("a champion");
+    let drop_file = |browser: &mut Browser, name: &str, text: &str| {
+        browser.evaluate(&format!(
+            "(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], {name:?})); \
+             document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, cancelable: true }})); }})()",
+            Value::from(text)
+        ))
+    };
+    drop_file(browser, "champion.json", &champion);
+    wait(
+        browser,
+        "the champion",
+        "document.getElementById('run-state').textContent.startsWith('a champion of generation')",
+    );
+    drop_file(browser, "damaged.json", &champion.replacen("0.", "1.", 1));
+    wait(browser, "a refusal", "!document.getElementById('notice').hidden");
+    drop_file(browser, "nothing.json", "{");
+    wait(browser, "another", "document.querySelector('#notice p').textContent.startsWith('nothing.json')");
+    assert_eq!(browser.complaints(), [""; 0], "errors");
+}
+
+pub(crate) fn fits(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["biped-1"]);
+    for width in [360, 1280, 3840] {
+        browser.visit(&studio.url, width);
+        train(browser, "biped-1", "running", 2);
+        for chapter in ["watch", "choose", "draw", "play", "keep"] {
+            click(browser, &format!("[data-chapter={chapter}]"));
+            thread::sleep(Duration::from_millis(200));
+            let overhang = "document.documentElement.scrollWidth - document.documentElement.clientWidth";
+            assert_eq!(browser.evaluate(overhang), 0, "{chapter} is wider than {width} px");
+            let unnamed = "[...document.querySelectorAll('main > section:not([hidden]) :is(button, input, select, textarea, a)')] \
+                .filter(control => control.checkVisibility() && !(control.textContent.trim() || control.labels?.length \
+                || control.getAttribute('aria-label') || control.title)).length";
+            assert_eq!(browser.evaluate(unnamed), 0, "{chapter}: controls without a name");
+        }
+    }
+    is_clean(browser, &studio);
+}
+
+pub(crate) fn hostile(browser: &mut Browser, folder: &Path) {
+    let studio = Studio::start(folder, &["biped-1"]);
+    let mut creature: Value = serde_json::to_value(creatures::find("biped-1").expect("it is shipped")).expect("JSON");
+    let script =
+        "<img src=x onerror=\"document.body.dataset.harmed = 1\"><script>document.body.dataset.harmed = 1</script>";
+    creature["title"] = script.into();
+    creature["parts"][1]["name"] = script[..64].into();
+    creature["joints"][0]["child"] = script[..64].into();
+    creature["name"] = "hostile".into();
+    fs::create_dir_all(folder.join("runs/creatures")).expect("a folder");
+    fs::write(folder.join("runs/creatures/hostile.json"), creature.to_string()).expect("a file");
+    browser.visit(&studio.url, 1280);
+    train(browser, "hostile", "running", 2);
+    for chapter in ["draw", "play", "keep", "watch"] {
+        click(browser, &format!("[data-chapter={chapter}]"));
+        thread::sleep(Duration::from_millis(300));
+    }
+    assert!(text(browser, "arena-title").starts_with("<img"), "it is shown as text");
+    assert_eq!(browser.evaluate("document.body.dataset.harmed ?? null"), Value::Null);
+    is_clean(browser, &studio);
+}
