@@ -74,6 +74,7 @@ pub struct Part {
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
     pub friction: f32,
     /// Centre in the start pose, x forward and y up, m, -100 to 100. The ground is at y = 0.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = -100.0, max = 100.0))))]
     pub position: [f32; 2],
     /// Turned counter-clockwise in the start pose, degrees, -360 to 360; default 0.
     #[serde(default, skip_serializing_if = "is_zero")]
@@ -98,9 +99,11 @@ pub struct Joint {
     /// Name of the part that hangs on it.
     pub child: String,
     /// Where the hinge is in the start pose, in the world, m; at most 1 m outside the shape of either part.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = -100.0, max = 100.0))))]
     pub anchor: [f32; 2],
     /// Smallest and largest angle of the child against the parent, degrees, relative to the start pose: from at most 0
     /// to at least 0, between -180 and 180, no more than 340 apart.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = -180.0, max = 180.0))))]
     pub limits: [f32; 2],
     /// What drives it; the hinge turns freely between its limits if absent. It holds still if the child is not actuated.
     #[serde(default, skip_serializing_if = "Option::is_none")]

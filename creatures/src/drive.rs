@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// What an output of the net means to its motor. In a file: `"speed"`, or `{"angle": {"gain": 10}}`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "files", derive(Serialize, Deserialize), serde(rename_all = "kebab-case", deny_unknown_fields))]
 pub enum Actuation {
     /// The speed asked for: ±1 is the motor's top speed, either way. What the thesis did, and the default.
@@ -17,6 +18,7 @@ pub enum Actuation {
     /// rest let joints rest.
     Angle {
         /// Speed asked for, per angle that is lacking, 1/s, 0.1 to 50.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 50.0)))]
         gain: f32,
     },
 }

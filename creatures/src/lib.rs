@@ -133,7 +133,7 @@ pub use motors::Motors;
 #[cfg(feature = "files")]
 pub use problem::Problem;
 #[cfg(feature = "schema")]
-pub use schema::json_schema;
+pub use schema::{json_schema, tidy_schema};
 #[cfg(feature = "files")]
 pub use sense::Sense;
 #[cfg(feature = "files")]

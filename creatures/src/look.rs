@@ -75,8 +75,10 @@ pub enum Form {
     /// An ellipse or a circle.
     Ellipse {
         /// Its centre, m, -50 to 50.
+        #[cfg_attr(feature = "schema", schemars(inner(range(min = -50.0, max = 50.0))))]
         centre: [f32; 2],
         /// Half its width and half its height, m, 0.0001 to 50.
+        #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0001, max = 50.0))))]
         radii: [f32; 2],
         /// Turned counter-clockwise about its centre, degrees, -360 to 360; default 0.
         #[serde(default, skip_serializing_if = "is_zero")]
@@ -86,8 +88,10 @@ pub enum Form {
     /// A rectangle, its corners rounded if wanted.
     Rectangle {
         /// Its centre, m, -50 to 50.
+        #[cfg_attr(feature = "schema", schemars(inner(range(min = -50.0, max = 50.0))))]
         centre: [f32; 2],
         /// Full width and height, m, 0.0001 to 50.
+        #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0001, max = 50.0))))]
         size: [f32; 2],
         /// Radius of its corners, m, 0 to 50; default 0. Cut to half the shorter side.
         #[serde(default, skip_serializing_if = "is_zero")]
@@ -101,13 +105,13 @@ pub enum Form {
     /// A closed area with straight edges.
     Polygon {
         /// Its corners, m, -50 to 50; 3 to 256 of them.
-        #[cfg_attr(feature = "schema", schemars(length(min = 3, max = 256)))]
+        #[cfg_attr(feature = "schema", schemars(length(min = 3, max = 256), inner(inner(range(min = -50.0, max = 50.0)))))]
         points: Vec<[f32; 2]>,
     },
     /// An open line through points.
     Line {
         /// Its points, m, -50 to 50; 2 to 256 of them.
-        #[cfg_attr(feature = "schema", schemars(length(min = 2, max = 256)))]
+        #[cfg_attr(feature = "schema", schemars(length(min = 2, max = 256), inner(inner(range(min = -50.0, max = 50.0)))))]
         points: Vec<[f32; 2]>,
     },
 }

@@ -30,24 +30,37 @@ const LAST_PUSH: f32 = 120.0;
 /// frequencies and damping of joints and contacts are what two physics engines differ in when they simulate the same body:
 /// a gait that bears them is a gait of the body, and not of one solver.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Variation {
     /// Of the ground's friction coefficient.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub friction: f32,
     /// Of the density of all parts together.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub mass: f32,
     /// Of the top torque of all motors together.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub torque: f32,
     /// The least and the greatest factor on [`PhysicsSettings::time_step`](crate::PhysicsSettings::time_step), drawn
     /// log-uniformly: a gait that needs steps of one length leans on the engine's errors. From 0.1 to 1 and from 1 to 2; default 1 and 1. A file may have a
     /// share in its place: 0.2 is read as 0.8 and 1.2.
     #[serde(deserialize_with = "factors")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "time_step_schema"))]
     pub time_step: [f32; 2],
     /// By up to this much, rad, each actuated joint is turned, either way, before the clock starts. Its own motor turns
     /// it, so a leg that bears weight turns less far. From 0 to 1; default 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub start_pose: f32,
     /// The highest of the [bumps](crate::bumps()) on flat ground, m, for as far as 20 body lengths; the lowest are a tenth
     /// as high. A terrain that is not flat has none, nor has water. 0, or from 0.01 to 0.1; default 0, none.
+    #[cfg_attr(
+        feature = "schema",
+        schemars(
+            range(min = 0.0, max = 0.1),
+            extend("anyOf" = [{ "const": 0 }, { "format": "float", "minimum": 0.01 }])
+        )
+    )]
     pub bumps: f32,
     /// Whether each trial draws a seed of its own for the terrain, so that no terrain is learned by heart; `true` in
     /// [`light`](Self::light), [`bumpy`](Self::bumpy) and [`strong`](Self::strong), default `false`: all have that of the terrain's
@@ -57,29 +70,37 @@ pub struct Variation {
     /// never out of sight; bumps and terrain it shares with the others; default `false`. With one trial alone it has no effect.
     pub near_first: bool,
     /// Of gravity.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub gravity: f32,
     /// On [`PhysicsSettings::motor_gain`](crate::PhysicsSettings::motor_gain): how hard a motor holds the speed asked for,
     /// within its torque.
     #[serde(deserialize_with = "factors")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "factors_schema"))]
     pub motor_gain: [f32; 2],
     /// The fewest and the most [solver iterations](crate::PhysicsSettings::solver_iterations), all equally likely; from 1 to
     /// 32. Default `null`: as the settings have it.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 1, max = 32))))]
     pub solver_iterations: Option<[u32; 2]>,
     /// On [`PhysicsSettings::joint_frequency`](crate::PhysicsSettings::joint_frequency): how stiff hinges and their limits
     /// are.
     #[serde(deserialize_with = "factors")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "factors_schema"))]
     pub joint_frequency: [f32; 2],
     /// On [`PhysicsSettings::contact_frequency`](crate::PhysicsSettings::contact_frequency): how stiff the ground is.
     #[serde(deserialize_with = "factors")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "factors_schema"))]
     pub contact_frequency: [f32; 2],
     /// On [`PhysicsSettings::contact_damping_ratio`](crate::PhysicsSettings::contact_damping_ratio): how slowly the ground
     /// pushes out what is in it.
     #[serde(deserialize_with = "factors")]
+    #[cfg_attr(feature = "schema", schemars(schema_with = "factors_schema"))]
     pub contact_damping: [f32; 2],
     /// The torso begins to turn with up to this much when the clock starts, rad/s, either way. From 0 to 5; default 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 5.0)))]
     pub torso_spin: f32,
     /// The strongest push against the torso, m/s of the whole body; from 0 to 5, default 0, none. A push is from half to all
     /// of it, either way along the ground, and comes 2 to 4 s after the one before, all uniformly drawn, for 120 s.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 5.0)))]
     pub pushes: f32,
 }
 
@@ -102,6 +123,42 @@ fn factors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<[f32; 2], D::Er
         Written::Factors(factors) => factors,
         Written::Share(share) => [1.0 - share, 1.0 + share],
     })
+}
+
+/// Two factors from these ranges, or the share they are off 1.
+#[cfg(feature = "schema")]
+fn two_factors([least, greatest]: [[f64; 2]; 2]) -> schemars::Schema {
+    schemars::json_schema!({
+        "anyOf": [
+            {
+                "description": "The least and the greatest factor.",
+                "type": "array",
+                "prefixItems": [
+                    { "type": "number", "format": "float", "minimum": least[0], "maximum": least[1] },
+                    { "type": "number", "format": "float", "minimum": greatest[0], "maximum": greatest[1] },
+                ],
+                "minItems": 2,
+                "maxItems": 2,
+            },
+            {
+                "description": "A share: 0.2 is read as the factors 0.8 and 1.2.",
+                "type": "number",
+                "format": "float",
+                "minimum": 0,
+                "maximum": 0.9,
+            },
+        ],
+    })
+}
+
+#[cfg(feature = "schema")]
+fn time_step_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    two_factors([[0.1, 1.0], [1.0, 2.0]])
+}
+
+#[cfg(feature = "schema")]
+fn factors_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+    two_factors([[0.1, 100.0]; 2])
 }
 
 impl Variation {

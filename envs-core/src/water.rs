@@ -11,17 +11,21 @@ use serde::{Deserialize, Serialize};
 /// 802–814; with forces that are square in the speed, as here, Taylor 1952, Proc. R. Soc. Lond. A 214, 158–183). Left out
 /// are the mass of the water that moves along, and what one part does to the water around another.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Water {
     /// Mass per area, kg/m², as parts have it, from 0.01 to 1e5. `null`, the default: as much as the creature has on the
     /// whole, so that it floats in balance, also where its mass varies.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 1e5)))]
     pub density: Option<f32>,
     /// Drag coefficient across the long side of a part, from 0 to 10; default 1, about that of a rod.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
     pub drag: f32,
     /// Drag coefficient along the long side of a thin part, from 0 to the other; default 0.05. For a part of breadth b and
     /// length l the share (b/l)² of the difference between the two comes to it, so that a part as broad as it is long is
     /// resisted alike in both directions (as ellipses are: Hoerner 1965, Fluid-Dynamic Drag, chapter 6).
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
     pub slip: f32,
 }
 

@@ -20,6 +20,7 @@
 //! | [`training`] | train, resume |
 //! | [`shaping`] | train in stages, go on from what was learned |
 //! | [`request`], [`source`] | what a user asks for, by names and files |
+//! | `schema` | the JSON Schema of a configuration; with the feature `schema` |
 //!
 //! # Train, verify
 //!
@@ -64,6 +65,8 @@ pub mod request;
 pub mod robust;
 pub mod robustness_check;
 pub mod run_folder;
+#[cfg(feature = "schema")]
+pub mod schema;
 pub mod setup;
 pub mod shaping;
 pub mod source;

@@ -14,16 +14,21 @@ use std::{
 /// Conditions are looked at between generations: the generation under way is always finished, so a budget can be
 /// overrun by less than one generation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct StopConditions {
     /// Generations, at least 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub generations: Option<u64>,
     /// Evaluations, at least 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub evaluations: Option<u64>,
     /// Steps of work (for bodies: physics steps), at least 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub steps: Option<u64>,
     /// Minutes of wall clock since the start, or since the resume; above 0. The only condition that makes the length
     /// of a run depend on the machine.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0.0)))]
     pub minutes: Option<f64>,
     /// A fitness that is good enough.
     pub target: Option<f64>,
@@ -31,6 +36,7 @@ pub struct StopConditions {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tier: Option<u8>,
     /// Generations without a better champion, at least 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub stagnation: Option<u64>,
 }
 

@@ -12,11 +12,13 @@ use serde::{Deserialize, Serialize};
 /// blocks of 1,000 draws 24 differed between the two for the normal distribution, 69 for the exponential one, and all for the
 /// Cauchy and the log-normal distribution. It is the measure of the tests here.)
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Distribution {
     /// The normal distribution: hardly ever beyond three deviations.
     Normal {
         /// The standard deviation, from 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         deviation: f64,
     },
     /// The Cauchy distribution: most numbers are small, a few very large; it leaves local optima from far away. Numbers beyond
@@ -26,19 +28,23 @@ pub enum Distribution {
     /// 1999.
     Cauchy {
         /// Half of the numbers are nearer to 0 than this; from 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         scale: f64,
     },
     /// The exponential distribution to both sides (Laplace): between the normal and the Cauchy distribution.
     Exponential {
         /// The mean distance from 0; from 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         mean: f64,
     },
     /// Numbers whose logarithm is normal, to both sides: over several orders of magnitude, and hardly any at 0. Numbers beyond
     /// 1000 medians are cut.
     LogNormal {
         /// Half of the numbers are nearer to 0 than this; from 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         median: f64,
         /// The standard deviation of the natural logarithm, from 0 to 10.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
         spread: f64,
     },
 }

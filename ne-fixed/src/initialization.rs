@@ -6,11 +6,13 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON the name with its settings: `{"uniform": {"limit": 1.0}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Initialization {
     /// Each weight uniform from `-limit` to `limit`.
     Uniform {
         /// From 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         limit: f64,
     },
     /// Each weight normal with mean 0 and deviation `scale` / √n, where n is the number of weights that lead to its
@@ -19,6 +21,7 @@ pub enum Initialization {
     /// Source: LeCun, Bottou, Orr & Müller, *Efficient BackProp*, 1998, section 4.6.
     ScaledGaussian {
         /// From 0 to 1000; 1 keeps the spread of sources that have deviation 1.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         scale: f64,
     },
     /// Each weight drawn from a [`Distribution`], whatever its neuron: `{"distributed": {"cauchy": {"scale": 0.2}}}`.

@@ -12,13 +12,17 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Stanley & Miikkulainen, 2002, equation 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Compatibility {
     /// Weight of excess genes, those beyond the other genome's last: the paper's c1; from 0 to 1000.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub excess: f64,
     /// Weight of disjoint genes, those between the other genome's: the paper's c2; from 0 to 1000.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub disjoint: f64,
     /// Weight of the mean difference of weights: the paper's c3; from 0 to 1000.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub weights: f64,
     /// N is 1 as long as both genomes have fewer connection genes than this; 20 in the paper, 0 for never.
     pub small_genome: usize,

@@ -18,12 +18,15 @@ use std::cmp::Ordering;
 ///
 /// Source: Stanley & Miikkulainen, 2002, sections 3.2 and 4.1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Crossover {
     /// The share of crossovers in which matching genes get the mean of the parents' weights, from 0 to 1; 0 in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub averaging: f64,
     /// The probability that an inherited gene is disabled if it is in either parent, from 0 to 1; 0.75 in the paper. It
     /// is enabled otherwise.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub stays_disabled: f64,
 }
 

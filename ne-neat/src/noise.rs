@@ -6,16 +6,19 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON: `{"uniform": {"limit": 1}}` or `{"gaussian": {"deviation": 0.5}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Noise {
     /// All between -limit (included) and limit (excluded) alike.
     Uniform {
         /// From 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         limit: f64,
     },
     /// A bell curve.
     Gaussian {
         /// Its standard deviation, from 0 to 1000.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
         deviation: f64,
     },
 }

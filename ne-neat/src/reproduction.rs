@@ -9,16 +9,20 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Stanley & Miikkulainen, 2002, section 4.1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ReproductionSettings {
     /// The share of the best members of a species that breed, at least one of them; above 0, to 1. Where it is one, the
     /// species' children have a single parent.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub survival_share: f64,
     /// The best of a species with more members than this is copied unchanged; 5 in the paper.
     pub champion_above: usize,
     /// The share of children that have one parent, from 0 to 1; 0.25 in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub mutation_only: f64,
     /// The share of crossovers whose second parent is of another species, from 0 to 1; 0.001 in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub interspecies: f64,
 }
 

@@ -15,6 +15,7 @@ use std::ops::Range;
 ///
 /// In JSON: `"fully-connected"` or `{"partly-connected": {"share": 0.5}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum StartTopology {
     /// Every input is connected with every output, and there are no hidden neurons, as in the paper.
@@ -22,6 +23,7 @@ pub enum StartTopology {
     /// As [fully connected](Self::FullyConnected), with so many of the connections, each individual with others.
     PartlyConnected {
         /// The probability of each connection, from 0 to 1.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
         share: f64,
     },
     /// No connections.
@@ -29,6 +31,7 @@ pub enum StartTopology {
     /// Every input is connected with every neuron of one hidden layer, and these with every output.
     HiddenLayer {
         /// Number of hidden neurons, from 1 to 4096.
+        #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 4096)))]
         neurons: usize,
     },
 }

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// All of them give the same bits on every platform, a finite output for every finite sum, and NaN for NaN. Errors are
 /// against the exact function.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "nets", derive(Serialize, Deserialize), serde(rename_all = "kebab-case"))]
 pub enum Activation {
     /// 1 / (1 + e⁻ᵃ), from 0 to 1; error below 1e-6.

@@ -22,30 +22,39 @@ use std::{collections::BTreeSet, fmt, sync::Arc};
 /// # Ok::<(), ne_net::NetworkError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "UncheckedCopies")]
+#[cfg_attr(feature = "schema", schemars(!try_from, deny_unknown_fields))]
 pub struct Copies {
     /// Inputs of the whole net, from 1 to 4096.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 4096)))]
     pub inputs: usize,
     /// For each output of the whole net, which copy it is from, and which of that copy's outputs it is; each once.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 4096)))]
     pub outputs: Vec<(usize, usize)>,
     /// The copies, at least one, all with as many senses.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 4096)))]
     pub copies: Vec<NetCopy>,
 }
 
 /// One of the [`Copies`] of a net.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct NetCopy {
     /// What each input of the small net is in this copy.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 4096)))]
     pub senses: Vec<CopySense>,
     /// −1 for a mirror image, whose outputs have the other sign, or 1. The sums of its output neurons change their sign, and
     /// so the outputs do if the activation is odd, as [`Tanh`](crate::Activation::Tanh) is. With another activation neurons that
     /// hear such an output hear something else, too.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = [-1, 1])))]
     pub sign: f32,
 }
 
 /// An input of the small net in one copy.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CopySense {
     /// What is always added.
@@ -230,7 +239,9 @@ fn leads_to(mut nodes: Vec<usize>, shape: &GraphShape) -> Vec<bool> {
 
 /// A small net without its weights, and the [`Copies`] of it that make up the whole.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "UncheckedCopiedShape")]
+#[cfg_attr(feature = "schema", schemars(!try_from, deny_unknown_fields))]
 pub struct CopiedShape {
     /// The small net.
     pub small: Arc<GraphShape>,

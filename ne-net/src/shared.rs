@@ -20,7 +20,9 @@ use std::{f32::consts::FRAC_PI_2, fmt, sync::Arc};
 /// assert_eq!(topology.network(&[0.5]).weights(), [0.5, -0.5]);
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "UncheckedSharedShape")]
+#[cfg_attr(feature = "schema", schemars(!try_from, deny_unknown_fields))]
 pub struct SharedShape {
     /// The net.
     pub net: Arc<GraphShape>,
@@ -32,6 +34,7 @@ pub struct SharedShape {
 
 /// How a weight is computed from genes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SharedWeight {
     /// The sum of genes, each times a factor; nothing summed up is a weight of 0.
@@ -52,6 +55,7 @@ pub enum SharedWeight {
 
 /// Two genes that weigh a clock's sine and cosine, and by how much the clock is put forward.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Turn {
     /// The genes of the sine and of the cosine.

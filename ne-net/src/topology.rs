@@ -12,6 +12,7 @@ use std::{fmt, sync::Arc};
 ///
 /// In JSON: `{"dense": {…}}`, `{"graph": {…}}`, `{"shared": {…}}` or `{"copied": {…}}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Topology {

@@ -66,12 +66,14 @@ impl fmt::Debug for MovementEntry {
 
 /// A movement with its terms, as a configuration file has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MovementSpec {
     /// The movement's name.
     pub name: String,
-    /// Steps an episode lasts at most; `None` means the movement's own number.
+    /// Steps an episode lasts at most, from 1 to 1,000,000; `None` means the movement's own number.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1_000_000)))]
     pub steps: Option<u32>,
     /// Settings of its own; what is left out has its default.
     #[serde(default, skip_serializing_if = "Map::is_empty")]
@@ -82,11 +84,13 @@ pub struct MovementSpec {
     /// What is measured beside the fitness for a strategy that searches for several objectives at once: none, or from 2
     /// to 4 different ones. They are maximised, so that what is to be small has a weight below 0.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(length(max = 4)))]
     pub objectives: Vec<TermSpec>,
 }
 
 /// A weighted term.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TermSpec {
     /// Name of a movement.

@@ -52,42 +52,54 @@ impl Command {
 /// Where the commands of a trial come from. In a file: `{"random": {"standing": 0.5}}`, or `{"given": [{"time": 0, "speed":
 /// 1}, {"time": 4, "speed": 1, "jump": true}]}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Commands {
     /// Drawn from the trial's seed.
     Random(RandomCommands),
     /// Always these, by time; before the first the body is told to stand. At most 10,000.
-    Given(Vec<CommandChange>),
+    Given(#[cfg_attr(feature = "schema", schemars(length(min = 1, max = 10_000)))] Vec<CommandChange>),
 }
 
 /// How commands are drawn: speeds held for a while, one after the other, and jumps.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(default, deny_unknown_fields)]
 pub struct RandomCommands {
     /// How long the body is told to stand at first, s, from 0 to 60; default 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 60.0)))]
     pub still: f32,
     /// The shortest and the longest time that a speed is held, s, from 0.2 to 1000; default 2 and 5.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.2, max = 1000.0))))]
     pub hold: [f32; 2],
     /// The slowest and the fastest speed, body lengths/s, from 0 to 20; default 0.5 and 1.5.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 20.0))))]
     pub speeds: [f32; 2],
     /// The share of holds in which it is told to stand, from 0 to 1; default 0.25.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub standing: f32,
     /// The share of the other holds in which it is told to go backwards, from 0 to 1; default 0.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub backwards: f32,
     /// The share of holds in which it is told to jump once, from 0 to 1; default 0.3. Those holds are 2 s longer.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub jumps: f32,
     /// How long the button is held, s, from 0.02 to 2; default 0.2.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 2.0)))]
     pub press: f32,
 }
 
 /// A command that holds from a time on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct CommandChange {
-    /// From when on, s from the start of the trial; at least 0.
+    /// From when on, s from the start of the trial; from 0 to 1,000,000, no earlier than the change before.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1e6)))]
     pub time: f32,
     /// How fast the body is to move, body lengths/s, from −20 to 20; default 0.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(range(min = -20.0, max = 20.0)))]
     pub speed: f32,
     /// Whether it is to jump; default no.
     #[serde(default)]
@@ -157,7 +169,10 @@ impl RandomCommands {
             ("press", self.press, 0.02, 2.0),
         ];
         for (field, value, low, high) in numbers {
-            SettingError::check_range(field, value.into(), low, high)?;
+            // Compared as f32 so that the ends themselves are in; shown as written.
+            if !(low..=high).contains(&value) {
+                return Err(SettingError::new(field, value, format!("from {low} to {high}")));
+            }
         }
         for (field, [least, most], low, high) in [("hold", self.hold, 0.2, 1000.0), ("speeds", self.speeds, 0.0, 20.0)]
         {
@@ -335,5 +350,6 @@ mod tests {
             let error = commands.validate().expect_err(field).to_string();
             assert!(error.contains(field), "{error}");
         }
+        assert_eq!(random(|it| it.press = 0.02).validate(), Ok(()), "the least there may be, in single precision");
     }
 }

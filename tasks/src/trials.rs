@@ -4,10 +4,12 @@ use serde::{Deserialize, Serialize};
 
 /// How many trials make an evaluation, and what their values become.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Trials {
     /// How many, from 1 to 1000; default 1. Trial k gets the seed's trial k, so more trials pay only where the
     /// environment varies with the seed.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub count: u32,
     /// How the values of the trials become one fitness; default mean.
     pub combine: Combine,
@@ -19,6 +21,7 @@ pub struct Trials {
 
 /// How the values of several trials become one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Combine {
     /// The arithmetic mean.

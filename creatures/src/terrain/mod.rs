@@ -26,18 +26,23 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct Terrain {
     /// The kinds of obstacles, at most 16. Several take turns; none: flat ground without end.
+    #[cfg_attr(feature = "schema", schemars(length(max = 16)))]
     pub obstacles: Vec<Obstacles>,
     /// How hard the sizes are that are not given, from 0 (flat) to 1 (as hard as could be); default 0.5.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub difficulty: f32,
     /// What the spacings, and the blocks of rough ground, are drawn from; default 0.
     pub seed: u64,
     /// No obstacle begins further than this from the start, m, 1 to 1000; default 80. Behind the last one the ground is
     /// level.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 1000.0)))]
     pub length: f32,
     /// Level ground between the front of the creature and the first obstacle, m, 0 to 100; `null`, the default: 2 body
     /// lengths.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 100.0)))]
     pub run_up: Option<f32>,
     /// By up to this share each spacing is longer or shorter, 0 to 0.9; default 0.3.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub jitter: f32,
 }
 

@@ -19,54 +19,65 @@ pub enum Obstacles {
     Gaps {
         /// m, 0 to 20; by default d · B.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 20.0)))]
         width: Option<f32>,
         /// m.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 100.0)))]
         spacing: Option<f32>,
     },
     /// Upright blocks, 0.1 m thick.
     Hurdles {
         /// m, 0 to 5; by default d · 0.5 L.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 5.0)))]
         height: Option<f32>,
         /// m.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 100.0)))]
         spacing: Option<f32>,
     },
     /// Flights of five steps.
     Stairs {
         /// Height of a step, m, 0 to 2; by default d · 0.5 L, so a quarter of the leg at 0.5.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
         rise: Option<f32>,
         /// Depth of a step, m, 0.05 to 10; by default 0.5 B.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.05, max = 10.0)))]
         tread: Option<f32>,
         /// Default `up-and-down`: five steps up, then five down.
         #[serde(default)]
         direction: Direction,
         /// m.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 100.0)))]
         spacing: Option<f32>,
     },
     /// Slanted ground, 3 B long, seen from above; its upper end is rounded by a low mound.
     Slopes {
         /// Steepness, 0 to 60°; by default d · 30°.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 60.0)))]
         degrees: Option<f32>,
         /// Default `up-and-down`: a hill, 0.5 B wide at its top.
         #[serde(default)]
         direction: Direction,
         /// m.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 100.0)))]
         spacing: Option<f32>,
     },
     /// Eight blocks side by side, each 0, ¼, ½, ¾ or 1 times as high as may be and 0.25 to 0.75 B wide.
     Rough {
         /// Of the highest blocks there may be, m, 0 to 2; by default d · 0.3 L.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 2.0)))]
         height: Option<f32>,
         /// m.
         #[serde(default, skip_serializing_if = "Option::is_none")]
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 100.0)))]
         spacing: Option<f32>,
     },
 }

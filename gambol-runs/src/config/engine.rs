@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The engine that steps creatures during training. Whatever it is, champions are proved in rapier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum EngineChoice {
     /// `envs-lanes`: a whole population at once, with the same bits as rapier, many times faster.

@@ -27,6 +27,7 @@ pub const CONFIG_VERSION: u32 = 2;
 
 /// Everything that determines a run. Two runs with equal configurations give the same bytes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RunConfig {
     /// The name of the preset it started from, for the record.
@@ -39,13 +40,15 @@ pub struct RunConfig {
     pub trials: Trials,
     /// How trials differ. With any, with shortened training episodes or further bodies, the champion is chosen without variation, in one trial; of a body that is told random commands in eight, in each of which it is told something else.
     pub variation: Variation,
-    /// The steps an episode of training lasts; `null`, the default: as many as the movement's. With fewer, more
+    /// The steps an episode of training lasts, from 1 to 1,000,000; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
     #[serde(default)]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1_000_000)))]
     pub training_steps: Option<u32>,
     /// Cheaper evaluations before that of training, the first one first: after each only the best share goes on. At most
     /// 8; none, the default: every individual has the evaluation of training.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(length(max = 8)))]
     pub rungs: Vec<RungSettings>,
     /// What steps the creatures in training.
     #[serde(default = "EngineChoice::of_old")]
@@ -76,13 +79,15 @@ pub struct RunConfig {
     /// Where the run goes on from, for the record; it is filled in, not chosen.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<Origin>,
-    /// What the controller senses; `null`: what the creature's file asks for.
+    /// What the controller senses, 1 to 64 sensors; `null`: what the creature's file asks for.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 64)))]
     pub sensors: Option<Vec<Sensor>>,
     /// The body.
     pub creature: Creature,
     /// Further bodies in which every individual is evaluated in training, each with the creature's inputs and outputs; at
     /// most 15, none by default. What they come to is combined as trials are; the champion is chosen in `creature` alone.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(length(max = 15)))]
     pub further_bodies: Vec<Creature>,
 }
 
@@ -101,17 +106,21 @@ impl RunConfig {
 
 /// The net between sensors and motors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ControllerSettings {
-    /// Neurons of each hidden layer; an empty list connects inputs to outputs directly.
+    /// Neurons of each hidden layer, from 1 to 4096, of at most 64 layers; an empty list connects inputs to outputs directly.
+    #[cfg_attr(feature = "schema", schemars(length(max = 64), inner(range(min = 1, max = 4096))))]
     pub hidden: Vec<usize>,
     /// Activation of hidden neurons.
     pub hidden_activation: Activation,
     /// Activation of outputs; from −1 to 1 drives a motor from full speed backwards to full speed forwards.
     pub output_activation: Activation,
-    /// Hidden outputs are multiplied with this before the next layer.
+    /// Hidden outputs are multiplied with this before the next layer; above 0 and at most 1000.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub hidden_scale: f32,
-    /// Sensors are scaled to ± this.
+    /// Sensors are scaled to ± this, from 0.001 to 1000.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1000.0)))]
     pub input_range: f32,
     /// What an output means to its motor.
     #[serde(default)]
@@ -124,6 +133,7 @@ pub struct ControllerSettings {
 
 /// How far the clocks of limbs run ahead of each other before evolution changes it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum LimbPhases {
     /// Half a turn between neighbours, along the body and beside each other: the start of a walk.
@@ -135,6 +145,7 @@ pub enum LimbPhases {
 
 /// A net without its weights, such as the one of a champion that NEAT has found, and what it was made for.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct FrozenTopology {
     /// The name of each input.
@@ -151,6 +162,7 @@ pub struct FrozenTopology {
 
 /// A gene of a net of which a part is held.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GeneRecord {
     /// What it is for.
@@ -162,9 +174,11 @@ pub struct GeneRecord {
 
 /// What is written down during a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RecordSettings {
     /// A checkpoint and the champion are written every so many generations, and at the end; at least 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
@@ -172,6 +186,7 @@ pub struct RecordSettings {
     /// each generation since the last, are evaluated in one whole episode of the creature without variation, and the best of
     /// them may become champion; from 1 to 1000, default 23.
     #[serde(default = "default_candidates")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub candidates: usize,
 }
 

@@ -3,6 +3,7 @@ use std::fmt;
 
 /// Where a run goes on from, and what it has kept: for the record.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
     /// The run folder or the champion file, as it was named.
@@ -41,6 +42,7 @@ fn is_zero(count: &usize) -> bool {
 
 /// What is transferred from a run to the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Transferred {
     /// The whole state of the strategy: its population, or its distribution. The strategy must stay the same.

@@ -9,16 +9,20 @@ const MOST_RUNGS: usize = 8;
 /// A rung: a cheaper evaluation, after which only the best share of a generation goes on, to the next rung and in the end
 /// to the evaluation of training. See [`ne_core::successive_halving::SuccessiveHalving`] for what those left behind are worth.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RungSettings {
     /// The steps an episode lasts, from 1 to those of training; `null`, the default: as many as in training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1_000_000)))]
     pub steps: Option<u32>,
     /// The trials of an evaluation, from 1 to those of training, of which they are the first; `null`, the default: as many
     /// as in training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub trials: Option<u32>,
     /// The share of the individuals of this rung that goes on, above 0 and below 1; rounded up, and at least one.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = 1.0)))]
     pub share: f64,
 }
 

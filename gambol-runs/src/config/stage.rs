@@ -7,9 +7,11 @@ use std::fmt;
 
 /// A stage of shaping, as a configuration has it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StageSettings {
     /// Its name: lower-case letters, digits and hyphens; no two stages have the same.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 40), regex(pattern = "^[a-z0-9-]*$")))]
     pub name: String,
     /// Fields of the configuration that are other than in the stage before; objects are merged, lists take the place of
     /// lists. Whatever is not mentioned stays. With another `movement.name` come the terms, steps and shortened training episodes that the preset
@@ -48,6 +50,7 @@ pub struct StageSettings {
 /// So a stage is attempted `times` + 1 times. Once the last attempt is given up, too, the search of the best goes on, until the stage is
 /// passed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GiveUp {
     /// When.
@@ -55,6 +58,7 @@ pub struct GiveUp {
     /// The name of the stage in which it begins anew: an earlier one, or this one.
     pub back_to: String,
     /// How often; from 1 to 100.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 100)))]
     pub times: u32,
 }
 

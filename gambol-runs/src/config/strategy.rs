@@ -65,6 +65,24 @@ impl StrategySettings {
     }
 }
 
+/// Of any strategy: [`json_schema`](crate::schema::json_schema) fills in those that there are.
+#[cfg(feature = "schema")]
+impl schemars::JsonSchema for StrategySettings {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "StrategySettings".into()
+    }
+
+    fn json_schema(_: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        schemars::json_schema!({
+            "description": "The search, by name, with its settings.",
+            "type": "object",
+            "minProperties": 1,
+            "maxProperties": 1,
+            "additionalProperties": { "type": "object" },
+        })
+    }
+}
+
 impl Serialize for StrategySettings {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut map = serializer.serialize_map(Some(1))?;

@@ -31,6 +31,16 @@ impl Default for StrategyCatalogue {
     }
 }
 
+/// The schema of settings that derive theirs.
+macro_rules! derived_schema {
+    () => {
+        #[cfg(feature = "schema")]
+        fn settings_schema(generator: &mut schemars::SchemaGenerator) -> Option<schemars::Schema> {
+            Some(generator.subschema_for::<Self::Settings>())
+        }
+    };
+}
+
 /// The net of a weight vector.
 fn weights_of(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
     match expressed {
@@ -70,6 +80,8 @@ macro_rules! weight_search {
             fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
                 weights_of(genome, expressed)
             }
+
+            derived_schema!();
 
             $($more)*
         }
@@ -139,6 +151,8 @@ impl NetStrategy for Neat {
     fn begin_at(_: &NeatSettings, _: &Topology, _: &[f32]) -> Result<Self, SettingError> {
         Err(SettingError::new("strategy", "neat", "one that searches the weights of a given net"))
     }
+
+    derived_schema!();
 }
 
 /// It learns nothing, so that it can neither begin at a net nor go on with what it knows.
@@ -158,4 +172,6 @@ impl NetStrategy for RandomSearch {
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
         weights_of(genome, expressed)
     }
+
+    derived_schema!();
 }

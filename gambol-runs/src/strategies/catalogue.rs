@@ -176,6 +176,17 @@ impl StrategyEntry {
         self.kind.settings()
     }
 
+    /// The JSON Schema of its settings, with its sentence as description and its default settings as default. What it refers
+    /// to is defined by the generator.
+    #[cfg(feature = "schema")]
+    pub fn schema(&self, generator: &mut schemars::SchemaGenerator) -> schemars::Schema {
+        let any_object = || schemars::json_schema!({ "type": "object" });
+        let mut schema = self.kind.schema(generator).unwrap_or_else(any_object);
+        schema.insert("description".into(), self.description.as_str().into());
+        schema.insert("default".into(), self.settings().settings().clone().into());
+        schema
+    }
+
     /// Reads a checkpoint of it.
     ///
     /// # Errors
@@ -206,6 +217,8 @@ trait Kind: Send + Sync {
     ) -> Result<AnyStrategy, StrategyError>;
     fn genome(&self, topology: &Topology, weights: &[f32]) -> Option<AnyGenome>;
     fn read_checkpoint(&self, path: &Path) -> Result<Checkpoint<AnyStrategy>, ArchiveError>;
+    #[cfg(feature = "schema")]
+    fn schema(&self, generator: &mut schemars::SchemaGenerator) -> Option<schemars::Schema>;
 }
 
 struct KindOf<S>(PhantomData<fn() -> S>);
@@ -257,5 +270,10 @@ impl<S: NetStrategy> Kind for KindOf<S> {
 
     fn read_checkpoint(&self, path: &Path) -> Result<Checkpoint<AnyStrategy>, ArchiveError> {
         Ok(any_checkpoint(Checkpoint::<S>::read(path)?))
+    }
+
+    #[cfg(feature = "schema")]
+    fn schema(&self, generator: &mut schemars::SchemaGenerator) -> Option<schemars::Schema> {
+        S::settings_schema(generator)
     }
 }

@@ -89,6 +89,14 @@ pub trait NetStrategy:
         None
     }
 
+    /// The JSON Schema of its settings, which a schema of configurations has in it; `None`, the default: none was written, and
+    /// any object will do. Of settings that derive `JsonSchema` it is `Some(generator.subschema_for::<Self::Settings>())`.
+    #[cfg(feature = "schema")]
+    fn settings_schema(generator: &mut schemars::SchemaGenerator) -> Option<schemars::Schema> {
+        let _ = generator;
+        None
+    }
+
     /// The net of a genome: the topology and its weights, expressed or as they are searched. By default expressed.
     fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>) {
         let _ = expressed;

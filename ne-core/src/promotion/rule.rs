@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// "at_least": 10}}`, `{"stagnation": 30}`, `{"generations": 100}`, `{"evaluations": 10000}`, `{"steps": 1000000}`,
 /// `{"any": [...]}`, `{"all": [...]}`, `{"not": ...}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum PromotionRule {
     /// The champion's fitness is at least this.
@@ -20,33 +21,36 @@ pub enum PromotionRule {
     /// bound.
     Measurement(MeasurementBound),
     /// So many generations have passed without a better champion; at least 1.
-    Stagnation(u64),
+    Stagnation(#[cfg_attr(feature = "schema", schemars(range(min = 1)))] u64),
     /// So many generations were spent in the stage; at least 1.
-    Generations(u64),
+    Generations(#[cfg_attr(feature = "schema", schemars(range(min = 1)))] u64),
     /// So many evaluations were spent in the stage; at least 1.
-    Evaluations(u64),
+    Evaluations(#[cfg_attr(feature = "schema", schemars(range(min = 1)))] u64),
     /// So many steps of work were spent in the stage; at least 1.
-    Steps(u64),
+    Steps(#[cfg_attr(feature = "schema", schemars(range(min = 1)))] u64),
     /// One of these is met; at least one.
-    Any(Vec<PromotionRule>),
+    Any(#[cfg_attr(feature = "schema", schemars(length(min = 1)))] Vec<PromotionRule>),
     /// All of these are met; at least one.
-    All(Vec<PromotionRule>),
+    All(#[cfg_attr(feature = "schema", schemars(length(min = 1)))] Vec<PromotionRule>),
     /// This one is not met.
     Not(Box<PromotionRule>),
 }
 
 /// A fitness, and by how many it is reached.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PopulationShare {
     /// The fitness.
     pub fitness: f64,
     /// The share of the generation, above 0 and at most 1.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub of: f64,
 }
 
 /// A measurement, and the bound it must reach: one of them, from below or from above.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MeasurementBound {
     /// Its name.

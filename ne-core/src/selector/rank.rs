@@ -11,9 +11,11 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Baker, *Adaptive Selection Methods for Genetic Algorithms*, ICGA 1985.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RankSelector {
     /// The selection pressure s, from 1 (uniform) to 2 (the worst has no chance); default 1.8.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 2.0)))]
     pub pressure: f64,
 }
 

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON the name with its settings: `{"tournament": {"size": 3}}`, `{"roulette": {}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Selection {
     /// Chances proportional to fitness.

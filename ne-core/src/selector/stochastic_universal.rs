@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Baker, *Reducing Bias and Inefficiency in the Selection Algorithm*, ICGA 1987.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct StochasticUniversal {}
 

@@ -10,9 +10,11 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Goldberg & Deb, *A Comparative Analysis of Selection Schemes*, FOGA 1991.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Tournament {
     /// How many compete, at least 1 (uniform choice); default 3. More is more selective.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub size: usize,
 }
 

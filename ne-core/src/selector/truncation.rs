@@ -11,9 +11,11 @@ use serde::{Deserialize, Serialize};
 /// Source: Mühlenbein & Schlierkamp-Voosen, *Predictive Models for the Breeder Genetic Algorithm*, Evolutionary
 /// Computation 1(1), 1993.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Truncation {
     /// The share that become parents, above 0 and at most 1 (uniform choice); default 0.2.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub share: f64,
 }
 

@@ -7,17 +7,22 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`Ars`](crate::Ars). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct ArsSettings {
     /// Number of samples, 2N for N directions, even, from 2 to 1,000,000; default 32. The centre is evaluated besides, so
     /// that a generation has one individual more.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000), extend("multipleOf" = 2)))]
     pub population: usize,
     /// The step size α, above 0 and at most 1000; default 0.05.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub step_size: f64,
     /// The deviation of the samples from the centre, ν, in units of the weights, from 1e-6 to 1000; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-6, max = 1000.0)))]
     pub noise: f64,
     /// The share of the directions, the best, that the step is made of, b/N, above 0 and at most 1; default ½. At least
     /// one is.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub top_directions: f64,
     /// How the first centre is drawn; default Gaussian, scaled by fan-in.
     pub initial_centre: Initialization,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which covariance matrices [`CmaEs`](crate::CmaEs) adapts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum CovarianceModel {
     /// Every symmetric matrix: weights that must change together do. It has n²/2 numbers for n weights, and takes of the

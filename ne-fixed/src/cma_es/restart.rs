@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 /// - when the best fitness was the same for 10 + ⌈30 n / λ⌉ generations (EqualFunValues);
 /// - when best and median fitness have not risen in a long while (Stagnation).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Restart {
     /// Never; the search goes on with the least deviation. The default.

@@ -5,17 +5,21 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`CmaEs`](crate::CmaEs). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct CmaEsSettings {
     /// Number of individuals, from 2 to 1,000,000, until a restart changes it; default none, which is 4 + ⌊3 ln n⌋ for
     /// n weights: 19 for 188. More make the search slower and steadier, which helps where fitness is noisy or full of
     /// traps.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000)))]
     pub population: Option<usize>,
-    /// The deviation of each weight in the first generation, σ, above 0 and at most 1000; default 0.5. A third of the
+    /// The deviation of each weight in the first generation, σ, from 1e-6 to 1000; default 0.5. A third of the
     /// distance at which the answer may lie is right.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-6, max = 1000.0)))]
     pub step_size: f64,
     /// The least the greatest deviation of a weight may become, from 1e-9 to `step_size`; default 1e-5. The search does
     /// not get finer than that; with restarts it then begins anew.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-9, max = 1000.0)))]
     pub least_deviation: f64,
     /// Which covariance matrices are adapted; default separable.
     pub covariance: CovarianceModel,
@@ -24,8 +28,10 @@ pub struct CmaEsSettings {
     /// How many searches of `start_generations` begin one after the other, of which only the one that got farthest goes on; from 1
     /// to 1000; default 1, which goes on in any case. Where a search that begins badly ends badly, a few are cheap insurance. A
     /// search that is told where to begin has one.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub starts: usize,
     /// How many generations each of several starts has, from 1 to 1000000; default 20.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1_000_000)))]
     pub start_generations: u64,
     /// How the mean of the first generation, and of each restart, is drawn; default zeros.
     pub initial_mean: Initialization,

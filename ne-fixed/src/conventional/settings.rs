@@ -11,17 +11,22 @@ use serde::{Deserialize, Serialize};
 /// Two presets: [`thesis`](Self::thesis) and [`default`](Self::default). A file states every field (only
 /// `stagnation_boost` may be left out), since what a missing one means would depend on the preset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct ConventionalNeSettings<S = Selection, C = CrossoverChoice, M = MutationChoice> {
     /// Number of individuals, from 2 to 1,000,000.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000)))]
     pub population: usize,
     /// How many of the best pass into the next generation unchanged, below `population`.
+    #[cfg_attr(feature = "schema", schemars(range(max = 999_999)))]
     pub elites: usize,
     /// How many newcomers, drawn like the first generation, join each generation; with the elites below `population`.
+    #[cfg_attr(feature = "schema", schemars(range(max = 999_999)))]
     pub immigrants: usize,
     /// How parents are selected.
     pub selection: S,
     /// The share of children that have two parents, from 0 to 1; the others begin as a copy of one.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub crossover_rate: f64,
     /// How a child's genes are made from two parents'.
     pub crossover: C,

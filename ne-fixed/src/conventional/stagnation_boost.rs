@@ -9,13 +9,17 @@ use serde::{Deserialize, Serialize};
 /// Source: an idea the thesis left for later; a slow form of Cobb's triggered hypermutation (*An Investigation into the
 /// Use of Hypermutation*, NRL Memorandum 6760, 1990).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct StagnationBoost {
     /// Generations without progress until the strength rises (again), at least 1; default 10.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub patience: u64,
     /// What the strength is multiplied by, from 1 to 100; default 1.5.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 100.0)))]
     pub factor: f64,
     /// The greatest strength, from 1 to 100; default 4.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 100.0)))]
     pub limit: f64,
 }
 

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// Which weights [`Cosyne`](crate::Cosyne) marks to change places with others of their subpopulation.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Permutation {
     /// All of them: no net survives a generation, and only the subpopulations evolve.

@@ -5,19 +5,25 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`Cosyne`](crate::Cosyne). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct CosyneSettings {
     /// Number of nets, and of weights in each subpopulation, from 2 to 1,000,000; default 50.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000)))]
     pub population: usize,
     /// The share of the nets, the best, that are parents, above 0 and at most 1; default ¼. At least two are.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub parents: f64,
     /// The share of the nets, the worst, that children take the place of, from 0 to below 1; default ¾.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0)))]
     pub offspring: f64,
     /// How a child's genes are made from two parents'; default one-point.
     pub crossover: CrossoverChoice,
     /// The probability that a child's gene mutates, from 0 to 1; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub mutation_rate: f64,
     /// The scale of mutations, which have a Cauchy distribution, in units of the weights, from 0 to 1000; default 0.3.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub mutation_scale: f64,
     /// Which weights change places; default by fitness.
     pub permutation: Permutation,
@@ -25,6 +31,7 @@ pub struct CosyneSettings {
     pub initialization: Initialization,
     /// Generations without a better best fitness after which the search begins anew, at least 1; default none, for never.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub restart: Option<u64>,
 }
 

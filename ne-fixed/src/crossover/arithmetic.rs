@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Michalewicz, *Genetic Algorithms + Data Structures = Evolution Programs*, 1992.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Arithmetic {}
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON the name with its settings, of which these have none: `{"two-point": {}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum CrossoverChoice {
     /// Up to a point from one parent, the rest from the other.

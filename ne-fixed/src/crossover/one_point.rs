@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Holland, *Adaptation in Natural and Artificial Systems*, 1975.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct OnePoint {}
 

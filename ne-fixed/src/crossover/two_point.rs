@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: De Jong, *An Analysis of the Behavior of a Class of Genetic Adaptive Systems*, 1975.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct TwoPoint {}
 

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Syswerda, *Uniform Crossover in Genetic Algorithms*, ICGA 1989.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct UniformCrossover {}
 

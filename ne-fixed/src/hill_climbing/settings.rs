@@ -4,13 +4,17 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`HillClimbing`](crate::HillClimbing). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct HillClimbingSettings {
     /// Number of nets evaluated in a generation, from 2 to 1,000,000; default 16: the parent and its children.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000)))]
     pub population: usize,
     /// The probability that a child's weight changes, from 0 to 1; default 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub mutation_rate: f64,
     /// The standard deviation of a change, in units of the weights, from 0 to 1000; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub mutation_deviation: f64,
     /// How the weights of the first generation, of which the best is the first parent, are drawn; default uniform in ±1.
     pub initialization: Initialization,

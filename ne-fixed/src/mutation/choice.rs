@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON the name with its settings: `{"gaussian": {"rate": 0.1, "deviation": 0.2}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum MutationChoice {
     /// Changes within a limit.

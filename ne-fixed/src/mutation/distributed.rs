@@ -5,9 +5,11 @@ use serde::{Deserialize, Serialize};
 
 /// Each gene with probability `rate` changes by a number of a [`Distribution`]: Cauchy, exponential, log-normal or normal.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct DistributedMutation {
     /// The probability that a gene changes, from 0 to 1; default 0.05.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub rate: f64,
     /// The changes, in units of the weights; default Cauchy with scale 0.2.
     pub distribution: Distribution,

@@ -7,11 +7,14 @@ use serde::{Deserialize, Serialize};
 ///
 /// Most changes are small, a few are large: unlike the uniform mutation it can leave any local optimum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct GaussianMutation {
     /// The probability that a gene changes, from 0 to 1; default 0.05.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub rate: f64,
     /// The standard deviation of a change, in units of the weights, from 0 to 1000; default 0.5.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub deviation: f64,
 }
 

@@ -12,17 +12,23 @@ use serde::{Deserialize, Serialize};
 /// Source: Schwefel, *Numerical Optimization of Computer Models*, 1981; Beyer & Schwefel, *Evolution Strategies: A
 /// Comprehensive Introduction*, Natural Computing 1, 2002, section 4.2.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct SelfAdaptiveMutation {
     /// The probability that a gene changes, from 0 to 1; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub rate: f64,
     /// The deviation of the first generation, in units of the weights, from `minimum` to `maximum`; default 0.3.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub initial: f64,
     /// The least deviation, above 0 and at most 1000; default 0.01.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub minimum: f64,
     /// The greatest deviation, from `minimum` to 1000; default 2.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub maximum: f64,
     /// How fast the deviation changes, τ, from 0 to 10; default none, which means 1 / √(2n) for n genes.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10.0)))]
     pub learning_rate: Option<f64>,
 }
 

@@ -8,11 +8,14 @@ use serde::{Deserialize, Serialize};
 
 /// Uniform mutation, the thesis': each gene with probability `rate` changes by a uniform amount of at most `limit`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct UniformMutation {
     /// The probability that a gene changes, from 0 to 1; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub rate: f64,
     /// The largest change, in units of the weights, from 0 to 1000; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1000.0)))]
     pub limit: f64,
 }
 

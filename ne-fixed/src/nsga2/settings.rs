@@ -4,10 +4,12 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`Nsga2`](crate::Nsga2). What a file leaves out has its default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Nsga2Settings {
     /// Number of individuals evaluated in each generation, from 4 to 10,000; default 100. (Sorting takes time in
     /// proportion to its square.)
+    #[cfg_attr(feature = "schema", schemars(range(min = 4, max = 10_000)))]
     pub population: usize,
     /// Whether parents are evaluated again beside their children, each half of the population, so that all were in the
     /// same worlds; default yes. Without, as in the paper, a parent keeps what it was told once, and in worlds that
@@ -16,6 +18,7 @@ pub struct Nsga2Settings {
     /// How parents are selected by rank and crowding; default a tournament of two, as in the paper.
     pub selection: Selection,
     /// The share of children that have two parents, from 0 to 1; the others begin as a copy of one. Default 0.5.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub crossover_rate: f64,
     /// How a child's genes are made from two parents'; default uniform. (The paper: simulated binary crossover.)
     pub crossover: CrossoverChoice,

@@ -5,15 +5,20 @@ use serde::{Deserialize, Serialize};
 ///
 /// Source: Kingma & Ba, *Adam: A Method for Stochastic Optimization*, ICLR 2015, algorithm 1.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Adam {
     /// α, about how far a weight moves in a step, above 0 and at most 1000; default 0.05.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub learning_rate: f64,
     /// β₁, how slowly the mean gradient is forgotten, from 0 to below 1; default 0.9.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0)))]
     pub momentum: f64,
     /// β₂, how slowly the mean square of the gradient is forgotten, from 0 to below 1; default 0.999.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0), extend("exclusiveMaximum" = 1.0)))]
     pub square_decay: f64,
     /// ε, what is added to the root of the mean square, above 0 and at most 1; default 1e-8.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub epsilon: f64,
 }
 

@@ -8,22 +8,28 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`OpenEs`](crate::OpenEs). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct OpenEsSettings {
     /// Number of samples, even, from 2 to 1,000,000; default 50. The centre is evaluated besides, so that a generation
     /// has one individual more.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000), extend("multipleOf" = 2)))]
     pub population: usize,
     /// The deviation of the samples from the centre, σ, in units of the weights, from 1e-6 to 1000; default 0.1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-6, max = 1000.0)))]
     pub deviation: f64,
     /// What the deviation is multiplied by after each generation, above 0 and at most 1; default 1. Below 1 the search
     /// gets finer.
+    #[cfg_attr(feature = "schema", schemars(range(max = 1.0), extend("exclusiveMinimum" = 0.0)))]
     pub deviation_decay: f64,
     /// What the deviation decays to, from 1e-6 to `deviation`; default 0.01.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1e-6, max = 1000.0)))]
     pub least_deviation: f64,
     /// How the centre climbs.
     pub adam: Adam,
     /// How strongly weights are drawn to 0: a gradient of −`weight_decay` times the weight is added, from 0 to 1;
     /// default 0.005. Large weights saturate their neurons, where nothing can be learnt.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub weight_decay: f64,
     /// How the first centre is drawn; default Gaussian, scaled by fan-in.
     pub initial_centre: Initialization,

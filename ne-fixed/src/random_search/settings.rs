@@ -4,9 +4,11 @@ use serde::{Deserialize, Serialize};
 
 /// The settings of [`RandomSearch`](crate::RandomSearch). Those a file leaves out have their defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct RandomSearchSettings {
     /// Number of nets drawn in a generation, from 1 to 1,000,000; default 50.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1_000_000)))]
     pub population: usize,
     /// How weights are drawn; default uniform in ±1.
     pub initialization: Initialization,

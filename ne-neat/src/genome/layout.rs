@@ -23,6 +23,7 @@ pub struct Layout {
 
 /// How neurons get a bias.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum BiasKind {
     /// From a node that always puts out 1, as in the paper: a bias is the weight of a connection from it, and evolves as

@@ -28,27 +28,35 @@ use serde::{Deserialize, Serialize};
 /// Source: Stanley & Miikkulainen, 2002, section 4.1, for weights and added structure; deletion and the rest are not in
 /// the paper.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct MutationSettings {
     /// How weights change.
     pub weights: WeightMutation,
     /// The probability that a disabled connection, any of them, is enabled; from 0 to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub enable: f64,
     /// The probability that an enabled connection, any of them, is disabled; from 0 to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub disable: f64,
     /// The probability that a connection, any of them, is deleted, and with it hidden neurons that have no other; from 0
     /// to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub delete_connection: f64,
     /// The probability that a hidden neuron, any of them, is deleted with its connections; from 0 to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub delete_node: f64,
     /// The probability that a hidden neuron, any of them, gets another activation, if there is another to choose; from 0
     /// to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub activation: f64,
     /// The probability that a connection is added between two nodes that have none, any such pair alike; from 0 to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub add_connection: f64,
     /// The probability that a neuron is added in the middle of an enabled connection that does not come from the bias
     /// node: the old connection is disabled, the one to the neuron gets weight 1, the one from it the old weight; from 0
     /// to 1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub add_node: f64,
     /// Which connection it splits.
     pub split: SplitChoice,

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// In JSON: `"any"` or `{"older": {"probability": 0.7, "below": 15}}`.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum SplitChoice {
     /// Any, all alike.
@@ -18,6 +19,7 @@ pub enum SplitChoice {
     /// In small genomes an old one.
     Older {
         /// From the oldest on each is taken with this probability, and any if none is; from 0 to 1.
+        #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
         probability: f64,
         /// Small are genomes with fewer connections than this, disabled ones included.
         below: usize,

@@ -9,17 +9,22 @@ use serde::{Deserialize, Serialize};
 /// How the weights of a child change, those of disabled connections included. A bias of [a neuron of its
 /// own](BiasKind::PerNeuron) is one of them.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WeightMutation {
     /// The probability that a child's weights change at all, from 0 to 1; 0.8 in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub rate: f64,
     /// The share of its weights that then change, from 0 to 1; all in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub share: f64,
     /// The share of those that are drawn anew instead of perturbed, from 0 to 1; 0.1 in the paper.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub replaced: f64,
     /// What is added to a weight that is perturbed.
     pub perturbation: Noise,
     /// The greatest weight, and negated the least, from 0.001 to 1000: mutations stop there.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1000.0)))]
     pub limit: f64,
 }
 

@@ -16,9 +16,11 @@ use serde::{Deserialize, Serialize};
 /// [`pole_balancing`](Self::pole_balancing). A file states every field, since what a missing one means would depend on
 /// the preset.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct NeatSettings {
     /// Number of individuals, from 2 to 1,000,000; it never changes.
+    #[cfg_attr(feature = "schema", schemars(range(min = 2, max = 1_000_000)))]
     pub population: usize,
     /// Whether connections may form cycles, so that nets have a memory.
     pub recurrent: bool,
@@ -27,6 +29,7 @@ pub struct NeatSettings {
     /// The activation of outputs.
     pub output_activation: Activation,
     /// The activations of hidden neurons, at least one and none twice: a new neuron gets any of them.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1), extend("uniqueItems" = true)))]
     pub hidden_activations: Vec<Activation>,
     /// What the first nets look like.
     pub start: StartTopology,
@@ -43,6 +46,7 @@ pub struct NeatSettings {
     /// Generations without a better best fitness after which the search begins anew, at least 1; none for never, as in the
     /// paper, and in a file that does not state it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub restart: Option<u64>,
 }
 

@@ -20,22 +20,30 @@ use std::fmt;
 /// assert_eq!((shape.weight_count(), shape.to_string().as_str()), (188, "9-10-8"));
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "UncheckedShape")]
+#[cfg_attr(feature = "schema", schemars(!try_from, deny_unknown_fields))]
 pub struct DenseShape {
     /// Number of inputs, from 1 to 4096.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 4096)))]
     pub inputs: usize,
     /// Number of neurons in each hidden layer, from 1 to 4096; up to 64 layers, or none.
+    #[cfg_attr(feature = "schema", schemars(length(max = 64), inner(range(min = 1, max = 4096))))]
     pub hidden: Vec<usize>,
     /// Number of outputs, from 1 to 4096.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 4096)))]
     pub outputs: usize,
     /// The activation of all hidden neurons; default tanh.
+    #[cfg_attr(feature = "schema", schemars(default = "default_activation"))]
     pub hidden_activation: Activation,
     /// The activation of the outputs; default tanh.
+    #[cfg_attr(feature = "schema", schemars(default = "default_activation"))]
     pub output_activation: Activation,
     /// What the output of a hidden neuron is multiplied by, above 0 and at most 1000; default 3.
     ///
     /// The thesis feeds every layer values in [-3, 3], where tanh is neither flat nor a line: inputs are scaled so from
     /// outside, hidden outputs by this factor.
+    #[cfg_attr(feature = "schema", schemars(default = "default_scale", range(max = 1000.0), extend("exclusiveMinimum" = 0.0)))]
     pub hidden_scale: f32,
 }
 

@@ -26,20 +26,26 @@ use std::fmt;
 /// assert_eq!((shape.weight_count(), shape.validate()), (5, Ok(())));
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "UncheckedShape")]
+#[cfg_attr(feature = "schema", schemars(!try_from, deny_unknown_fields))]
 pub struct GraphShape {
     /// Number of inputs, from 1 to 4096.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 4096)))]
     pub inputs: usize,
     /// Whether a neuron may have itself or a later neuron as source.
     pub recurrent: bool,
     /// Hidden neurons and outputs in the order they are computed; from 1 to 65,536.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 65_536)))]
     pub neurons: Vec<GraphNeuron>,
     /// The node of each output: a neuron; from 1 to 4096 of them.
+    #[cfg_attr(feature = "schema", schemars(length(min = 1, max = 4096), inner(range(min = 1))))]
     pub outputs: Vec<usize>,
 }
 
 /// A neuron of a [`GraphShape`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct GraphNeuron {
     /// Its activation.
