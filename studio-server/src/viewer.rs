@@ -107,6 +107,7 @@ impl Viewer {
         let library = Arc::clone(&self.library);
         let event = match request {
             Request::Look => Event::Catalogue(Box::new(library.catalogue())),
+            Request::Schema => Event::Schema { schema: gambol_runs::schema::json_schema(library.registry()) },
             Request::Describe { choice } => {
                 let described = choice.describe(&library.registry_with_drawn(), &library.creatures());
                 Event::Described(Box::new(described))

@@ -9,8 +9,13 @@ const FAINT = 0.2;
 // Half-transparent creatures: each part is painted once, and then only placed. Sixty pictures a second of a hundred
 // creatures are too many to paint.
 class Crowd {
-  constructor(model) {
+  constructor(model, creature) {
     this.model = model;
+    // What each part takes, shape and decorations: left, bottom, right, top.
+    this.boxes = creature.parts.map(part => {
+      const [x, y] = [0, 1].map(axis => corners(part).map(corner => corner[axis]));
+      return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+    });
     this.scale = 0;
   }
 
@@ -24,10 +29,12 @@ class Crowd {
 
   paint(part) {
     const canvas = document.createElement("canvas");
-    canvas.width = canvas.height = Math.max(2, Math.ceil(2 * part.drawnReach * this.scale) + 2);
+    const [left, bottom, right, top] = this.boxes[part.index];
+    canvas.width = Math.ceil((right - left) * this.scale) + 4;
+    canvas.height = Math.ceil((top - bottom) * this.scale) + 4;
+    const [x, y] = [2 - left * this.scale, 2 + top * this.scale];
     const c = canvas.getContext("2d");
-    const middle = canvas.width / 2;
-    c.setTransform(this.scale, 0, 0, -this.scale, middle, middle);
+    c.setTransform(this.scale, 0, 0, -this.scale, x, y);
     c.lineJoin = c.lineCap = "round";
     c.globalAlpha = part.opacity;
     c.fillStyle = part.colour;
@@ -36,18 +43,18 @@ class Crowd {
       if (fill) { c.fillStyle = fill; c.fill(path); }
       if (stroke) { c.lineWidth = width; c.strokeStyle = stroke; c.stroke(path); }
     }
-    return { canvas, middle, at: part.index * 3 };
+    return { canvas, x, y, at: part.index * 3 };
   }
 
   draw(stage, pose) {
     const c = stage.context;
     const size = stage.scale * stage.ratio / this.scale;
     c.globalAlpha = FAINT;
-    for (const { canvas, middle, at } of this.pictures) {
+    for (const { canvas, x, y, at } of this.pictures) {
       const cos = Math.cos(pose[at + 2]) * size;
       const sin = Math.sin(pose[at + 2]) * size;
       c.setTransform(cos, -sin, sin, cos, stage.screenX(pose[at]) * stage.ratio, stage.screenY(pose[at + 1]) * stage.ratio);
-      c.drawImage(canvas, -middle, -middle);
+      c.drawImage(canvas, -x, -y);
     }
     c.globalAlpha = 1;
   }
@@ -76,7 +83,7 @@ class Arena {
     const key = JSON.stringify(event.creature);
     if (key !== this.key) {
       this.model = makeModel(event.creature);
-      this.crowd = new Crowd(this.model);
+      this.crowd = new Crowd(this.model, event.creature);
       this.top = 0;
       this.key = key;
     }
@@ -119,8 +126,9 @@ class Arena {
   get seconds() { return this.time ?? 0; }
 
   tick(seconds) {
-    if (!this.event || !this.now || this.pending) return;
+    if (!this.event || !this.now) return;
     if (this.playing) this.time += seconds * this.speed;
+    if (this.pending) return;
     const wanted = Math.floor(this.time / this.event.time_step) + 1;
     const steps = Math.min(wanted - this.asked, 60);
     if (steps <= 0) return;

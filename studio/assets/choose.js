@@ -9,8 +9,6 @@ const FIELDS = [
   { name: "seed", label: "Seed", number: true, none: "the preset's" },
   { name: "generations", label: "Generations", number: true, none: "the preset's" },
 ];
-// A part of a configuration that is chosen above, or is not chosen at all.
-const HIDDEN = new Set(["preset", "seed", "creature", "further_bodies", "origin", "topology", "sensors", "stages", "movement.name"]);
 
 class Choose {
   constructor(connection, onTrain) {
@@ -18,15 +16,15 @@ class Choose {
     this.choice = { movement: "running", creature: "biped-1" };
     this.set = new Map();
     this.past = [];
-    this.settings = new Map();
+    this.settings = new Settings(set => this.change(() => set(this.set)));
     this.onTrain = onTrain;
     connection.on("catalogue", catalogue => this.fill(catalogue));
+    connection.on("schema", ({ schema }) => { this.settings.schema = schema; this.ask(); });
     connection.on("described", described => this.describe(described));
     const get = name => document.getElementById(name);
     get("choose-train").addEventListener("click", () => this.train());
     get("settings-undo").addEventListener("click", () => this.undo());
     get("settings-reset").addEventListener("click", () => this.change(() => this.set.clear()));
-    get("settings-search").addEventListener("input", () => this.filter());
   }
 
   get request() {
@@ -103,69 +101,10 @@ class Choose {
   describe({ config, preset, problem, command }) {
     document.getElementById("choose-command").textContent = command;
     document.getElementById("choose-train").disabled = Boolean(problem);
-    const wrong = problem ? [...this.settings.keys()].filter(key => this.set.has(key) && problem.includes(key.split(".").pop())) : [];
     document.getElementById("choose-problem").textContent = problem || "";
-    if (preset) this.buildSettings(preset, config);
-    for (const [key, { box, note }] of this.settings) {
-      box.classList.toggle("wrong", wrong.includes(key));
-      note.textContent = wrong.includes(key) ? problem : "";
-    }
-  }
-
-  // A field for each number, switch and text of the configuration, in groups as it has them.
-  buildSettings(preset, config) {
-    const leaves = leavesOf(preset).filter(([key]) => !HIDDEN.has(key) && !HIDDEN.has(key.split(".")[0]));
-    const values = new Map(leavesOf(config || preset));
-    const shape = JSON.stringify(leaves.map(([key, value]) => [key, typeof value]));
-    if (shape !== this.shape) {
-      this.shape = shape;
-      this.settings.clear();
-      const groups = new Map();
-      for (const [key, value] of leaves) {
-        const group = key.includes(".") ? key.split(".")[0] : "run";
-        if (!groups.has(group)) groups.set(group, []);
-        groups.get(group).push(this.setting(key, value));
-      }
-      const tree = [...groups].map(([group, boxes]) => {
-        const details = element("details");
-        const inside = element("div", undefined, "settings-group");
-        inside.append(...boxes);
-        details.append(element("summary", group), inside);
-        return details;
-      });
-      document.getElementById("settings-tree").replaceChildren(...tree);
-    }
-    for (const [key, value] of leaves) {
-      const setting = this.settings.get(key);
-      setting.preset = value;
-      const changed = this.set.has(key);
-      setting.box.classList.toggle("changed", changed);
-      const now = changed ? this.set.get(key) : values.get(key) ?? value;
-      if (document.activeElement === setting.input) continue;
-      if (setting.input.type === "checkbox") setting.input.checked = String(now) === "true"; else setting.input.value = String(now);
-    }
-    this.filter();
+    if (preset) this.settings.show(preset, config, this.set, problem);
     document.getElementById("settings-undo").disabled = !this.past.length;
     document.getElementById("settings-reset").disabled = !this.set.size;
-  }
-
-  setting(key, value) {
-    const box = element("div", undefined, "setting");
-    const label = element("label", key.split(".").slice(key.includes(".") ? 1 : 0).join(" › ").replace(/_/g, " "));
-    const input = element("input");
-    input.type = typeof value === "boolean" ? "checkbox" : typeof value === "number" ? "number" : "text";
-    if (input.type === "number") input.step = "any";
-    input.dataset.key = key;
-    const note = element("p", "", "problem");
-    input.addEventListener("change", () => this.change(() => {
-      const now = input.type === "checkbox" ? String(input.checked) : input.value.trim();
-      if (now === "" || now === String(this.settings.get(key).preset)) this.set.delete(key); else this.set.set(key, now);
-    }));
-    label.append(input);
-    label.title = key;
-    box.append(label, note);
-    this.settings.set(key, { box, input, note, preset: value });
-    return box;
   }
 
   change(act) {
@@ -178,31 +117,6 @@ class Choose {
     const before = this.past.pop();
     if (before) { this.set = before; this.ask(); }
   }
-
-  filter() {
-    const words = document.getElementById("settings-search").value.toLowerCase().split(/\s+/).filter(Boolean);
-    let shown = 0;
-    for (const [key, { box }] of this.settings) {
-      const fits = words.every(word => key.toLowerCase().replace(/_/g, " ").includes(word));
-      box.hidden = !fits;
-      shown += fits ? 1 : 0;
-    }
-    for (const details of document.querySelectorAll("#settings-tree details")) {
-      const any = [...details.querySelectorAll(".setting")].some(box => !box.hidden);
-      details.hidden = !any;
-      if (words.length) details.open = any;
-    }
-    const changed = this.set.size ? `, ${count(this.set.size, "is", "are")} not as the preset has it` : "";
-    document.getElementById("settings-count").textContent = `${count(shown, "setting", "settings")}${changed}`;
-  }
-}
-
-// The numbers, switches and texts of a value, each with its way there; lists of plain things are one text.
-function leavesOf(value, way = "") {
-  if (value === null) return [];
-  if (Array.isArray(value)) return value.every(item => typeof item !== "object") ? [[way, JSON.stringify(value)]] : [];
-  if (typeof value !== "object") return [[way, value]];
-  return Object.entries(value).flatMap(([name, inner]) => leavesOf(inner, way ? `${way}.${name}` : name));
 }
 
 // A picture of a creature with its name, to be chosen.

@@ -30,6 +30,7 @@ class Studio {
     this.buildControls();
     this.buildReadouts();
     this.connection.ask({ do: "look" });
+    this.connection.ask({ do: "schema" });
     const chapter = location.hash.slice(2);
     this.go(CHAPTERS.includes(chapter) ? chapter : "watch");
   }

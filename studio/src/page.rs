@@ -22,6 +22,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("../assets/arena.js"),
     include_str!("../assets/net.js"),
     include_str!("../assets/watch.js"),
+    include_str!("../assets/settings.js"),
     include_str!("../assets/choose.js"),
     include_str!("../assets/play.js"),
     include_str!("../assets/keep.js"),

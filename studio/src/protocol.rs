@@ -14,6 +14,8 @@ use tasks::gait::Judgement;
 pub enum Request {
     /// What can be chosen, and what there is.
     Look,
+    /// What every setting is: the JSON Schema of a configuration.
+    Schema,
     /// What a choice comes to, before anything is trained.
     Describe {
         /// The choice.
@@ -157,6 +159,11 @@ pub struct Choice {
 pub enum Event {
     /// What can be chosen, and what there is.
     Catalogue(Box<Catalogue>),
+    /// What every setting is.
+    Schema {
+        /// The JSON Schema of a configuration.
+        schema: Value,
+    },
     /// What a choice comes to.
     Described(Box<Described>),
     /// What is wrong with a creature.
