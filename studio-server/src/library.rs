@@ -21,7 +21,7 @@ use std::{
     time::SystemTime,
 };
 use studio::{
-    choice::ChoiceError,
+    choice::{ChoiceError, Kept},
     protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState},
 };
 
@@ -72,8 +72,14 @@ impl Library {
     }
 
     /// The folder of drawn creatures.
-    pub fn creatures(&self) -> PathBuf {
+    fn creatures(&self) -> PathBuf {
         self.runs.join(CREATURES)
+    }
+
+    /// The creatures that were drawn and kept.
+    pub fn kept(&self) -> Kept {
+        let names = self.drawn_creatures().into_iter().map(|creature| creature.name).collect();
+        Kept { folder: self.creatures(), names }
     }
 
     /// What there is to choose from.
@@ -160,6 +166,9 @@ impl Library {
         let failed = |error: &dyn std::fmt::Display| LibraryError::Keep(error.to_string());
         // A valid name is one of a file, and of none elsewhere.
         let blueprint = Blueprint::new(creature.clone()).map_err(|error| failed(&error))?;
+        if self.registry.creatures.find(blueprint.name()).is_ok() {
+            return Err(failed(&format!("\"{}\" is the name of another; give it one of its own", blueprint.name())));
+        }
         let path = self.creatures().join(format!("{}.json", blueprint.name()));
         archive::make_folder(&self.creatures()).map_err(|error| failed(&error))?;
         let json = serde_json::to_string_pretty(creature).map_err(|error| failed(&error))?;
@@ -179,7 +188,7 @@ impl Library {
         }
         let folder = NewFolder::make(&self.runs, &config)?;
         let name = name_of(folder.path());
-        let command = choice.command(&self.creatures());
+        let command = choice.command(&self.kept());
         let session = Session::begin(name.clone(), config, command, folder, self.registry.clone(), self.threads)?;
         self.sessions().insert(name, Arc::clone(&session));
         Ok(session)

@@ -94,6 +94,8 @@ impl Server {
                 _ = tokio::task::spawn_blocking(wait) => Ok(()),
             }
         });
+        // What is still being answered is not waited for.
+        runtime.shutdown_background();
         library.close();
         Ok(served?)
     }

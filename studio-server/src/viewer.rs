@@ -109,7 +109,7 @@ impl Viewer {
             Request::Look => Event::Catalogue(Box::new(library.catalogue())),
             Request::Schema => Event::Schema { schema: gambol_runs::schema::json_schema(library.registry()) },
             Request::Describe { choice } => {
-                let described = choice.describe(&library.registry_with_drawn(), &library.creatures());
+                let described = choice.describe(&library.registry_with_drawn(), &library.kept());
                 Event::Described(Box::new(described))
             }
             Request::Check { creature, number } => Event::Checked { number, problems: choice::check(&creature) },

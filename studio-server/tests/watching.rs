@@ -327,7 +327,7 @@ fn a_drawn_creature_is_kept_and_trained() -> Outcome {
     assert_eq!(kept["name"], "mine");
     assert!(library.catalogue().drawn.contains(&"mine".to_owned()));
     // A name that would be a path is none.
-    for name in ["../mine", "a/b", "", "..", "x\u{0}"] {
+    for name in ["../mine", "a/b", "", "..", "x\u{0}", "biped-1"] {
         drawn["name"] = name.into();
         page.events.clear();
         page.ask(json!({ "do": "keep", "creature": drawn }));

@@ -138,8 +138,11 @@ function drawPortrait(canvas, creature) {
   const model = makeModel(creature);
   const stage = new Stage(canvas, 0.82);
   const pose = new Float32Array(creature.parts.flatMap(({ position, angle }) => [position[0], position[1], (angle || 0) * Math.PI / 180]));
+  // Portraits that were taken from the page are not drawn again.
+  loop.views = loop.views.filter(view => !view.wasThere || view.canvas.isConnected);
   loop.addView({
-    clock: { time: 0 }, get visible() { return stage.visible && canvas.isConnected; },
+    canvas, clock: { time: 0 },
+    get visible() { this.wasThere ||= canvas.isConnected; return stage.visible && canvas.isConnected; },
     get stale() { return stage.stale; }, set stale(value) { stage.stale = value; },
     draw() {
       stage.scale = fittingScale(stage, model, model.height, 0.78, 6);

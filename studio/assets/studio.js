@@ -23,7 +23,7 @@ class Studio {
     this.choose = new Choose(this.connection, () => this.go("watch"));
     this.keep = new Keep(this.connection, this.watch, {
       open: run => { this.connection.ask({ do: "open", run }); this.go("watch"); },
-      draw: creature => { this.go("draw"); this.editor?.load(creature); },
+      draw: creature => { this.go("draw"); this.draw(creature); },
     });
     this.who = "population";
     this.listen();
@@ -121,7 +121,14 @@ class Studio {
       },
     });
     const chosen = creatures.find(({ name }) => name === this.choose.choice.creature);
-    this.editor.load(this.watch.config?.creature || chosen || creatures[0]);
+    this.draw(this.watch.config?.creature || chosen || creatures[0]);
+  }
+
+  // Changes a creature; one that has the name of a shipped one gets a name of its own.
+  draw(creature) {
+    const { creatures, drawn } = this.choose.catalogue;
+    const isShipped = creatures.some(({ name }) => name === creature.name) && !drawn.includes(creature.name);
+    this.editor.load(isShipped ? { ...creature, name: `my ${creature.name}` } : creature);
   }
 
   showAgain() {
@@ -221,7 +228,8 @@ class Studio {
     if (!shown || this.chapter !== "watch" || !this.arena.playing) return;
     const seconds = this.arena.seconds;
     const newer = this.watch.last && this.watch.last.generation !== shown.generation;
-    const lasts = shown.who === "population" ? 5 : 10;
+    // The very first falls at once.
+    const lasts = shown.who !== "population" ? 10 : shown.number === 1 ? 3 : 5;
     if (seconds < lasts) return;
     if (!newer && this.watch.state === "paused" && document.getElementById("run-pace").value === "shown") this.connection.ask({ do: "step" });
     if (!newer && seconds < 4 * lasts) return;

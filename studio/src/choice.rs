@@ -13,7 +13,16 @@ use gambol_runs::{
     texts::shell_word,
 };
 use serde_json::Value;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+/// The creatures that were drawn and kept.
+#[derive(Clone, Debug, Default)]
+pub struct Kept {
+    /// Where.
+    pub folder: PathBuf,
+    /// Their names.
+    pub names: Vec<String>,
+}
 
 /// Why a choice cannot be trained: in the words of the library, which name field and range.
 #[derive(Debug, thiserror::Error)]
@@ -42,14 +51,14 @@ impl Choice {
         Ok(config)
     }
 
-    /// What the choice comes to, or what is wrong with it. `creatures`: the folder in which drawn creatures are kept, for the command.
-    pub fn describe(&self, registry: &Registry, creatures: &Path) -> Described {
+    /// What the choice comes to, or what is wrong with it. `kept`: see [`command`](Self::command).
+    pub fn describe(&self, registry: &Registry, kept: &Kept) -> Described {
         let (config, problem) = match self.resolve(registry) {
             Ok(config) => (Some(config), None),
             Err(ChoiceError(problem)) => (None, Some(problem)),
         };
         let preset = self.configure(registry, &[]).ok();
-        Described { config, preset, problem, command: self.command(creatures) }
+        Described { config, preset, problem, command: self.command(kept) }
     }
 
     /// The creature that was drawn, if one was.
@@ -99,12 +108,13 @@ impl Choice {
         Ok(config)
     }
 
-    /// What to type for the same run.
-    pub fn command(&self, creatures: &Path) -> String {
+    /// What to type for the same run: a creature that was drawn is a file.
+    pub fn command(&self, kept: &Kept) -> String {
         let drawn = self.drawn.as_ref().and_then(|drawn| drawn.get("name")?.as_str());
-        let creature = match drawn {
-            Some(name) => creatures.join(format!("{name}.json")),
-            None => self.creature.clone().unwrap_or_else(|| "CREATURE".into()).into(),
+        let named = self.creature.as_deref().unwrap_or("CREATURE");
+        let creature = match drawn.or(Some(named).filter(|name| kept.names.iter().any(|kept| kept == name))) {
+            Some(name) => kept.folder.join(format!("{name}.json")),
+            None => named.into(),
         };
         let word = |text: &str| shell_word(Path::new(text));
         let mut command = format!("{} train {} {}", program_name(), shell_word(&creature), word(&self.movement));
@@ -142,8 +152,12 @@ mod tests {
         Choice { creature: Some(creature.into()), movement: movement.into(), ..Choice::default() }
     }
 
+    fn kept() -> Kept {
+        Kept { folder: "runs/creatures".into(), names: vec!["mine".into()] }
+    }
+
     fn problem(choice: &Choice) -> String {
-        choice.describe(&Registry::default(), Path::new("runs/creatures")).problem.expect("something is wrong")
+        choice.describe(&Registry::default(), &kept()).problem.expect("something is wrong")
     }
 
     #[test]
@@ -151,7 +165,7 @@ mod tests {
         let registry = Registry::default();
         let choice =
             Choice { seed: Some(7), set: vec!["controller.hidden=[5]".into()], ..choice("biped-1", "running") };
-        let described = choice.describe(&registry, Path::new("runs/creatures"));
+        let described = choice.describe(&registry, &kept());
         assert_eq!(described.problem, None);
         assert_eq!(described.command, "gambol train biped-1 running --seed 7 --set 'controller.hidden=[5]'");
         let request = Request {
@@ -188,9 +202,10 @@ mod tests {
         let mut drawn = serde_json::to_value(creatures::find("tetrapod-1").expect("it is shipped")).expect("JSON");
         drawn["name"] = json!("mine");
         let choice = Choice { drawn: Some(drawn.clone()), ..choice("ignored", "running") };
-        let described = choice.describe(&Registry::default(), Path::new("runs/creatures"));
+        let described = choice.describe(&Registry::default(), &kept());
         assert_eq!(described.config.map(|config| config.creature.name), Some("mine".into()));
         assert_eq!(described.command, "gambol train runs/creatures/mine.json running");
+        assert_eq!(super::tests::choice("mine", "running").command(&kept()), described.command, "by its name, too");
         assert_eq!(check(&drawn), []);
         drawn["parts"][1]["shape"] = json!({"circle": {"radius": -1}});
         let mistakes = check(&drawn);
