@@ -6,8 +6,11 @@ const HEADER = 5;
 // How much of one of a crowd is seen.
 const FAINT = 0.2;
 
-// Half-transparent creatures: each part is painted once, and then only placed. Sixty pictures a second of a hundred
-// creatures are too many to paint.
+// A crowd of more than so many is drawn with half the pixels each way.
+const LARGE_CROWD = 24;
+
+// Half-transparent creatures: each part is painted once, and then only placed, on a picture of their own. Sixty pictures a
+// second of a hundred creatures are too many to paint.
 class Crowd {
   constructor(model, creature) {
     this.model = model;
@@ -17,11 +20,18 @@ class Crowd {
       return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
     });
     this.scale = 0;
+    this.canvas = document.createElement("canvas");
+    this.context = this.canvas.getContext("2d");
   }
 
-  // Paints the parts anew where they would be seen much larger or smaller than they are.
-  fit(stage) {
-    const wanted = stage.scale * stage.ratio;
+  // An empty picture for so many. Parts are painted anew where they would be seen much larger or smaller than they are.
+  begin(stage, count) {
+    this.share = stage.ratio * (count > LARGE_CROWD ? 0.5 : 1);
+    const [width, height] = [Math.ceil(stage.width * this.share), Math.ceil(stage.height * this.share)];
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    this.context.setTransform(1, 0, 0, 1, 0, 0);
+    this.context.clearRect(0, 0, width, height);
+    const wanted = stage.scale * this.share;
     if (wanted < this.scale * 1.2 && wanted > this.scale * 0.6) return;
     this.scale = wanted;
     this.pictures = this.model.order.map(part => this.paint(part));
@@ -47,16 +57,21 @@ class Crowd {
   }
 
   draw(stage, pose) {
-    const c = stage.context;
-    const size = stage.scale * stage.ratio / this.scale;
+    const c = this.context;
+    const size = stage.scale * this.share / this.scale;
     c.globalAlpha = FAINT;
     for (const { canvas, x, y, at } of this.pictures) {
       const cos = Math.cos(pose[at + 2]) * size;
       const sin = Math.sin(pose[at + 2]) * size;
-      c.setTransform(cos, -sin, sin, cos, stage.screenX(pose[at]) * stage.ratio, stage.screenY(pose[at + 1]) * stage.ratio);
+      c.setTransform(cos, -sin, sin, cos, stage.screenX(pose[at]) * this.share, stage.screenY(pose[at + 1]) * this.share);
       c.drawImage(canvas, -x, -y);
     }
     c.globalAlpha = 1;
+  }
+
+  end(stage) {
+    stage.resetTransform();
+    stage.context.drawImage(this.canvas, 0, 0, this.canvas.width / this.share, this.canvas.height / this.share);
   }
 }
 
@@ -162,7 +177,7 @@ class Arena {
     if (this.follow) stage.centreX = middleX(model, lead) + stage.width * 0.06 / stage.scale;
     stage.raise = raiseFor(stage, model, lead);
     stage.drawScenery(this.origin, { small: stage.width < 560 });
-    if (now.actors > 1) this.crowd.fit(stage);
+    this.crowd.begin(stage, now.actors);
     for (let index = now.actors - 1; index >= 0; index--) {
       if (index === first) continue;
       const from = index * now.size;
@@ -170,7 +185,7 @@ class Arena {
       if (x < -200 || x > stage.width + 200) continue;
       this.crowd.draw(stage, this.pose(index));
     }
-    stage.resetTransform();
+    this.crowd.end(stage);
     const pose = this.pose(first);
     drawShadow(stage, model, pose);
     drawCreature(stage, model, pose);
