@@ -95,6 +95,8 @@ class Studio {
     }
     history.replaceState(null, "", `#/${chapter}`);
     this.play.active = chapter === "play";
+    // It is the champion that is played with.
+    document.getElementById("show-who").closest("label").hidden = chapter === "play";
     if (chapter === "draw") this.buildEditor();
     if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
     if (before && before !== chapter && (chapter === "play" || before === "play")) this.showAgain();
