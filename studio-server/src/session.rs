@@ -263,6 +263,7 @@ impl Session {
         let done = self.inner().rows.len() as u64;
         let more = generations.map(|more| StopConditions {
             generations: Some(done.saturating_add(more)),
+            steps: None,
             tier: None,
             ..self.config.stop
         });

@@ -32,6 +32,9 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     }
     config.trials.count = defaults.trials.unwrap_or(TRIALS);
     config.stages = defaults.stages;
+    if defaults.most_steps.is_some() {
+        (config.stop.generations, config.stop.steps) = (None, defaults.most_steps);
+    }
     if let Some(variation) = defaults.variation {
         config.variation = variation;
     }

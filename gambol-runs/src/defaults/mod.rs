@@ -71,6 +71,8 @@ pub struct MovementDefaults {
     pub trials: Option<u32>,
     /// The stages in which it is learned; empty: it is learned in one.
     pub stages: Vec<StageSettings>,
+    /// A run ends after so many steps, in place of the preset's generations; `None`: as the preset has it.
+    pub most_steps: Option<u64>,
     /// In place of the preset's variation between trials.
     pub variation: Option<Variation>,
     /// In place of the strategy's own settings of these names, where it has them.
@@ -93,6 +95,7 @@ impl MovementDefaults {
             stands: walks,
             trials: None,
             stages: Vec::new(),
+            most_steps: None,
             variation: None,
             strategy: Map::new(),
         }

@@ -17,6 +17,8 @@ struct Plan {
     follow: [u64; 2],
     jump: [u64; 2],
     polish: [u64; 2],
+    /// Of all stages, those that were given up included: some five minutes on one core.
+    most: u64,
     /// Another stride is searched for if `jump` earns less than this, in s of about 57, after so many steps; so often.
     give_up_jump: (f64, u64, u32),
     /// And if `polish` has nothing playable after so many steps; so often.
@@ -35,6 +37,7 @@ const PLAN: Plan = Plan {
     follow: [8_000_000, 100_000_000],
     jump: [8_000_000, 30_000_000],
     polish: [60_000_000, 120_000_000],
+    most: 350_000_000,
     give_up_jump: (45.0, 15_000_000, 3),
     give_up_polish: Some((40_000_000, 2)),
     starts: 1,
@@ -48,6 +51,7 @@ const BALANCED_PLAN: Plan = Plan {
     follow: [20_000_000, 40_000_000],
     jump: [8_000_000, 60_000_000],
     polish: [200_000_000, 400_000_000],
+    most: 650_000_000,
     give_up_jump: (36.0, 25_000_000, 2),
     give_up_polish: None,
     starts: 3,
@@ -101,6 +105,7 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),
+        most_steps: Some(plan.most),
         stages: vec![move_on(plan), follow(plan), jump(plan, clocks), polish(plan), harden()],
         strategy: strategy.into_iter().map(|(name, value)| (name.to_owned(), value)).collect(),
         ..unknown

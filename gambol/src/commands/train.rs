@@ -155,12 +155,14 @@ pub(super) struct RunFlags {
 }
 
 impl Limits {
-    /// These limits in place of the planned ones. Another budget takes the place of the planned generations; a target
+    /// These limits in place of the planned ones. Another budget takes the place of the planned generations and steps; a target
     /// or stagnation alone comes on top of them, or a run might never end.
     pub(super) fn over(self, planned: StopConditions) -> StopConditions {
         let limits = self.conditions();
         let budget = limits.evaluations.or(limits.steps).is_some() || limits.minutes.is_some();
-        let planned = StopConditions { generations: planned.generations.filter(|_| !budget), ..planned };
+        let generations = planned.generations.filter(|_| !budget);
+        let steps = planned.steps.filter(|_| !budget && limits.generations.is_none());
+        let planned = StopConditions { generations, steps, ..planned };
         planned.overlaid(limits)
     }
 
