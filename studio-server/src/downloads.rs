@@ -33,7 +33,7 @@ async fn done(work: impl FnOnce() -> Result<Response, Failed> + Send + 'static) 
     }
 }
 
-/// Why there is nothing to be had.
+/// Why a request has failed: a status and a text.
 struct Failed(StatusCode, String);
 
 impl<E: Display> From<E> for Failed {

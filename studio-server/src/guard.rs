@@ -1,4 +1,4 @@
-//! Who is answered.
+//! Refuses requests that do not come from the studio's own page.
 
 use crate::shared::Shared;
 use axum::{
@@ -9,7 +9,7 @@ use axum::{
 };
 use std::sync::Arc;
 
-/// Answers who knows the secret, calls us by our name, and comes from us.
+/// Answers a request that has the secret in its path, our name as its host, and our page as its origin.
 pub(crate) async fn guard(State(shared): State<Arc<Shared>>, request: Request, next: Next) -> Response {
     let secret = request.uri().path().split('/').nth(1).unwrap_or_default();
     let is_ours = has_our_name(&shared, request.headers()) && comes_from_us(&shared, request.headers());

@@ -7,8 +7,8 @@
 //!
 //! Three decisions:
 //!
-//! - **A page is never trusted.** The [`Server`] listens on the loopback address alone, and answers only who knows the secret in its address and
-//!   came from it. Names of runs are names of folders in one folder; no path is ever taken from a page.
+//! - **A page is never trusted.** The [`Server`] listens on the loopback address alone. It answers requests that have the secret in their path and
+//!   come from its own page. Names of runs are names of folders in one folder; no path is ever taken from a page.
 //! - **A run that is watched is a run like any other.** A [`Session`] trains in a run folder, and looks at what it is told between two
 //!   generations. It can let the run wait, or end it; what the run finds is the same to the bit.
 //! - **A thread for each page.** A [`Viewer`] answers one message after the other; nothing is asynchronous but the sockets.

@@ -31,7 +31,7 @@ const CREATURES: &str = "creatures";
 /// The most runs that a gallery shows.
 const MOST_RUNS: usize = 200;
 
-/// The studio's rooms: all that its pages see.
+/// The runs and creatures that all pages of a studio share.
 pub struct Library {
     registry: Registry,
     runs: PathBuf,

@@ -406,7 +406,7 @@ impl Session {
         }
         while inner.pace == Pace::Steps(0) && !inner.signal.is_set() {
             inner.state = RunState::Paused;
-            // A signal is not told of: it may be set by who does not know of this.
+            // The signal wakes no thread, so it is looked at from time to time.
             inner = self.woken.wait_timeout(inner, PATIENCE).unwrap_or_else(PoisonError::into_inner).0;
         }
         inner.state = RunState::Running;
@@ -444,7 +444,7 @@ impl Session {
     }
 }
 
-/// How long something waits that nobody wakes.
+/// How long a thread waits before it looks again.
 const PATIENCE: Duration = Duration::from_millis(200);
 
 fn best_first(mut entrants: Vec<Entrant>) -> Vec<Entrant> {

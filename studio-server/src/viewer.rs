@@ -94,7 +94,7 @@ impl Viewer {
             self.told.verdict = Some(verdict.clone());
             news.push(Event::Verdict(verdict).into());
         }
-        // Last: whoever hears that a run has ended has heard of all its generations.
+        // The state comes last: a page that hears of the end has then heard of all generations.
         let state = session.state();
         if self.told.state.as_ref() != Some(&state) {
             self.told.state = Some(state.clone());

@@ -1,4 +1,4 @@
-//! Who is answered, and who is not.
+//! Requests that are answered, and requests that are refused.
 
 use std::{
     io::{Read, Write},

@@ -64,7 +64,7 @@ pub enum Request {
     Stop,
     /// Put these into an arena, in place of those that are in it.
     Show {
-        /// Who.
+        /// Which creatures.
         who: Who,
         /// On another terrain than that of the run: a name, or `NAME:DIFFICULTY`.
         #[serde(default)]
@@ -105,7 +105,7 @@ pub enum Request {
     },
 }
 
-/// Who is to be seen.
+/// Which creatures an arena shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Who {
@@ -195,7 +195,7 @@ pub enum Event {
     Arena {
         /// The number that its frames begin with.
         number: u32,
-        /// Who is in it.
+        /// Which creatures they are: `population` or `champion`.
         who: &'static str,
         /// The generation they are of.
         generation: u64,
@@ -400,7 +400,7 @@ pub struct ArenaData {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArenaError {
-    /// There is nobody.
+    /// There is no creature to show.
     #[error("there is nothing to show yet")]
     Empty,
     /// A net is not made for the body.

@@ -160,3 +160,16 @@ fn any_crate_can_say_what_the_default_preset_adds_for_a_movement() {
         "there is no preset \"defualt\"; did you mean \"default\"? (there are: default, thesis, stanley-2002, plain, shaped)"
     );
 }
+
+/// A run with stages is not to end in the middle of them.
+#[test]
+fn playing_ends_after_steps_and_not_after_generations() {
+    for (creature, movement, generations, steps) in [
+        ("tetrapod-1", "playing", None, Some(350_000_000)),
+        ("biped-2", "playing", None, Some(650_000_000)),
+        ("biped-2", "running", Some(300), None),
+    ] {
+        let stop = config(creature, movement).stop;
+        assert_eq!((stop.generations, stop.steps), (generations, steps), "{creature} {movement}");
+    }
+}
