@@ -64,6 +64,7 @@ mod registry;
 pub mod request;
 pub mod robust;
 pub mod robustness_check;
+pub mod run;
 pub mod run_folder;
 #[cfg(feature = "schema")]
 pub mod schema;

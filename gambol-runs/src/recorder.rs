@@ -25,17 +25,28 @@ pub(crate) const GALLERY_MEMBERS: usize = 1000;
 ///
 /// Lines are appended each generation; checkpoint, champion and front are brought up to date every few generations,
 /// after the lines they belong to are on the disk.
-pub(crate) struct Recorder<'a> {
-    folder: &'a RunFolder,
-    config: &'a RunConfig,
-    setup: &'a Setup,
+pub(crate) struct Recorder {
+    folder: RunFolder,
     log: LineFile,
     gallery: LineFile,
     timing: LineFile,
     last: Instant,
     /// The generation of the champion in the file, once we have written it.
     written: Option<u64>,
-    called: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
+}
+
+/// The run that is written down.
+#[derive(Clone, Copy)]
+pub(crate) struct Recorded<'a> {
+    pub(crate) config: &'a RunConfig,
+    pub(crate) setup: &'a Setup,
+}
+
+/// A recorder at work, and who is called once a generation is written down.
+pub(crate) struct Recording<'a> {
+    pub(crate) recorder: &'a mut Recorder,
+    pub(crate) run: Recorded<'a>,
+    pub(crate) called: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
 }
 
 /// The lines of an earlier run as far as its checkpoint goes: checked, and nothing changed on the disk yet.
@@ -65,18 +76,12 @@ impl EarlierLines {
     }
 }
 
-impl<'a> Recorder<'a> {
+impl Recorder {
     /// Goes on after these lines; whatever the files hold beyond them is dropped.
-    pub(crate) fn new(
-        folder: &'a RunFolder,
-        config: &'a RunConfig,
-        setup: &'a Setup,
-        earlier: EarlierLines,
-        called: &'a mut dyn FnMut(&Generation<'_, AnyStrategy>),
-    ) -> Result<Self, FolderError> {
+    pub(crate) fn new(folder: RunFolder, earlier: EarlierLines) -> Result<Self, FolderError> {
         let EarlierLines { log, gallery, timing } = earlier;
         let (log, gallery, timing) = (log.open()?, gallery.open()?, timing.open()?);
-        Ok(Self { folder, config, setup, log, gallery, timing, last: Instant::now(), written: None, called })
+        Ok(Self { folder, log, gallery, timing, last: Instant::now(), written: None })
     }
 
     /// The last save: brings everything to the disk, lines first, then champion and front, then the checkpoint, which says
@@ -85,6 +90,7 @@ impl<'a> Recorder<'a> {
     /// `champion`: what the champion file is to have, which may be one that the checkpoint does not know of.
     pub(crate) fn finish<S: Strategy>(
         &mut self,
+        run: Recorded<'_>,
         evolution: &Evolution<S>,
         champion: Option<&ne_core::Champion<S::Genome>>,
     ) -> Result<(), FolderError>
@@ -93,8 +99,8 @@ impl<'a> Recorder<'a> {
     {
         let _span = tracing::debug_span!("checkpoint").entered();
         self.sync()?;
-        self.write_champion(evolution.strategy().name(), champion)?;
-        self.write_front(evolution.strategy(), evolution.progress().generations)?;
+        self.write_champion(run, evolution.strategy().name(), champion)?;
+        self.write_front(run, evolution.strategy(), evolution.progress().generations)?;
         Ok(evolution.write_last_checkpoint(&self.folder.checkpoint())?)
     }
 
@@ -111,6 +117,7 @@ impl<'a> Recorder<'a> {
 
     fn write_champion<G: Genome>(
         &mut self,
+        run: Recorded<'_>,
         strategy: &str,
         champion: Option<&ne_core::Champion<G>>,
     ) -> Result<(), FolderError>
@@ -120,18 +127,18 @@ impl<'a> Recorder<'a> {
         let Some(champion) = champion.filter(|champion| self.written != Some(champion.generation)) else {
             return Ok(());
         };
-        Champion::new(self.config, self.setup, strategy, champion).write(&self.folder.champion())?;
+        Champion::new(run.config, run.setup, strategy, champion).write(&self.folder.champion())?;
         self.written = Some(champion.generation);
         Ok(())
     }
 
     /// Nothing, for a strategy that knows no front.
-    fn write_front<S: Strategy>(&self, strategy: &S, generation: u64) -> Result<(), FolderError>
+    fn write_front<S: Strategy>(&self, run: Recorded<'_>, strategy: &S, generation: u64) -> Result<(), FolderError>
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
         match strategy.front() {
-            Some(points) => Ok(Front::new(generation, &self.setup.objectives, &points).write(&self.folder.front())?),
+            Some(points) => Ok(Front::new(generation, &run.setup.objectives, &points).write(&self.folder.front())?),
             None => Ok(()),
         }
     }
@@ -140,7 +147,7 @@ impl<'a> Recorder<'a> {
         Ok(self.gallery.write(&GalleryEntry { generation, kind, members })?)
     }
 
-    fn record<S: Strategy>(&mut self, event: &Generation<'_, S>) -> Result<(), FolderError>
+    fn record<S: Strategy>(&mut self, run: Recorded<'_>, event: &Generation<'_, S>) -> Result<(), FolderError>
     where
         <S::Genome as Genome>::Phenotype: Into<Network>,
     {
@@ -150,7 +157,7 @@ impl<'a> Recorder<'a> {
             let member = GalleryMember { fitness: Some(champion.fitness), network: champion.genome.express().into() };
             self.keep(generation, GalleryKind::Champion, vec![member])?;
         }
-        if self.config.record.populations_at.contains(&generation) {
+        if run.config.record.populations_at.contains(&generation) {
             let member = |(genome, evaluation): (&S::Genome, &Evaluation)| GalleryMember {
                 fitness: evaluation.fitness(),
                 network: genome.express().into(),
@@ -164,11 +171,11 @@ impl<'a> Recorder<'a> {
         self.timing.write(&Timing { generation, seconds })?;
         // A stage that is passed or left is saved once it has ended, with the champion that goes on from it.
         let goes_on = event.decision == Decision::Stay;
-        if goes_on && generation.is_multiple_of(self.config.record.checkpoint_every) {
+        if goes_on && generation.is_multiple_of(run.config.record.checkpoint_every) {
             let _span = tracing::debug_span!("checkpoint").entered();
             self.sync()?;
-            self.write_champion(event.strategy.name(), event.champion)?;
-            self.write_front(event.strategy, generation)?;
+            self.write_champion(run, event.strategy.name(), event.champion)?;
+            self.write_front(run, event.strategy, generation)?;
             event.write_checkpoint(&self.folder.checkpoint())?;
         }
         Ok(())
@@ -187,9 +194,9 @@ fn spread_by_rank(evaluations: &[Evaluation]) -> Vec<usize> {
     indices
 }
 
-impl Observer<AnyStrategy> for &mut Recorder<'_> {
+impl Observer<AnyStrategy> for Recording<'_> {
     fn generation(&mut self, event: &Generation<'_, AnyStrategy>) -> Result<(), ObserverError> {
-        self.record(event)?;
+        self.recorder.record(self.run, event)?;
         (self.called)(event);
         Ok(())
     }

@@ -142,23 +142,24 @@ impl<S: Strategy> Evolution<S> {
         // The clock is not read without need: not everywhere is there one.
         let start = self.stop.minutes.map(|_| Instant::now());
         loop {
-            match self.decision {
-                Decision::Stay => {}
-                Decision::Promote => return Ok(StopReason::Promoted),
-                Decision::Demote => return Ok(StopReason::Demoted),
-                Decision::GiveUp => return Ok(StopReason::GivenUp),
-            }
-            let best = self.champion.as_ref().map(Champion::standing);
-            if let Some(reason) =
-                self.stop.reached(&self.progress, best, start.map_or(Duration::ZERO, |start| start.elapsed()))
-            {
+            if let Some(reason) = self.is_over(start.map_or(Duration::ZERO, |start| start.elapsed())) {
                 return Ok(reason);
-            }
-            if self.signal.is_set() {
-                return Ok(StopReason::Interrupted);
             }
             self.generation(task, evaluator, observers)?;
         }
+    }
+
+    /// Why it is to end before the next generation, `elapsed` after it began; `None`: it goes on.
+    pub fn is_over(&self, elapsed: Duration) -> Option<StopReason> {
+        match self.decision {
+            Decision::Stay => {}
+            Decision::Promote => return Some(StopReason::Promoted),
+            Decision::Demote => return Some(StopReason::Demoted),
+            Decision::GiveUp => return Some(StopReason::GivenUp),
+        }
+        let best = self.champion.as_ref().map(Champion::standing);
+        let reached = self.stop.reached(&self.progress, best, elapsed);
+        reached.or_else(|| self.signal.is_set().then_some(StopReason::Interrupted))
     }
 
     /// Runs one generation, whatever the stop conditions say.

@@ -1,29 +1,34 @@
 //! The studio, served from this machine to a browser on it.
 //!
 //! ```text
-//!  browser ── HTTP, web socket ── Server ── Viewer ── Session ── run folder
-//!                                    one for each page   one for each run
+//!  browser ── HTTP, web socket ── Server ── studio::Viewer
+//!                                    one for each page, on a thread of its own
 //! ```
 //!
-//! Three decisions:
+//! Two decisions:
 //!
 //! - **A page is never trusted.** The [`Server`] listens on the loopback address alone. It answers requests that have the secret in their path and
-//!   come from its own page. Names of runs are names of folders in one folder; no path is ever taken from a page.
-//! - **A run that is watched is a run like any other.** A [`Session`] trains in a run folder, and looks at what it is told between two
-//!   generations. It can let the run wait, or end it; what the run finds is the same to the bit.
-//! - **A thread for each page.** A [`Viewer`] answers one message after the other; nothing is asynchronous but the sockets.
+//!   come from its own page.
+//! - **A thread for each page, and for each job** ([`Threads`]). A viewer answers one message after the other; nothing is asynchronous but
+//!   the sockets.
 
 mod downloads;
 mod guard;
-mod library;
 mod secret;
 mod server;
-mod session;
 mod shared;
 mod socket;
-mod viewer;
+mod threads;
 
-pub use library::{Library, LibraryError};
 pub use server::{Server, ServerError};
-pub use session::Session;
-pub use viewer::{Reply, Viewer};
+pub use threads::Threads;
+
+use gambol_runs::Registry;
+use std::{path::PathBuf, sync::Arc};
+use studio::{Library, Means};
+
+/// The library over the runs in a folder, which need not be there yet. `threads` of each training; 0: one for each core.
+pub fn library(registry: Registry, runs: PathBuf, threads: usize) -> Library {
+    let workers = Arc::new(Threads::default());
+    Library::new(registry, runs, Means { workers, threads, writes_reports: true })
+}

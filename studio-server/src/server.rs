@@ -1,12 +1,13 @@
 //! HTTP and web sockets, for this machine alone.
 
-use crate::{downloads, guard::guard, library::Library, secret::Secret, shared::Shared, socket::socket};
+use crate::{downloads, guard::guard, secret::Secret, shared::Shared, socket::socket};
 use axum::{Router, http::HeaderValue, middleware, routing::get};
 use std::{
     future::IntoFuture,
     net::{Ipv4Addr, SocketAddr},
     sync::Arc,
 };
+use studio::Library;
 use tokio::{
     net::TcpListener,
     runtime::{Builder, Runtime},
@@ -76,14 +77,11 @@ impl Server {
         let Self { runtime, listener, shared, .. } = self;
         let library = Arc::clone(&shared.library);
         let router = Router::new()
-            .route("/{secret}/", get(downloads::page))
+            .route("/{secret}/", get(downloads::index))
             .route("/{secret}/studio.js", get(downloads::script))
             .route("/{secret}/studio.css", get(downloads::style))
             .route("/{secret}/socket", get(socket))
-            .route("/{secret}/runs/{run}/report", get(downloads::report))
-            .route("/{secret}/runs/{run}/champion.json", get(downloads::champion))
-            .route("/{secret}/runs/{run}/verify", get(downloads::verify))
-            .route("/{secret}/runs/{run}/export/{format}/{file}", get(downloads::export))
+            .route("/{secret}/runs/{run}/{*wanted}", get(downloads::download))
             .layer(middleware::from_fn_with_state(Arc::clone(&shared), guard))
             .with_state(shared);
         let served = runtime.block_on(async move {

@@ -1,8 +1,9 @@
 //! What all requests share.
 
-use crate::{library::Library, secret::Secret};
+use crate::secret::Secret;
 use axum::http::HeaderValue;
 use std::sync::Arc;
+use studio::Library;
 
 /// What is needed to answer.
 pub(crate) struct Shared {

@@ -1,10 +1,6 @@
 //! The web socket of a page.
 
-use crate::{
-    library::Library,
-    shared::Shared,
-    viewer::{Reply, Viewer},
-};
+use crate::shared::Shared;
 use axum::{
     extract::{
         State,
@@ -17,6 +13,7 @@ use std::{
     thread,
     time::{Duration, Instant},
 };
+use studio::{Library, Reply, Viewer};
 use tokio::sync::mpsc as channel;
 
 /// A message of a page is at most so long, in bytes: champions and creatures are smaller.

@@ -7,7 +7,7 @@ use std::{
     sync::{Arc, mpsc},
     thread,
 };
-use studio_server::{Library, Server};
+use studio_server::Server;
 use tungstenite::{Message, client::IntoClientRequest};
 
 /// A studio that ends with this value.
@@ -20,7 +20,7 @@ struct Served {
 
 impl Served {
     fn new(folder: &Path) -> Self {
-        let library = Arc::new(Library::new(Default::default(), folder.join("runs"), 1));
+        let library = Arc::new(studio_server::library(Default::default(), folder.join("runs"), 1));
         let server = Server::bind(library, 0).expect("a free port");
         let url = server.url();
         let mut pieces = url.strip_prefix("http://").expect("HTTP").split('/');

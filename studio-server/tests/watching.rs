@@ -8,8 +8,10 @@ use std::{
     thread,
     time::{Duration, Instant},
 };
-use studio::protocol::{Event, RunState};
-use studio_server::{Library, Reply, Viewer};
+use studio::{
+    Library, Reply, Viewer,
+    protocol::{Event, RunState},
+};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
 
@@ -92,7 +94,7 @@ fn name(state: &RunState) -> &'static str {
 }
 
 fn library(folder: &Path) -> Arc<Library> {
-    Arc::new(Library::new(Default::default(), folder.join("runs"), 2))
+    Arc::new(studio_server::library(Default::default(), folder.join("runs"), 2))
 }
 
 fn choice(generations: u64) -> Value {

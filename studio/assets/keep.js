@@ -49,8 +49,8 @@ class Keep {
     document.getElementById("keep-title").textContent = run;
     document.getElementById("keep-result").textContent = "";
     const address = `runs/${encodeURIComponent(run)}`;
-    document.getElementById("keep-report").href = `${address}/report`;
-    document.getElementById("keep-champion").href = `${address}/champion.json`;
+    this.connection.link(document.getElementById("keep-report"), `${address}/report`, `${run}.html`);
+    this.connection.link(document.getElementById("keep-champion"), `${address}/champion.json`, `${run}.json`);
     const links = (this.formats || []).flatMap(({ name, endings }) => endings.map((ending, file) => {
       const link = element("button", endings.length > 1 ? `${name} ${ending}` : name, "small");
       link.type = "button";
@@ -65,22 +65,18 @@ class Keep {
   // Fetched first, so that what is wrong can be said.
   async export(run, format, file) {
     this.say(`${format} is being made …`);
-    const answer = await fetch(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
-    if (!answer.ok) return this.say(await answer.text());
-    const name = /filename="([^"]*)"/.exec(answer.headers.get("content-disposition"))?.[1] || format;
-    const link = element("a");
-    link.href = URL.createObjectURL(await answer.blob());
-    link.download = name;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+    const { ok, name, blob } = await this.connection.get(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
+    if (!ok) return this.say(await blob.text());
+    saveAs(blob, name);
     return this.say(`${name} is saved.`);
   }
 
   async verify() {
     this.say("The champion is played again …");
-    const answer = await fetch(`runs/${encodeURIComponent(this.watch.run)}/verify`);
-    if (!answer.ok) return this.say(await answer.text());
-    const { identical, diverges_at_step: step } = await answer.json();
+    const { ok, blob } = await this.connection.get(`runs/${encodeURIComponent(this.watch.run)}/verify`);
+    const text = await blob.text();
+    if (!ok) return this.say(text);
+    const { identical, diverges_at_step: step } = JSON.parse(text);
     return this.say(identical ? "Identical: the champion does to the bit what its file says." : `Not identical: it differs from step ${step} on.`);
   }
 

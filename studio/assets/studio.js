@@ -11,10 +11,7 @@ const TOUR = [
 
 class Studio {
   constructor() {
-    const address = new URL("socket", location.href);
-    address.protocol = "ws:";
-    address.hash = "";
-    this.connection = new Connection(address);
+    this.connection = connect();
     this.arena = new Arena(document.getElementById("arena-canvas"), this.connection);
     this.watch = new Watch(this.connection, this.arena);
     this.watch.refuse = text => this.refuse(text);
@@ -49,12 +46,12 @@ class Studio {
       this.showAgain();
     });
     connection.on("generations", () => { if (!this.shown) this.showAgain(); });
-    connection.onState = on => {
+    connection.onState = (on, problem) => {
       document.body.classList.toggle("offline", !on);
       if (on && this.wasOff) {
         this.refuse("");
         if (this.opened?.run) connection.ask({ do: "open", run: this.opened.run });
-      } else if (!on) this.refuse("The studio does not answer. What was trained is saved; the page goes on as soon as the program does.");
+      } else if (!on) this.refuse(problem);
       this.wasOff = !on;
     };
     this.arena.onEnter = event => {

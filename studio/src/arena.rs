@@ -1,23 +1,17 @@
 //! Creatures that move on the same ground at once, each with a net of its own.
 
-use crate::protocol::{ArenaData, ArenaError, Told};
+use crate::{
+    protocol::{ArenaData, ArenaError, Told},
+    scene::{Entrant, Scene},
+};
 use creatures::{Channel, Creature};
 use envs_core::{Engine, Ground, GroundShape};
 use envs_rapier::RapierEnvironment;
 use gambol_reports::page::{ground::GroundData, network::NetworkData};
-use gambol_runs::champion::ChannelRecord;
-use ne_core::{Fitness, Phenotype, Seed};
+use gambol_runs::{Registry, champion::ChannelRecord};
+use ne_core::{Phenotype, Seed};
 use ne_net::Network;
 use tasks::{CommandChange, Commands, Environment};
-
-/// One that is to be shown.
-#[derive(Clone, Debug)]
-pub struct Entrant {
-    /// Its controller.
-    pub network: Network,
-    /// Its fitness in training; `None` if it failed there.
-    pub fitness: Option<Fitness>,
-}
 
 /// Creatures of one body in copies of one world: they never meet. Time passes only when it is [asked to](Self::advance).
 pub struct Arena {
@@ -49,6 +43,14 @@ pub const MOST_STEPS: u32 = 120;
 const MOST_OBSTACLES: usize = 100;
 
 impl Arena {
+    /// The arena of a scene.
+    ///
+    /// # Errors
+    /// If its world cannot be built, or as [`new`](Self::new).
+    pub fn of(scene: &Scene, registry: &Registry) -> Result<Self, ArenaError> {
+        Self::new(&scene.world.build(registry)?, &scene.entrants, scene.seed)
+    }
+
     /// All of them at the start of the trial with this seed, the best first.
     ///
     /// # Errors

@@ -8,6 +8,8 @@ use gambol_reports::page::{
 /// The page, which refers to *studio.css* and *studio.js* beside it.
 pub const PAGE: &str = include_str!("../assets/studio.html");
 
+const CONNECTION: &str = include_str!("../assets/connection.js");
+
 const STYLES: &[&str] = &[STYLE, include_str!("../assets/studio.css"), include_str!("../assets/editor.css")];
 
 const SCRIPTS: &[&str] = &[
@@ -18,7 +20,7 @@ const SCRIPTS: &[&str] = &[
     DRAWING_SCRIPT,
     CHART_SCRIPT,
     NETWORK_SCRIPT,
-    include_str!("../assets/connection.js"),
+    CONNECTION,
     include_str!("../assets/arena.js"),
     include_str!("../assets/net.js"),
     include_str!("../assets/watch.js"),
@@ -41,7 +43,12 @@ pub fn styles() -> String {
     STYLES.join("\n")
 }
 
-/// All scripts as one.
-pub fn scripts() -> String {
-    script(SCRIPTS)
+/// All scripts as one, with that of a home of the studio: it has a function `connect`, which gives a `Connection`.
+pub fn scripts(home: &str) -> String {
+    let parts: Vec<&str> =
+        SCRIPTS.iter().flat_map(|&part| if part == CONNECTION { vec![part, home] } else { vec![part] }).collect();
+    script(&parts)
 }
+
+/// The home of a studio that is served.
+pub const SERVED: &str = include_str!("../assets/socket.js");

@@ -1,8 +1,9 @@
 //! What a page and the studio say to each other. A message is JSON; only what moves comes as [numbers](crate::Arena::frame).
 
+use crate::scene::Scene;
 use creatures::{Creature, Problem};
 use gambol_reports::page::{ground::GroundData, network::NetworkData};
-use gambol_runs::{Registry, champion::Champion, config::RunConfig, gait};
+use gambol_runs::{Registry, champion::Champion, config::RunConfig, episode_parts::SetupError, gait};
 use ne_core::{Failure, GenerationReport};
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -72,6 +73,11 @@ pub enum Request {
         /// With another friction of the ground than that of the run.
         #[serde(default)]
         friction: Option<f32>,
+    },
+    /// Put these into an arena, as another viewer has sent them.
+    Enter {
+        /// What is to be shown.
+        scene: Box<Scene>,
     },
     /// Let so many steps pass in the arena, and show it.
     Advance {
@@ -191,6 +197,11 @@ pub enum Event {
     },
     /// The gait of the champion, judged.
     Verdict(Verdict),
+    /// What is to be shown, for a page whose arena is elsewhere.
+    Scene {
+        /// What it takes.
+        scene: Box<Scene>,
+    },
     /// What is in the arena now.
     Arena {
         /// The number that its frames begin with.
@@ -400,6 +411,9 @@ pub struct ArenaData {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ArenaError {
+    /// The world cannot be built.
+    #[error(transparent)]
+    World(#[from] SetupError),
     /// There is no creature to show.
     #[error("there is nothing to show yet")]
     Empty,

@@ -38,6 +38,8 @@ impl RunFolder {
         match file.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(busy()),
+            // In a browser there is one process, and nothing to lock.
+            Err(TryLockError::Error(_)) if cfg!(target_family = "wasm") => {}
             Err(TryLockError::Error(source)) => return Err(failed(source).into()),
         }
         // Not every system lets a folder be opened, and not every file system locks one.

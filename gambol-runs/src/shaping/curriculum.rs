@@ -14,6 +14,12 @@ pub trait Curriculum: Send + Sync {
     fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage>;
 }
 
+impl<C: Curriculum + ?Sized> Curriculum for &C {
+    fn next(&self, stage_runs: &[StageRun]) -> Option<PlannedStage> {
+        (**self).next(stage_runs)
+    }
+}
+
 /// Where a stage run begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Beginning {

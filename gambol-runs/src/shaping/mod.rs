@@ -11,12 +11,13 @@
 //! | [`Curriculum`] | says which stage comes next; [`Stages`] follows the list in a configuration, yours does what it likes |
 //! | [`Promotion`](ne_core::promotion::Promotion) | says when a stage is passed; [`PromotionRule`](ne_core::promotion::PromotionRule) has the usual conditions |
 //! | [`Transferred`](crate::config::Transferred), [`Origin`](crate::config::Origin) | what goes from one stage to the next, and what went |
-//! | [`train_stages`], [`resume_stages`] | the way through the stages |
+//! | [`train_stages`], [`resume_stages`] | the way through the stages; a [`StagedTraining`] goes it one generation at a time |
 
 mod curriculum;
 mod source;
 mod stage_progress;
 mod stage_runs;
+mod staged_training;
 mod stages;
 mod transfer;
 
@@ -26,6 +27,7 @@ pub use stage_progress::{
     train_stages,
 };
 pub use stage_runs::{StageRun, leading, run_of_stage, stage_runs};
+pub use staged_training::StagedTraining;
 pub use stages::{StageError, StageProblem, Stages};
 pub use transfer::TransferError;
 

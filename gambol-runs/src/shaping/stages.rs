@@ -1,5 +1,5 @@
 use super::{
-    Beginning, Curriculum, PlannedStage, StageRun,
+    Beginning, Curriculum, PlannedStage, ShapingError, StageRun,
     transfer::{TransferError, TransferOptions, check_planned},
 };
 use crate::Registry;
@@ -91,6 +91,14 @@ impl Stages {
             before = changed;
         }
         Ok(Self { stages })
+    }
+
+    /// The stages of a configuration that has some.
+    pub(super) fn listed(config: &RunConfig, registry: &Registry) -> Result<Self, ShapingError> {
+        match config.stages.is_empty() {
+            true => Err(ShapingError::NoStages),
+            false => Ok(Self::new(config, registry)?),
+        }
     }
 
     /// Where the stage after this one begins: at the end of the best of several attempts, else of the last stage run that was passed.

@@ -8,7 +8,7 @@ use std::{
     thread,
     time::Duration,
 };
-use studio_server::{Library, Server};
+use studio_server::Server;
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -51,7 +51,7 @@ impl Studio {
             _ => "runs".into(),
         };
         let runs = self.runs.clone().unwrap_or(beside);
-        let library = Arc::new(Library::new(registry.clone(), runs, self.threads));
+        let library = Arc::new(studio_server::library(registry.clone(), runs, self.threads));
         let query = match &first {
             None => String::new(),
             Some(First::Creature(name)) => format!("?creature={}", encoded(name)),

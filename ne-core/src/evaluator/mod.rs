@@ -27,6 +27,12 @@ impl<E: Evaluator> Evaluator for &E {
     }
 }
 
+impl<E: Evaluator> Evaluator for std::sync::Arc<E> {
+    fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
+        (**self).evaluate(task, genomes, seed)
+    }
+}
+
 /// Evaluates freshly expressed phenotypes, spread over these threads: what every evaluator ends in.
 ///
 /// A task sees none of another shape than its own; these have failed with [`Failure::ShapeMismatch`](crate::Failure). It sees

@@ -6,10 +6,10 @@ use rayon::prelude::*;
 /// population of a million.
 const AT_ONCE: usize = 1 << 14;
 
-/// Evaluates a generation on a pool of threads of its own.
+/// Evaluates a generation on a pool of threads of its own; where there are no threads, as in a browser, on the calling thread.
 #[derive(Debug)]
 pub struct Parallel {
-    pool: rayon::ThreadPool,
+    pool: Option<rayon::ThreadPool>,
 }
 
 /// The operating system would not start the threads.
@@ -26,22 +26,28 @@ impl Parallel {
     /// # Errors
     /// If the threads cannot be started.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
+        if cfg!(target_family = "wasm") {
+            return Ok(Self { pool: None });
+        }
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(threads)
             .thread_name(|index| format!("evaluator {index}"))
             .build()
             .map_err(|source| ThreadsError { threads, source })?;
-        Ok(Self { pool })
+        Ok(Self { pool: Some(pool) })
     }
 
     /// Does other work on these threads: what `work` hands to rayon stays on them.
     pub fn install<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.pool.install(work)
+        match &self.pool {
+            Some(pool) => pool.install(work),
+            None => work(),
+        }
     }
 
     /// The number of threads.
     pub fn threads(&self) -> usize {
-        self.pool.current_num_threads()
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
     }
 }
 
@@ -51,15 +57,17 @@ impl Threads for Parallel {
     }
 
     fn each(&self, work: &(dyn Fn() + Sync)) {
-        self.pool.install(|| (0..self.threads()).into_par_iter().with_max_len(1).for_each(|_| work()));
+        match &self.pool {
+            Some(pool) => pool.install(|| (0..self.threads()).into_par_iter().with_max_len(1).for_each(|_| work())),
+            None => work(),
+        }
     }
 }
 
 impl Evaluator for Parallel {
     fn evaluate<G: Genome>(&self, task: &dyn Task, genomes: &[G], seed: Seed) -> Vec<Evaluation> {
         let evaluate = |genomes: &[G]| {
-            let mut phenotypes: Vec<G::Phenotype> =
-                self.pool.install(|| genomes.par_iter().map(Genome::express).collect());
+            let mut phenotypes: Vec<G::Phenotype> = self.install(|| genomes.par_iter().map(Genome::express).collect());
             evaluate_phenotypes(task, &mut phenotypes, seed, self)
         };
         let mut evaluations = Vec::with_capacity(genomes.len());

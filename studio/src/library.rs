@@ -1,6 +1,11 @@
 //! What there is: the folder of all runs, the creatures drawn here, and the runs that are trained here.
 
-use crate::session::{Session, SessionError};
+use crate::{
+    choice::{ChoiceError, Kept},
+    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState},
+    session::{Means, Session, SessionError},
+    training::{self, Plan},
+};
 use creatures::{Blueprint, Creature};
 use gambol_exports::Format;
 use gambol_runs::{
@@ -20,10 +25,6 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::SystemTime,
 };
-use studio::{
-    choice::{ChoiceError, Kept},
-    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState},
-};
 
 /// Drawn creatures are kept in this folder among the runs.
 const CREATURES: &str = "creatures";
@@ -35,7 +36,7 @@ const MOST_RUNS: usize = 200;
 pub struct Library {
     registry: Registry,
     runs: PathBuf,
-    threads: usize,
+    means: Means,
     sessions: Mutex<BTreeMap<String, Arc<Session>>>,
 }
 
@@ -61,9 +62,9 @@ pub enum LibraryError {
 }
 
 impl Library {
-    /// Over the runs in a folder, which need not be there yet. `threads` of each training; 0: one for each core.
-    pub fn new(registry: Registry, runs: PathBuf, threads: usize) -> Self {
-        Self { registry, runs, threads, sessions: Mutex::default() }
+    /// Over the runs in a folder, which need not be there yet.
+    pub fn new(registry: Registry, runs: PathBuf, means: Means) -> Self {
+        Self { registry, runs, means, sessions: Mutex::default() }
     }
 
     /// What can be named.
@@ -189,7 +190,9 @@ impl Library {
         let folder = NewFolder::make(&self.runs, &config)?;
         let name = name_of(folder.path());
         let command = choice.command(&self.kept());
-        let session = Session::begin(name.clone(), config, command, folder, self.registry.clone(), self.threads)?;
+        let place = RunFolder::at(folder.path());
+        let session = Session::new(name.clone(), place, config, command, self.registry.clone(), self.means.clone())?;
+        training::start(&session, Plan::Begin(folder))?;
         self.sessions().insert(name, Arc::clone(&session));
         Ok(session)
     }
@@ -204,7 +207,7 @@ impl Library {
         if let Some(session) = sessions.get(run) {
             return Ok(Arc::clone(session));
         }
-        let session = Session::open(run.to_owned(), folder, self.registry.clone(), self.threads)?;
+        let session = Session::open(run.to_owned(), folder, self.registry.clone(), self.means.clone())?;
         sessions.insert(run.to_owned(), Arc::clone(&session));
         Ok(session)
     }
@@ -221,10 +224,13 @@ impl Library {
             return Err(none());
         }
         let path = self.runs.join(name);
-        // A link must not lead elsewhere.
-        let (real, runs) = (path.canonicalize().map_err(|_| none())?, self.runs.canonicalize().map_err(|_| none())?);
-        if real.parent() != Some(&*runs) {
-            return Err(none());
+        // A link must not lead elsewhere. On the disk of a browser there are none, and nothing can follow them.
+        if !cfg!(target_family = "wasm") {
+            let real = path.canonicalize().map_err(|_| none())?;
+            let runs = self.runs.canonicalize().map_err(|_| none())?;
+            if real.parent() != Some(&*runs) {
+                return Err(none());
+            }
         }
         RunFolder::open(&path).map_err(|_| none())
     }

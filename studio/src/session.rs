@@ -1,27 +1,37 @@
 //! One run: trained here, or opened from its folder.
 
+use crate::{
+    Entrant,
+    protocol::{Opened, RunState, Verdict},
+    work::Workers,
+};
 use gambol_runs::{
     Registry,
     champion::Champion,
     config::RunConfig,
-    run_folder::{FolderError, GalleryKind, NewFolder, RunFolder},
-    shaping::{self, StageProgress},
+    run_folder::{FolderError, GalleryKind, RunFolder},
+    shaping::{self, PlannedStage},
     strategies::{AnyGenome, AnyStrategy},
     texts::shell_word,
-    training::{self, Outcome, TrainOptions},
 };
-use ne_core::{Fitness, Generation, GenerationReport, Genome, Seed, StopConditions, StopReason, StopSignal};
+use ne_core::{Fitness, Generation, GenerationReport, Genome, Seed, StopConditions, StopSignal};
 use std::{
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak},
-    thread::{self, JoinHandle},
-    time::{Duration, Instant, SystemTime},
-};
-use studio::{
-    Entrant,
-    protocol::{Opened, RunState, Verdict},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    time::SystemTime,
 };
 
-/// A run, its thread if it is trained here, and what pages see of it.
+/// What the sessions of a studio have in common.
+#[derive(Clone)]
+pub struct Means {
+    /// Who trains and judges.
+    pub workers: Arc<dyn Workers>,
+    /// Threads of each training; 0: one for each core.
+    pub threads: usize,
+    /// Whether a run that has ended gets its report at once, and not only when it is asked for.
+    pub writes_reports: bool,
+}
+
+/// A run, trained here or not, and what pages see of it.
 pub struct Session {
     name: String,
     folder: RunFolder,
@@ -29,11 +39,10 @@ pub struct Session {
     command: String,
     unit: String,
     registry: Registry,
-    threads: usize,
+    means: Means,
     inner: Mutex<Inner>,
-    /// Told whenever the pace changes.
-    woken: Condvar,
-    thread: Mutex<Option<JoinHandle<()>>>,
+    /// Told when it has ended.
+    ended: Condvar,
 }
 
 /// How a run goes on after a generation.
@@ -97,51 +106,29 @@ pub enum SessionError {
     Thread(std::io::Error),
 }
 
-/// What is to be done with a folder.
-enum Work {
-    Begin,
-    Resume(Option<StopConditions>),
-}
-
-/// Judging takes at most this share of one core.
-const SHARE_OF_JUDGING: u32 = 20;
-
 impl Session {
-    /// Begins a run in a new folder.
-    pub(crate) fn begin(
-        name: String,
-        config: RunConfig,
-        command: String,
-        folder: NewFolder,
-        registry: Registry,
-        threads: usize,
-    ) -> Result<Arc<Self>, SessionError> {
-        let session = Self::new(name, RunFolder::at(folder.path()), config, command, registry, threads)?;
-        session.work(Work::Begin, Some(folder))?;
-        Ok(session)
-    }
-
     /// Opens a run, as it stands in its folder.
     pub(crate) fn open(
         name: String,
         folder: RunFolder,
         registry: Registry,
-        threads: usize,
+        means: Means,
     ) -> Result<Arc<Self>, SessionError> {
         let config = folder.read_config()?;
         let command = format!("{} resume {}", gambol_runs::program_name(), shell_word(folder.path()));
-        let session = Self::new(name, folder, config, command, registry, threads)?;
+        let session = Self::new(name, folder, config, command, registry, means)?;
         session.read_folder()?;
         Ok(session)
     }
 
-    fn new(
+    /// A run that is not trained yet.
+    pub(crate) fn new(
         name: String,
         folder: RunFolder,
         config: RunConfig,
         command: String,
         registry: Registry,
-        threads: usize,
+        means: Means,
     ) -> Result<Arc<Self>, SessionError> {
         let movement = registry.movements.build(&config.movement);
         let unit = movement.map_err(|error| SessionError::Setup(error.to_string()))?.unit().to_owned();
@@ -157,8 +144,8 @@ impl Session {
             is_judged: false,
             read: None,
         };
-        let (inner, woken, thread) = (Mutex::new(inner), Condvar::new(), Mutex::new(None));
-        Ok(Arc::new(Self { name, folder, config, command, unit, registry, threads, inner, woken, thread }))
+        let (inner, ended) = (Mutex::new(inner), Condvar::new());
+        Ok(Arc::new(Self { name, folder, config, command, unit, registry, means, inner, ended }))
     }
 
     /// The name of its folder.
@@ -251,43 +238,42 @@ impl Session {
         self.set_pace(Pace::Steps(1));
     }
 
-    /// Lets it go on: from a pause, or from where it had ended, by so many generations more than it had planned.
-    ///
-    /// # Errors
-    /// If no thread can be started.
-    pub fn go_on(self: &Arc<Self>, generations: Option<u64>) -> Result<(), SessionError> {
-        if self.is_training() {
-            self.set_pace(Pace::Free);
-            return Ok(());
-        }
+    /// Lets it go on from a pause.
+    pub(crate) fn release(&self) {
+        self.set_pace(Pace::Free);
+    }
+
+    /// Stop conditions by which it does so many generations more than it has done.
+    pub(crate) fn longer_by(&self, generations: u64) -> StopConditions {
         let done = self.inner().rows.len() as u64;
-        let more = generations.map(|more| StopConditions {
-            generations: Some(done.saturating_add(more)),
-            steps: None,
-            tier: None,
-            ..self.config.stop
-        });
-        self.work(Work::Resume(more), None)
+        let generations = Some(done.saturating_add(generations));
+        StopConditions { generations, steps: None, tier: None, ..self.config.stop }
     }
 
     /// Saves and ends it.
     pub fn stop(&self) {
         self.inner().signal.stop();
-        self.woken.notify_all();
+        self.means.workers.wake();
     }
 
-    /// Waits until its thread has ended.
+    /// Waits until its training has ended.
     pub fn join(&self) {
-        let thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner).take();
-        if let Some(thread) = thread {
-            // One that panicked has said so.
-            let _ = thread.join();
+        let mut inner = self.inner();
+        while matches!(inner.state, RunState::Running | RunState::Paused) {
+            inner = self.ended.wait(inner).unwrap_or_else(PoisonError::into_inner);
         }
     }
 
     fn set_pace(&self, pace: Pace) {
-        self.inner().pace = pace;
-        self.woken.notify_all();
+        {
+            let mut inner = self.inner();
+            inner.pace = pace;
+            // So that a page hears of each step, however soon it is done.
+            if inner.state == RunState::Paused && pace != Pace::Steps(0) {
+                inner.state = RunState::Running;
+            }
+        }
+        self.means.workers.wake();
     }
 
     fn inner(&self) -> MutexGuard<'_, Inner> {
@@ -329,64 +315,60 @@ impl Session {
         Ok(())
     }
 
-    fn work(self: &Arc<Self>, work: Work, folder: Option<NewFolder>) -> Result<(), SessionError> {
-        let mut thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner);
-        {
-            let mut inner = self.inner();
-            if matches!(inner.state, RunState::Running | RunState::Paused) {
-                return Err(SessionError::Running);
-            }
-            (inner.state, inner.pace, inner.signal) = (RunState::Running, Pace::Free, StopSignal::default());
+    /// Its training begins.
+    pub(crate) fn begin(&self) -> Result<(), SessionError> {
+        let mut inner = self.inner();
+        if matches!(inner.state, RunState::Running | RunState::Paused) {
+            return Err(SessionError::Running);
         }
-        let session = Arc::clone(self);
-        let spawned = thread::Builder::new().name(format!("training of {}", self.name)).spawn(move || {
-            let ended = session.train(work);
-            drop(folder);
-            session.inner().state = match ended {
-                Ok(outcome) => RunState::Ended { reason: outcome.reason.to_string() },
-                Err(error) => RunState::Broken { reason: error.to_string() },
-            };
-        });
-        match spawned {
-            Ok(handle) => *thread = Some(handle),
-            Err(error) => {
-                self.inner().state = RunState::Broken { reason: error.to_string() };
-                return Err(SessionError::Thread(error));
-            }
-        }
+        (inner.state, inner.pace, inner.signal) = (RunState::Running, Pace::Free, StopSignal::default());
         Ok(())
     }
 
-    fn train(&self, work: Work) -> Result<Outcome, Box<dyn std::error::Error>> {
-        let path = self.folder.path();
-        let mut on_generation = |generation: &Generation<'_, AnyStrategy>| self.see(generation);
-        let signal = self.inner().signal.clone();
-        let registry = self.registry.clone();
-        let options = TrainOptions { threads: self.threads, registry, signal, on_generation: &mut on_generation };
-        let mut on_stage_run = |planned: &shaping::PlannedStage, _: Option<&_>| {
-            let mut inner = self.inner();
-            let row = inner.rows.len();
-            // One that is resumed has begun before.
-            if inner.stages.last().is_none_or(|(_, name)| *name != planned.name) {
-                inner.stages.push((row, planned.name.clone()));
-            }
-            inner.stage_config = planned.config.clone();
-            inner.generation = None;
-        };
-        let stage_progress = StageProgress { on_stage_run: &mut on_stage_run };
-        let outcome = match (work, self.config.stages.is_empty()) {
-            (Work::Begin, true) => training::train(&self.config, path, options)?,
-            (Work::Begin, false) => shaping::train_stages(&self.config, path, stage_progress, options)?,
-            (Work::Resume(stop), true) => training::resume(path, stop, options)?,
-            (Work::Resume(stop), false) => shaping::resume_stages(path, stop, stage_progress, options)?,
-        };
-        let reason = Some(outcome.reason).filter(|reason| *reason != StopReason::Interrupted);
-        gambol_reports::report::write_report(&outcome.folder, &self.registry, reason)?;
-        Ok(outcome)
+    pub(crate) fn config(&self) -> &RunConfig {
+        &self.config
     }
 
-    /// Notes a generation, and waits where the run is to wait.
-    fn see(&self, generation: &Generation<'_, AnyStrategy>) {
+    pub(crate) fn registry(&self) -> &Registry {
+        &self.registry
+    }
+
+    pub(crate) fn means(&self) -> &Means {
+        &self.means
+    }
+
+    pub(crate) fn signal(&self) -> StopSignal {
+        self.inner().signal.clone()
+    }
+
+    /// Whether its training is to wait.
+    pub(crate) fn waits(&self) -> bool {
+        let mut inner = self.inner();
+        let waits = inner.pace == Pace::Steps(0) && !inner.signal.is_set();
+        inner.state = if waits { RunState::Paused } else { RunState::Running };
+        waits
+    }
+
+    /// Its training has ended.
+    pub(crate) fn end(&self, state: RunState) {
+        self.inner().state = state;
+        self.ended.notify_all();
+    }
+
+    /// Notes that a stage begins, or is taken up again.
+    pub(crate) fn see_stage(&self, planned: &PlannedStage) {
+        let mut inner = self.inner();
+        let row = inner.rows.len();
+        // One that is resumed has begun before.
+        if inner.stages.last().is_none_or(|(_, name)| *name != planned.name) {
+            inner.stages.push((row, planned.name.clone()));
+        }
+        inner.stage_config = planned.config.clone();
+        inner.generation = None;
+    }
+
+    /// Notes a generation.
+    pub(crate) fn see(&self, generation: &Generation<'_, AnyStrategy>) {
         let number = generation.report.generation;
         let shown = Shown {
             number,
@@ -404,48 +386,24 @@ impl Session {
         if let Pace::Steps(steps) = &mut inner.pace {
             *steps = steps.saturating_sub(1);
         }
-        while inner.pace == Pace::Steps(0) && !inner.signal.is_set() {
-            inner.state = RunState::Paused;
-            // The signal wakes no thread, so it is looked at from time to time.
-            inner = self.woken.wait_timeout(inner, PATIENCE).unwrap_or_else(PoisonError::into_inner).0;
-        }
-        inner.state = RunState::Running;
     }
 
-    /// Judges each new champion from now on, on a thread of its own, as long as a page looks.
-    pub(crate) fn judge_champions(self: &Arc<Self>, look: &Weak<()>) {
-        if std::mem::replace(&mut self.inner().is_judged, true) {
-            return;
-        }
-        let (session, look) = (Arc::clone(self), look.clone());
-        let judge = move || {
-            let mut judged = None;
-            while look.strong_count() > 0 {
-                let changed = std::fs::metadata(session.folder.champion()).and_then(|file| file.modified()).ok();
-                let began = Instant::now();
-                if changed.is_some() && changed != judged {
-                    judged = changed;
-                    session.judge();
-                }
-                thread::sleep((began.elapsed() * SHARE_OF_JUDGING).max(PATIENCE));
-            }
-            session.inner().is_judged = false;
-        };
-        if let Err(error) = thread::Builder::new().name("judge".into()).spawn(judge) {
-            tracing::warn!(%error, "no gait is judged");
-            self.inner().is_judged = false;
-        }
+    /// Its champions begin to be judged; `false`: they are already.
+    pub(crate) fn begin_judging(&self) -> bool {
+        !std::mem::replace(&mut self.inner().is_judged, true)
     }
 
-    fn judge(&self) {
+    /// Nothing judges it any more.
+    pub(crate) fn end_judging(&self) {
+        self.inner().is_judged = false;
+    }
+
+    pub(crate) fn judge(&self) {
         let Some(champion) = self.champion() else { return };
         let verdict = Verdict::of(&champion, &self.registry);
         self.inner().verdict = Some(verdict);
     }
 }
-
-/// How long a thread waits before it looks again.
-const PATIENCE: Duration = Duration::from_millis(200);
 
 fn best_first(mut entrants: Vec<Entrant>) -> Vec<Entrant> {
     entrants.sort_by_key(|entrant| std::cmp::Reverse(entrant.fitness));

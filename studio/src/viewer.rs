@@ -1,19 +1,18 @@
 //! What one page sees: it answers what the page asks, and tells it what is new.
 
 use crate::{
+    Arena, Entrant, Scene, World, choice,
+    judging::judge_champions,
     library::Library,
+    protocol::{Event, Opened, Request, RunState, Verdict, Who},
     session::{Population, Session},
+    training,
 };
-use creatures::{Creature, Terrain};
-use envs_rapier::RapierEnvironment;
-use gambol_runs::{Registry, champion::Champion, config::RunConfig, judge::Judge};
+use creatures::Creature;
+use gambol_runs::champion::Champion;
 use ne_core::Seed;
 use serde_json::Value;
 use std::{path::Path, sync::Arc};
-use studio::{
-    Arena, Entrant, choice,
-    protocol::{Event, Opened, Request, RunState, Verdict, Who},
-};
 
 /// What a page is sent.
 #[derive(Clone, Debug)]
@@ -37,6 +36,7 @@ pub struct Viewer {
     told: Told,
     arena: Option<Arena>,
     number: u32,
+    shows_scenes: bool,
 }
 
 /// What the page knows of the open run.
@@ -63,8 +63,16 @@ impl From<Event> for Reply {
 impl Viewer {
     /// A page that sees nothing yet.
     pub fn new(library: Arc<Library>) -> Self {
-        let told = Told::default();
-        Self { library, session: None, look: Arc::new(()), guest: None, shown: None, told, arena: None, number: 0 }
+        let (look, told) = (Arc::new(()), Told::default());
+        let (session, guest, shown, arena, number, shows_scenes) = (None, None, None, None, 0, false);
+        Self { library, session, look, guest, shown, told, arena, number, shows_scenes }
+    }
+
+    /// For a page whose creatures move elsewhere: it is sent the [scene](Scene) that is to be shown, and lets another viewer
+    /// [enter](Request::Enter) it.
+    #[must_use]
+    pub fn of_scenes(self) -> Self {
+        Self { shows_scenes: true, ..self }
     }
 
     /// Answers a message.
@@ -127,12 +135,17 @@ impl Viewer {
             Request::Step => return self.control(|session| session.step()),
             Request::Stop => return self.control(|session| session.stop()),
             Request::GoOn { generations } => {
-                self.session()?.go_on(generations)?;
+                training::go_on(self.session()?, generations)?;
                 return Ok(self.news());
             }
             Request::Show { who, terrain, friction } => {
-                return Ok(vec![self.show(who, terrain.as_deref(), friction)?]);
+                let scene = self.scene(who, terrain.as_deref(), friction)?;
+                match self.shows_scenes {
+                    true => Event::Scene { scene: Box::new(scene) },
+                    false => self.enter(&scene)?,
+                }
             }
+            Request::Enter { scene } => self.enter(&scene)?,
             Request::Advance { steps } => {
                 let number = self.number;
                 let arena = self.arena()?;
@@ -157,7 +170,7 @@ impl Viewer {
     fn open(&mut self, session: Arc<Session>) -> Vec<Reply> {
         // What worked for the run that was open may end.
         (self.look, self.shown) = (Arc::new(()), None);
-        session.judge_champions(&Arc::downgrade(&self.look));
+        judge_champions(&session, &Arc::downgrade(&self.look));
         let opened = session.opened();
         (self.session, self.guest, self.arena, self.told) = (Some(session), None, None, Told::default());
         self.told.state = Some(opened.state.clone());
@@ -180,41 +193,50 @@ impl Viewer {
         Ok(replies)
     }
 
-    fn show(&mut self, who: Who, terrain: Option<&str>, friction: Option<f32>) -> Result<Reply, Refusal> {
-        let registry = self.library.registry().clone();
-        let terrain = terrain.map(|name| registry.terrains.terrain(name)).transpose()?;
+    /// What is to be shown.
+    fn scene(&mut self, who: Who, terrain: Option<&str>, friction: Option<f32>) -> Result<Scene, Refusal> {
+        let terrain = terrain.map(|name| self.library.registry().terrains.terrain(name)).transpose()?;
         let session = self.session.clone();
         let population = match (who, &session) {
             (Who::Population, Some(session)) => session.population(),
             _ => None,
         };
-        let (arena, who, generation, entrants) = match population {
-            Some(Population { generation, seed, entrants, config }) => {
-                let world = world_of_population(config, terrain, friction, &registry)?;
-                (Arena::new(&world, &entrants, seed.trial(0))?, "population", generation, entrants)
-            }
-            None => {
-                let champion = self.guest.as_deref().cloned().or_else(|| session?.champion());
-                let champion = champion.ok_or("there is no champion yet")?;
-                let world = world_of_champion(&champion, terrain, friction, &registry)?;
-                let mut entrants = vec![entrant(&champion)];
-                if who == Who::Champions {
-                    let is_ghost = |before: &&Champion| {
-                        let fits = before.inputs == champion.inputs && before.outputs == champion.outputs;
-                        fits && before.generation != champion.generation
-                    };
-                    let before = self.shown.as_deref().filter(is_ghost);
-                    entrants.extend(before.map(entrant));
-                    self.shown = Some(Box::new(champion.clone()));
-                }
-                (Arena::new(&world, &entrants, Seed::of_run(0))?, "champion", champion.generation, entrants)
-            }
-        };
+        if let Some(Population { generation, seed, entrants, mut config }) = population {
+            config.terrain = terrain.unwrap_or(config.terrain);
+            config.physics.ground_friction = friction.unwrap_or(config.physics.ground_friction);
+            return Ok(Scene { generation, world: World::Training(Box::new(config)), entrants, seed: seed.trial(0) });
+        }
+        let champion = self.guest.as_deref().cloned().or_else(|| session?.champion());
+        let mut champion = champion.ok_or("there is no champion yet")?;
+        let mut entrants = vec![entrant(&champion)];
+        if who == Who::Champions {
+            let is_ghost = |before: &&Champion| {
+                let fits = before.inputs == champion.inputs && before.outputs == champion.outputs;
+                fits && before.generation != champion.generation
+            };
+            let before = self.shown.as_deref().filter(is_ghost);
+            entrants.extend(before.map(entrant));
+            self.shown = Some(Box::new(champion.clone()));
+        }
+        champion.terrain = terrain.unwrap_or(champion.terrain);
+        champion.physics.ground_friction = friction.unwrap_or(champion.physics.ground_friction);
+        let generation = champion.generation;
+        Ok(Scene { generation, world: World::Judged(Box::new(champion)), entrants, seed: Seed::of_run(0) })
+    }
+
+    /// Builds an arena, in place of the one that was.
+    fn enter(&mut self, scene: &Scene) -> Result<Event, Refusal> {
+        let arena = Arena::of(scene, self.library.registry())?;
         self.number += 1;
-        let fitness = entrants.iter().map(|entrant| entrant.fitness.map(|fitness| fitness.get())).collect();
-        let event = Event::Arena { number: self.number, who, generation, fitness, data: Box::new(arena.data()) };
+        let fitness = scene.entrants.iter().map(|entrant| entrant.fitness.map(|fitness| fitness.get())).collect();
+        let who = match scene.world {
+            World::Training(_) => "population",
+            World::Judged(_) => "champion",
+        };
+        let (number, generation) = (self.number, scene.generation);
+        let event = Event::Arena { number, who, generation, fitness, data: Box::new(arena.data()) };
         self.arena = Some(arena);
-        Ok(event.into())
+        Ok(event)
     }
 
     fn session(&self) -> Result<&Arc<Session>, Refusal> {
@@ -248,30 +270,4 @@ fn name_of(message: &str) -> String {
 
 fn entrant(champion: &Champion) -> Entrant {
     Entrant { network: champion.network.clone(), fitness: Some(champion.fitness) }
-}
-
-/// The world of a generation's first trial.
-fn world_of_population(
-    config: RunConfig,
-    terrain: Option<Terrain>,
-    friction: Option<f32>,
-    registry: &Registry,
-) -> Result<RapierEnvironment, Refusal> {
-    let mut config = config;
-    config.terrain = terrain.unwrap_or(config.terrain);
-    config.physics.ground_friction = friction.unwrap_or(config.physics.ground_friction);
-    Ok(config.episode_parts().build(registry)?.environment().clone())
-}
-
-/// The world in which a champion is judged.
-fn world_of_champion(
-    champion: &Champion,
-    terrain: Option<Terrain>,
-    friction: Option<f32>,
-    registry: &Registry,
-) -> Result<RapierEnvironment, Refusal> {
-    let mut champion = champion.clone();
-    champion.terrain = terrain.unwrap_or(champion.terrain);
-    champion.physics.ground_friction = friction.unwrap_or(champion.physics.ground_friction);
-    Ok(Judge::new(champion.episode_parts(), registry)?.environment().clone())
 }

@@ -1,0 +1,160 @@
+// A worker with a studio in it: the module, its disk, the pages that talk to it, and its work between their messages.
+
+// How often pages are told what is new, and how often the disk is kept, ms.
+const NEWS = 50;
+const KEEPING = 1000;
+
+class Host {
+  constructor({ keeps }) {
+    this.keeps = keeps;
+    this.pages = new Map();
+    this.number = 0;
+    this.early = [];
+    this.told = 0;
+    this.kept = 0;
+    this.turns = new MessageChannel();
+    this.turns.port1.onmessage = () => this.work();
+    this.start().catch(error => this.break(error));
+  }
+
+  async start() {
+    const [module] = await Promise.all([Host.compiled("studio.wasm"), this.load()]);
+    const imports = { ...wasiImports(this.disk, () => this.module.memory), page: { send: (...of) => this.send(...of) } };
+    const instance = await WebAssembly.instantiate(module, missingImports(module, imports));
+    this.module = instance.exports;
+    this.module._initialize?.();
+    for (const [page, message] of this.early.splice(0)) this.hear(page, message);
+  }
+
+  static async compiled(address) {
+    const answer = await fetch(address);
+    if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
+    // Not every server knows the media type that the faster way asks for.
+    const isKnown = answer.headers.get("content-type")?.startsWith("application/wasm");
+    return isKnown ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+  }
+
+  async load() {
+    this.disk = new Disk();
+    if (!this.keeps) return;
+    try {
+      this.store = await Store.open("gambol studio");
+      await this.store.load(this.disk);
+    } catch (error) {
+      this.store = null;
+      this.complain(`This browser keeps nothing (${error.message}): what is trained here is gone with the page.`);
+    }
+  }
+
+  join(port) {
+    this.number += 1;
+    const page = this.number;
+    this.pages.set(page, port);
+    port.onmessage = ({ data }) => { if (this.module) this.hear(page, data); else this.early.push([page, data]); };
+    port.start?.();
+    const joins = { join: true };
+    if (this.module) this.hear(page, joins); else this.early.push([page, joins]);
+    if (this.complaint) port.postMessage({ problem: this.complaint });
+  }
+
+  hear(page, { join, leave, ask, get, address }) {
+    this.guarded(() => {
+      if (join) this.module.join(page, this.keeps ? 1 : 0);
+      else if (leave) {
+        this.module.leave(page);
+        this.pages.delete(page);
+      } else if (ask) {
+        this.say(ask);
+        this.module.ask(page);
+      } else if (get) {
+        this.got = get;
+        this.say(address);
+        this.module.get(page);
+      }
+    });
+    this.turn(0);
+  }
+
+  // Puts text where the module reads it.
+  say(text) {
+    const bytes = new TextEncoder().encode(text);
+    const at = this.module.room(bytes.length);
+    new Uint8Array(this.module.memory.buffer, at, bytes.length).set(bytes);
+  }
+
+  // The module says something to a page.
+  send(page, kind, at, length) {
+    const bytes = new Uint8Array(this.module.memory.buffer, at, length);
+    const port = this.pages.get(page);
+    if (kind === 0) port?.postMessage({ event: new TextDecoder().decode(bytes) });
+    else if (kind === 2) this.about = JSON.parse(new TextDecoder().decode(bytes));
+    else {
+      const { buffer } = bytes.slice();
+      const message = kind === 1 ? { frame: buffer } : { got: { number: this.got, ...this.about, bytes: buffer } };
+      port?.postMessage(message, [buffer]);
+    }
+  }
+
+  // A turn of work comes after so many ms, or before.
+  turn(wait) {
+    clearTimeout(this.timer);
+    if (wait < 1) {
+      if (!this.isDue) this.turns.port2.postMessage(null);
+      this.isDue = true;
+    } else if (!this.isDue) this.timer = setTimeout(() => this.work(), wait);
+  }
+
+  work() {
+    this.isDue = false;
+    if (!this.module) return;
+    const wait = this.guarded(() => this.module.work());
+    const now = performance.now();
+    if (now - this.told >= NEWS || wait !== 0) {
+      this.told = now;
+      this.guarded(() => { for (const page of this.pages.keys()) this.module.news(page); });
+    }
+    if (now - this.kept >= KEEPING) this.keep(now);
+    else if (wait !== 0) this.keepLater();
+    if (wait >= 0) this.turn(wait);
+  }
+
+  keep(now) {
+    if (!this.store || this.isKeeping) return;
+    this.kept = now;
+    this.isKeeping = true;
+    this.store.save(this.disk)
+      .catch(error => this.complain(`The browser cannot keep what is trained: ${error.message}`))
+      .finally(() => { this.isKeeping = false; });
+  }
+
+  // What has changed at the end is kept too.
+  keepLater() {
+    clearTimeout(this.keeper);
+    this.keeper = setTimeout(() => this.keep(performance.now()), KEEPING);
+  }
+
+  guarded(act) {
+    if (!this.module) return -1;
+    try { return act(); } catch (error) {
+      this.break(error);
+      return -1;
+    }
+  }
+
+  // The module is not whole any more. The next worker begins with what is kept.
+  break(error) {
+    this.module = null;
+    console.error(error);
+    this.complain(`The studio broke off: ${error.message}. What was kept is there when the page is loaded again.`);
+    setTimeout(() => close(), 100);
+  }
+
+  complain(problem) {
+    this.complaint = problem;
+    for (const port of this.pages.values()) port.postMessage({ problem });
+  }
+}
+
+const host = new Host({ keeps: self.name !== "arena" });
+if (typeof SharedWorkerGlobalScope === "function") onconnect = ({ ports: [port] }) => host.join(port);
+else host.join(self);

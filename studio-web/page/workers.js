@@ -1,0 +1,61 @@
+// The connection to a studio in workers of this browser: one for the runs, which all tabs share where they can, and one for
+// what moves on this page.
+
+const OF_THE_ARENA = new Set(["enter", "advance", "tell", "push", "tilt", "put-box"]);
+
+class WorkerConnection extends Connection {
+  constructor() {
+    super();
+    this.wanted = new Map();
+    this.number = 0;
+    this.runs = WorkerConnection.sharedWorker() || new Worker("worker.js", { name: "runs" });
+    this.arena = new Worker("worker.js", { name: "arena" });
+    this.runs.onmessage = ({ data }) => this.hear(data);
+    this.arena.onmessage = ({ data }) => this.hear(data);
+    this.runs.start?.();
+    addEventListener("pagehide", () => this.runs.postMessage({ leave: true }));
+  }
+
+  static sharedWorker() {
+    try { return new SharedWorker("worker.js", { name: "runs" }).port; } catch { return null; }
+  }
+
+  hear({ event, frame, got, problem }) {
+    if (frame) this.onFrame(frame);
+    else if (got) this.receive(got);
+    else if (problem) this.onState(false, problem);
+    else if (event) {
+      const told = JSON.parse(event);
+      if (told.is === "scene") this.ask({ do: "enter", scene: told.scene }); else this.tell(told);
+    }
+  }
+
+  ask(request) {
+    const worker = OF_THE_ARENA.has(request.do) ? this.arena : this.runs;
+    worker.postMessage({ ask: JSON.stringify(request) });
+  }
+
+  get(address) {
+    this.number += 1;
+    this.runs.postMessage({ get: this.number, address });
+    return new Promise(resolve => this.wanted.set(this.number, resolve));
+  }
+
+  receive({ number, name, media, missing, failed, bytes }) {
+    const wrong = missing || failed;
+    this.wanted.get(number)?.(wrong ? { ok: false, blob: new Blob([wrong]) } : { ok: true, name, blob: new Blob([bytes], { type: media }) });
+    this.wanted.delete(number);
+  }
+
+  // What a report does is not allowed to this page, so it is saved.
+  link(anchor, address, name) {
+    anchor.href = "#/keep";
+    anchor.onclick = async event => {
+      event.preventDefault();
+      const { ok, name: named, blob } = await this.get(address);
+      if (ok) saveAs(blob, named || name); else this.tell({ is: "refused", request: "get", reason: await blob.text() });
+    };
+  }
+}
+
+function connect() { return new WorkerConnection(); }

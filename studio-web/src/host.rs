@@ -1,0 +1,96 @@
+//! A studio in a worker: its pages, and its work.
+
+use crate::queue::Queue;
+use gambol_runs::Registry;
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc, time::Duration};
+use studio::{Download, DownloadError, Library, Means, Reply, Viewer, Wanted};
+
+/// A studio whose pages have numbers.
+pub struct Host {
+    library: Arc<Library>,
+    viewers: BTreeMap<u32, Viewer>,
+    queue: Arc<Queue>,
+}
+
+impl Host {
+    /// Over the runs in a folder, which need not be there yet.
+    pub fn new(registry: Registry, runs: PathBuf) -> Self {
+        let queue = Arc::new(Queue::default());
+        // A report is made when it is asked for: it would keep the page waiting.
+        let means = Means { workers: queue.clone(), threads: 1, writes_reports: false };
+        Self { library: Arc::new(Library::new(registry, runs, means)), viewers: BTreeMap::new(), queue }
+    }
+
+    /// A page comes. `shows_scenes`: what is to be seen moves in another worker.
+    pub fn join(&mut self, page: u32, shows_scenes: bool) {
+        let viewer = Viewer::new(Arc::clone(&self.library));
+        self.viewers.insert(page, if shows_scenes { viewer.of_scenes() } else { viewer });
+    }
+
+    /// A page goes.
+    pub fn leave(&mut self, page: u32) {
+        self.viewers.remove(&page);
+    }
+
+    /// Answers a message of a page.
+    pub fn answer(&mut self, page: u32, message: &str) -> Vec<Reply> {
+        self.viewers.get_mut(&page).map_or_else(Vec::new, |viewer| viewer.answer(message))
+    }
+
+    /// What is new for a page.
+    pub fn news(&mut self, page: u32) -> Vec<Reply> {
+        self.viewers.get_mut(&page).map_or_else(Vec::new, Viewer::news)
+    }
+
+    /// A file of a run, by its address, such as `runs/biped-1-running/export/gif/0`, with its parts encoded as in a URL.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn download(&self, address: &str) -> Result<Download, DownloadError> {
+        let missing = || DownloadError::Missing(format!("there is no \"{address}\""));
+        let (run, wanted) = address.strip_prefix("runs/").and_then(|rest| rest.split_once('/')).ok_or_else(missing)?;
+        self.library.download(&decoded(run).ok_or_else(missing)?, &Wanted::parse(wanted)?)
+    }
+
+    /// Does a bit of what there is to do. How long it is until there is more; `None`: nothing is to be done.
+    pub fn work(&self) -> Option<Duration> {
+        self.queue.work()
+    }
+}
+
+impl Drop for Host {
+    /// A job holds its session, and that the queue.
+    fn drop(&mut self) {
+        self.queue.clear();
+    }
+}
+
+/// Without the `%` and two digits that stand for a byte in a URL.
+fn decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, after @ ..] = rest {
+        rest = after;
+        if *first != b'%' {
+            bytes.push(*first);
+            continue;
+        }
+        let digit = |&byte: &u8| char::from(byte).to_digit(16);
+        bytes.push(u8::try_from(digit(rest.first()?)? * 16 + digit(rest.get(1)?)?).ok()?);
+        rest = &rest[2..];
+    }
+    String::from_utf8(bytes).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_decoded() {
+        assert_eq!(decoded("a%20b%C3%A4"), Some("a bä".into()));
+        for wrong in ["%", "%2", "%zz", "%ff", "%+1"] {
+            assert_eq!(decoded(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! What a worker trains between the messages of its pages is the run it would have been.
+
+use gambol_runs::{
+    Registry,
+    request::Request,
+    training::{TrainOptions, train},
+};
+use serde_json::{Value, json};
+use std::{
+    fs,
+    path::{Path, PathBuf},
+};
+use studio::{
+    Reply,
+    protocol::{Event, RunState},
+};
+use studio_web::Host;
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const PAGE: u32 = 1;
+const GENERATIONS: u64 = 12;
+const SET: &str = "strategy.cma-es.population=16";
+
+fn host(folder: &Path) -> Host {
+    let mut host = Host::new(Registry::default(), folder.join("runs"));
+    host.join(PAGE, true);
+    host
+}
+
+fn ask(host: &mut Host, request: Value) -> Vec<Event> {
+    events(host.answer(PAGE, &request.to_string()))
+}
+
+fn events(replies: Vec<Reply>) -> Vec<Event> {
+    let event = |reply| match reply {
+        Reply::Event(event) => Some(*event),
+        Reply::Frame(_) => None,
+    };
+    replies.into_iter().filter_map(event).collect()
+}
+
+fn begin(host: &mut Host) {
+    let choice =
+        json!({ "creature": "biped-1", "movement": "running", "generations": GENERATIONS, "seed": 7, "set": [SET] });
+    let told = ask(host, json!({ "do": "train", "choice": choice }));
+    assert!(matches!(told[0], Event::Opened(_)), "{told:?}");
+}
+
+/// Works until the run has ended. What the page was told.
+fn finish(host: &mut Host) -> Vec<Event> {
+    let mut told = Vec::new();
+    loop {
+        let wait = host.work();
+        told.extend(events(host.news(PAGE)));
+        if told.iter().any(|event| matches!(event, Event::State(RunState::Ended { .. }))) {
+            return told;
+        }
+        let broken = told.iter().any(|event| matches!(event, Event::State(RunState::Broken { .. })));
+        assert!(wait.is_some() && !broken, "it does not end: {told:?}");
+    }
+}
+
+/// The files of a run that are the same for the same run, and what is in them.
+fn bytes(run: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    ["config.json", "log.jsonl", "champion.json", "checkpoint", "gallery.jsonl"]
+        .map(|name| (PathBuf::from(name), fs::read(run.join(name)).expect("a file of the run")))
+        .into()
+}
+
+fn trained_alone(folder: &Path) -> Outcome {
+    let registry = Registry::default();
+    let request = Request {
+        creature: Some("biped-1".into()),
+        movement: Some("running".into()),
+        set: vec![SET.into()],
+        ..Request::default()
+    };
+    let mut config = request.resolve(&registry)?;
+    (config.seed, config.stop.generations) = (7, Some(GENERATIONS));
+    let options = TrainOptions { threads: 1, registry, signal: Default::default(), on_generation: &mut |_| {} };
+    train(&config, folder, options)?;
+    Ok(())
+}
+
+#[test]
+fn a_run_between_messages_has_the_same_bytes() -> Outcome {
+    let (alone, between, halved) = (tempfile::tempdir()?, tempfile::tempdir()?, tempfile::tempdir()?);
+    trained_alone(&alone.path().join("run"))?;
+    let expected = bytes(&alone.path().join("run"));
+
+    let mut worker = host(between.path());
+    begin(&mut worker);
+    for _ in 0..4 {
+        worker.work();
+        ask(&mut worker, json!({ "do": "show", "who": "population" }));
+    }
+    ask(&mut worker, json!({ "do": "pause" }));
+    (0..4).for_each(|_| drop(worker.work()));
+    ask(&mut worker, json!({ "do": "step" }));
+    (0..2).for_each(|_| drop(worker.work()));
+    ask(&mut worker, json!({ "do": "go-on" }));
+    finish(&mut worker);
+    assert!(bytes(&between.path().join("runs/biped-1-running")) == expected);
+
+    // The tab dies: nothing is told to anybody, and nothing is saved.
+    let mut worker = host(halved.path());
+    begin(&mut worker);
+    (0..8).for_each(|_| drop(worker.work()));
+    drop(worker);
+    let mut worker = host(halved.path());
+    let opened = ask(&mut worker, json!({ "do": "open", "run": "biped-1-running" }));
+    assert!(matches!(opened[0], Event::Opened(_)), "{opened:?}");
+    ask(&mut worker, json!({ "do": "go-on" }));
+    finish(&mut worker);
+    assert!(bytes(&halved.path().join("runs/biped-1-running")) == expected);
+    Ok(())
+}
+
+#[test]
+fn what_moves_can_be_elsewhere() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut runs = host(folder.path());
+    begin(&mut runs);
+    finish(&mut runs);
+    let mut arena = Host::new(Registry::default(), folder.path().join("nothing"));
+    arena.join(PAGE, false);
+    for who in ["population", "champion"] {
+        let told = ask(&mut runs, json!({ "do": "show", "who": who }));
+        let scene = serde_json::to_value(&told[0])?;
+        assert_eq!(scene["is"], "scene");
+        let entered = ask(&mut arena, json!({ "do": "enter", "scene": scene["scene"] }));
+        assert!(matches!(&entered[0], Event::Arena { who: shown, .. } if *shown == who), "{entered:?}");
+        let advance = json!({ "do": "advance", "steps": 60 }).to_string();
+        assert!(matches!(arena.answer(PAGE, &advance)[..], [Reply::Frame(_)]));
+    }
+    Ok(())
+}
+
+#[test]
+fn files_have_addresses() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut worker = host(folder.path());
+    begin(&mut worker);
+    let why = |worker: &Host, address: &str| worker.download(address).expect_err(address).to_string();
+    worker.work();
+    assert_eq!(why(&worker, "runs/biped-1-running/verify"), "there is no champion yet");
+    finish(&mut worker);
+    let verified = worker.download("runs/biped-1-running/verify")?;
+    assert_eq!(serde_json::from_slice::<Value>(&verified.bytes)?["identical"], true);
+    let champion = worker.download("runs/biped%2d1-running/champion.json")?;
+    assert_eq!(champion.name.as_deref(), Some("biped-1-running.json"));
+    assert!(champion.bytes == fs::read(folder.path().join("runs/biped-1-running/champion.json"))?);
+    assert!(worker.download("runs/biped-1-running/report")?.bytes.starts_with(b"<!DOCTYPE html>"));
+    assert_eq!(why(&worker, "runs/none/report"), "there is no run \"none\"");
+    assert_eq!(why(&worker, "runs/..%2fruns%2fbiped-1-running/report"), "there is no run \"../runs/biped-1-running\"");
+    assert_eq!(why(&worker, "elsewhere"), "there is no \"elsewhere\"");
+    assert_eq!(why(&worker, "runs/biped-1-running/secret"), "there is no \"secret\"");
+    assert_eq!(why(&worker, "runs/biped-1-running/export/gof/0"), "there is no format \"gof\"");
+    assert_eq!(why(&worker, "runs/biped-1-running/export/player/9"), "there are 1 files");
+    Ok(())
+}
+
+#[test]
+fn what_is_no_message_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut worker = host(folder.path());
+    for message in ["", "{", "[]", "{\"do\":\"dance\"}", "{\"do\":\"enter\",\"scene\":{}}", "\u{fffd}"] {
+        assert!(matches!(events(worker.answer(PAGE, message))[..], [Event::Refused { .. }]), "{message}");
+    }
+    assert!(worker.answer(PAGE + 1, "{\"do\":\"look\"}").is_empty(), "a page that never came");
+    worker.leave(PAGE);
+    assert!(worker.news(PAGE).is_empty());
+}
