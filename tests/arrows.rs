@@ -24,7 +24,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("gambol-exports",  &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-rapier", "gambol-runs", "gambol-reports", "gambol-player"]),
     ("gambol-studio",   &["ne-core", "ne-net", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports", "gambol-exports"]),
     ("gambol-studio-server", &["gambol-runs", "gambol-studio"]),
-    ("gambol-studio-web", &["gambol-runs", "gambol-studio"]),
+    ("gambol-studio-web", &["ne-core", "gambol-runs", "gambol-studio"]),
     ("gambol-experiments", &["ne-core", "ne-net", "ne-fixed", "ne-neat", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "gambol-runs", "gambol-reports"]),
     ("gambol",          &["ne-core", "ne-net", "ne-statistics", "gambol-tasks", "gambol-creatures", "envs-core", "envs-rapier", "envs-lanes", "gambol-runs", "gambol-reports", "gambol-exports", "gambol-experiments", "gambol-studio-server"]),
     // Nothing is built on these; what they use is for their examples and tests.

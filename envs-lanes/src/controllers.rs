@@ -1,6 +1,6 @@
 use ne_core::Phenotype;
-use ne_net::{DenseNet, GraphNet, Network, Topology};
-use std::{any::Any, borrow::Cow, sync::Mutex};
+use ne_net::{Network, Topology};
+use std::{borrow::Cow, sync::Mutex};
 
 /// The controllers of a generation.
 pub(crate) enum Controllers<'a> {
@@ -16,10 +16,10 @@ pub(crate) enum Controllers<'a> {
 
 impl<'a> Controllers<'a> {
     pub(crate) fn of(phenotypes: &'a mut [&mut dyn Phenotype]) -> Self {
-        if phenotypes.iter().any(|phenotype| network(&**phenotype).is_none()) {
+        if phenotypes.iter().any(|phenotype| Network::of(&**phenotype).is_none()) {
             return Self::Others(phenotypes.iter_mut().map(|phenotype| Mutex::new(Some(&mut **phenotype))).collect());
         }
-        let nets: Vec<_> = phenotypes.iter().filter_map(|phenotype| network(&**phenotype)).collect();
+        let nets: Vec<_> = phenotypes.iter().filter_map(|phenotype| Network::of(&**phenotype)).collect();
         let topology = nets.first().map(|net| net.topology());
         let topology = topology.filter(|common| nets.iter().all(|net| net.topology() == *common));
         Self::Nets { nets, topology }
@@ -32,14 +32,4 @@ impl<'a> Controllers<'a> {
             Self::Others(_) => None,
         }
     }
-}
-
-/// The net that a controller is, if it is one.
-fn network(phenotype: &dyn Phenotype) -> Option<Cow<'_, Network>> {
-    let phenotype: &dyn Any = phenotype;
-    if let Some(network) = phenotype.downcast_ref::<Network>() {
-        return Some(Cow::Borrowed(network));
-    }
-    let dense = phenotype.downcast_ref::<DenseNet>().map(|net| Network::Dense(net.clone()));
-    dense.or_else(|| phenotype.downcast_ref::<GraphNet>().map(|net| Network::Graph(net.clone()))).map(Cow::Owned)
 }

@@ -1,3 +1,4 @@
+#[cfg(target_arch = "x86_64")]
 use pulp::{Simd, WithSimd};
 use std::fmt;
 
@@ -25,8 +26,10 @@ pub(crate) trait Work {
 }
 
 /// Hands [`Work`] to pulp, which compiles it for an instruction set.
+#[cfg(target_arch = "x86_64")]
 struct Compiled<T>(T);
 
+#[cfg(target_arch = "x86_64")]
 impl<T: Work> WithSimd for Compiled<T> {
     type Output = T::Output;
 
@@ -47,13 +50,14 @@ impl Instructions {
 
     /// All that this processor has, the fastest last.
     pub fn available() -> Vec<Self> {
-        let mut available = vec![Self::BASELINE];
         #[cfg(target_arch = "x86_64")]
-        {
-            available.extend(pulp::x86::V3::try_new().map(|simd| Self(Kind::Avx2(simd))));
-            available.extend(pulp::x86::V4::try_new().map(|simd| Self(Kind::Avx512(simd))));
-        }
-        available
+        let wider = [
+            pulp::x86::V3::try_new().map(|simd| Self(Kind::Avx2(simd))),
+            pulp::x86::V4::try_new().map(|simd| Self(Kind::Avx512(simd))),
+        ];
+        #[cfg(not(target_arch = "x86_64"))]
+        let wider: [Option<Self>; 0] = [];
+        std::iter::once(Self::BASELINE).chain(wider.into_iter().flatten()).collect()
     }
 
     /// Its name: `baseline`, `avx2` or `avx-512`.

@@ -11,8 +11,8 @@ use ne_core::{
     Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,
     champion_selection::{ChampionSelection, ReEvaluation},
 };
-use ne_net::{DenseNet, GraphNet, Network};
-use std::{any::Any, cmp::Reverse, sync::Arc};
+use ne_net::Network;
+use std::{borrow::Cow, cmp::Reverse, sync::Arc};
 
 /// Judges candidates in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
 /// the bit, all candidates are judged again, in rapier.
@@ -88,19 +88,15 @@ impl Task for InRapier {
     }
 
     fn evaluate(&self, phenotype: &mut dyn Phenotype, seed: Seed) -> Evaluation {
-        match network_of(phenotype) {
+        match Network::of(phenotype) {
             Some(network) => self.0.replay(&network, seed).1,
             None => self.0.episode.evaluate(phenotype, seed),
         }
     }
 }
 
-/// The net that a controller is, if it is one.
-fn network_of(phenotype: &dyn Phenotype) -> Option<Network> {
-    let net: &dyn Any = phenotype;
-    let network = net.downcast_ref::<Network>().cloned();
-    let network = network.or_else(|| net.downcast_ref::<DenseNet>().map(|net| net.clone().into()));
-    network.or_else(|| net.downcast_ref::<GraphNet>().map(|net| net.clone().into()))
+fn network(phenotype: &dyn Phenotype) -> Option<Network> {
+    Network::of(phenotype).map(Cow::into_owned)
 }
 
 impl ReferenceSelection {
@@ -116,7 +112,7 @@ impl ReferenceSelection {
                 let evaluator = evaluator.clone();
                 let first_usable = move |phenotypes: &[&dyn Phenotype]| {
                     // All are nets, or none is.
-                    let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network_of(*net)).collect();
+                    let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network(*net)).collect();
                     evaluator.install(|| judge.first_usable(&networks))
                 };
                 Box::new(first_usable) as Box<FirstUsable>
@@ -125,7 +121,7 @@ impl ReferenceSelection {
                 let evaluator = evaluator.clone();
                 let steadiness = move |phenotype: &dyn Phenotype, trial, needed| {
                     let usable = |network| evaluator.install(|| ground.usable(&network, trial, needed));
-                    network_of(phenotype).map_or(0, usable)
+                    network(phenotype).map_or(0, usable)
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),

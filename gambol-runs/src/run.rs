@@ -5,7 +5,7 @@ use crate::{
     run_folder::RunFolder,
     shaping::{ShapingError, StageProgress, StagedTraining, Stages},
     strategies::AnyStrategy,
-    training::{Outcome, Resources, Training},
+    training::{Answers, Outcome, Resources, Step, Training},
 };
 use ne_core::{Generation, StopConditions, StopReason};
 use std::path::Path;
@@ -57,6 +57,30 @@ impl Run {
         match self {
             Self::Plain(training) => Ok(training.generation(on_generation)?),
             Self::Staged(training) => training.generation(stage_progress, on_generation),
+        }
+    }
+
+    /// As [`generation`](Self::generation), with evaluations from elsewhere: see [`Training::generation_by`].
+    ///
+    /// # Errors
+    /// As [`generation`](Self::generation) and [`Training::generation_by`].
+    pub fn generation_by(
+        &mut self,
+        answers: &mut Answers,
+        stage_progress: &mut StageProgress<'_>,
+        on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
+    ) -> Result<Step, ShapingError> {
+        match self {
+            Self::Plain(training) => Ok(training.generation_by(answers, on_generation)?),
+            Self::Staged(training) => training.generation_by(answers, stage_progress, on_generation),
+        }
+    }
+
+    /// What its batches are evaluated by; `None` between two stages.
+    pub fn stage_config(&self) -> Option<&RunConfig> {
+        match self {
+            Self::Plain(training) => Some(training.config()),
+            Self::Staged(training) => training.stage_config(),
         }
     }
 

@@ -27,6 +27,8 @@ pub struct Evolution<S: Strategy> {
     progress: Progress,
     champion: Option<Champion<S::Genome>>,
     candidates: Vec<Candidate<S::Genome>>,
+    /// Asked of the strategy, and not evaluated yet.
+    asked: Option<Vec<S::Genome>>,
     selection: Option<ScheduledSelection<S::Genome>>,
     promotion: Option<Rules>,
     decision: Decision,
@@ -89,8 +91,8 @@ impl<S: Strategy> Evolution<S> {
     /// [again](Self::with_champion_selection), and so does one with a [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
         let Checkpoint { seed, progress, champion, candidates, decision, strategy, .. } = checkpoint;
-        let (signal, selection, promotion) = (StopSignal::default(), None, None);
-        Self { strategy, seed, stop, signal, progress, champion, candidates, selection, promotion, decision }
+        let (signal, asked, selection, promotion) = (StopSignal::default(), None, None, None);
+        Self { strategy, seed, stop, signal, progress, champion, candidates, asked, selection, promotion, decision }
     }
 
     /// Lets a champion selection choose the champion. The best of each generation becomes a candidate. At every re-evaluation the
@@ -175,7 +177,8 @@ impl<S: Strategy> Evolution<S> {
         let generation = self.progress.generations + 1;
         let _span = tracing::debug_span!("generation", generation).entered();
         let seed = self.seed.generation(generation);
-        let genomes = self.strategy.ask(seed).to_vec();
+        // After an evaluator that gave none, the genomes are those it had.
+        let genomes = self.asked.take().unwrap_or_else(|| self.strategy.ask(seed).to_vec());
         if genomes.is_empty() {
             return Err(EvolutionError::EmptyPopulation { strategy: self.strategy.name().into(), generation });
         }
@@ -183,6 +186,7 @@ impl<S: Strategy> Evolution<S> {
         let evaluations = tracing::debug_span!("evaluation", individuals = genomes.len()).in_scope(evaluate);
         if evaluations.len() != genomes.len() {
             let (found, expected) = (evaluations.len(), genomes.len());
+            self.asked = Some(genomes);
             return Err(EvolutionError::EvaluationCount { found, expected, generation });
         }
         self.strategy.tell(&evaluations, seed);

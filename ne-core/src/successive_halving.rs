@@ -1,7 +1,7 @@
 //! Cheaper evaluations before the whole one, of which only the best individuals get it.
 
 use crate::{Evaluation, Evaluator, Failure, Fitness, Genome, Seed, Task};
-use std::{cmp::Reverse, fmt};
+use std::{cmp::Reverse, fmt, sync::Arc};
 
 /// Spends the whole evaluation on the promising individuals: all are evaluated on a cheaper task first, and only the
 /// best go on to the next rung, or to the task itself.
@@ -23,7 +23,7 @@ use std::{cmp::Reverse, fmt};
 #[derive(Debug)]
 pub struct SuccessiveHalving<E> {
     inner: E,
-    rungs: Vec<Rung>,
+    rungs: Arc<[Rung]>,
 }
 
 /// A cheaper evaluation that comes before the whole one.
@@ -43,7 +43,17 @@ impl fmt::Debug for Rung {
 impl<E> SuccessiveHalving<E> {
     /// Evaluates in these rungs, the first one first. Shares are used as they are.
     pub fn new(inner: E, rungs: Vec<Rung>) -> Self {
-        Self { inner, rungs }
+        Self { inner, rungs: rungs.into() }
+    }
+
+    /// The rungs, the first one first.
+    pub fn rungs(&self) -> &[Rung] {
+        &self.rungs
+    }
+
+    /// In the same rungs, with another inner evaluator.
+    pub fn with_inner<F>(&self, inner: F) -> SuccessiveHalving<F> {
+        SuccessiveHalving { inner, rungs: Arc::clone(&self.rungs) }
     }
 }
 

@@ -1,6 +1,7 @@
 use crate::{DenseNet, GraphNet};
 use ne_core::Phenotype;
 use serde::{Deserialize, Serialize};
+use std::{any::Any, borrow::Cow};
 
 /// A net of any kind: what a champion's file stores and a game loads.
 ///
@@ -16,6 +17,16 @@ pub enum Network {
 }
 
 impl Network {
+    /// The net that a controller is, if it is one.
+    pub fn of(phenotype: &dyn Phenotype) -> Option<Cow<'_, Self>> {
+        let phenotype: &dyn Any = phenotype;
+        if let Some(network) = phenotype.downcast_ref::<Self>() {
+            return Some(Cow::Borrowed(network));
+        }
+        let dense = phenotype.downcast_ref::<DenseNet>().map(|net| Self::Dense(net.clone()));
+        dense.or_else(|| phenotype.downcast_ref::<GraphNet>().map(|net| Self::Graph(net.clone()))).map(Cow::Owned)
+    }
+
     /// The weights, in the order the shape documents.
     pub fn weights(&self) -> &[f32] {
         match self {

@@ -30,5 +30,5 @@ use studio::{Library, Means};
 /// The library over the runs in a folder, which need not be there yet. `threads` of each training; 0: one for each core.
 pub fn library(registry: Registry, runs: PathBuf, threads: usize) -> Library {
     let workers = Arc::new(Threads::default());
-    Library::new(registry, runs, Means { workers, threads, writes_reports: true })
+    Library::new(registry, runs, Means { workers, helpers: None, threads, writes_reports: true })
 }

@@ -8,6 +8,8 @@ class Host {
   constructor({ keeps }) {
     this.keeps = keeps;
     this.pages = new Map();
+    // Workers that help with evaluations, and the page that each came with.
+    this.helpers = new Map();
     this.number = 0;
     this.early = [];
     this.told = 0;
@@ -18,20 +20,9 @@ class Host {
   }
 
   async start() {
-    const [module] = await Promise.all([Host.compiled("studio.wasm"), this.load()]);
-    const imports = { ...wasiImports(this.disk, () => this.module.memory), page: { send: (...of) => this.send(...of) } };
-    const instance = await WebAssembly.instantiate(module, missingImports(module, imports));
-    this.module = instance.exports;
-    this.module._initialize?.();
+    const [module] = await Promise.all([compiled("studio.wasm"), this.load()]);
+    this.module = await begun(module, this.disk, (...of) => this.send(...of));
     for (const [page, message] of this.early.splice(0)) this.hear(page, message);
-  }
-
-  static async compiled(address) {
-    const answer = await fetch(address);
-    if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
-    // Not every server knows the media type that the faster way asks for.
-    const isKnown = answer.headers.get("content-type")?.startsWith("application/wasm");
-    return isKnown ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
   }
 
   async load() {
@@ -57,36 +48,55 @@ class Host {
     if (this.complaint) port.postMessage({ problem: this.complaint });
   }
 
-  hear(page, { join, leave, ask, get, address }) {
+  hear(page, { join, leave, ask, get, address, helper }) {
     this.guarded(() => {
       if (join) this.module.join(page, this.keeps ? 1 : 0);
-      else if (leave) {
-        this.module.leave(page);
-        this.pages.delete(page);
-      } else if (ask) {
-        this.say(ask);
+      else if (leave) this.leave(page);
+      else if (helper) this.welcome(page, helper);
+      else if (ask) {
+        say(this.module, ask);
         this.module.ask(page);
       } else if (get) {
         this.got = get;
-        this.say(address);
+        say(this.module, address);
         this.module.get(page);
       }
     });
     this.turn(0);
   }
 
-  // Puts text where the module reads it.
-  say(text) {
-    const bytes = new TextEncoder().encode(text);
-    const at = this.module.room(bytes.length);
-    new Uint8Array(this.module.memory.buffer, at, bytes.length).set(bytes);
+  leave(page) {
+    this.module.leave(page);
+    this.pages.delete(page);
+    for (const [number, helper] of this.helpers) {
+      if (helper.page !== page) continue;
+      this.module.helper_goes(number);
+      this.helpers.delete(number);
+    }
+  }
+
+  welcome(page, port) {
+    this.number += 1;
+    const number = this.number;
+    this.helpers.set(number, { page, port });
+    port.onmessage = ({ data: { ready, found } }) => {
+      this.guarded(() => {
+        if (ready) return this.module.helper_comes(number);
+        say(this.module, new Uint8Array(found));
+        return this.module.helper_brings(number);
+      });
+      this.turn(0);
+    };
   }
 
   // The module says something to a page.
   send(page, kind, at, length) {
     const bytes = new Uint8Array(this.module.memory.buffer, at, length);
     const port = this.pages.get(page);
-    if (kind === 0) port?.postMessage({ event: new TextDecoder().decode(bytes) });
+    if (kind === 4) {
+      const { buffer } = bytes.slice();
+      this.helpers.get(page)?.port.postMessage({ errand: buffer }, [buffer]);
+    } else if (kind === 0) port?.postMessage({ event: new TextDecoder().decode(bytes) });
     else if (kind === 2) this.about = JSON.parse(new TextDecoder().decode(bytes));
     else {
       const { buffer } = bytes.slice();
@@ -113,24 +123,24 @@ class Host {
       this.told = now;
       this.guarded(() => { for (const page of this.pages.keys()) this.module.news(page); });
     }
-    if (now - this.kept >= KEEPING) this.keep(now);
-    else if (wait !== 0) this.keepLater();
+    // At once if there is nothing else to do.
+    if (wait !== 0 || now - this.kept >= KEEPING) this.keep(now);
     if (wait >= 0) this.turn(wait);
   }
 
+  // Keeps the disk as it is between two turns. What changes meanwhile is kept afterwards.
   keep(now) {
-    if (!this.store || this.isKeeping) return;
+    if (!this.store) return;
+    this.isStale = this.isKeeping;
+    if (this.isKeeping) return;
     this.kept = now;
     this.isKeeping = true;
     this.store.save(this.disk)
       .catch(error => this.complain(`The browser cannot keep what is trained: ${error.message}`))
-      .finally(() => { this.isKeeping = false; });
-  }
-
-  // What has changed at the end is kept too.
-  keepLater() {
-    clearTimeout(this.keeper);
-    this.keeper = setTimeout(() => this.keep(performance.now()), KEEPING);
+      .finally(() => {
+        this.isKeeping = false;
+        if (this.isStale) this.keep(performance.now());
+      });
   }
 
   guarded(act) {
@@ -155,6 +165,56 @@ class Host {
   }
 }
 
-const host = new Host({ keeps: self.name !== "arena" });
-if (typeof SharedWorkerGlobalScope === "function") onconnect = ({ ports: [port] }) => host.join(port);
-else host.join(self);
+// A worker that evaluates for another.
+class HelpingHand {
+  constructor(port) {
+    this.port = port;
+    port.onmessage = ({ data: { errand } }) => {
+      say(this.module, new Uint8Array(errand));
+      this.module.help();
+    };
+    this.start();
+  }
+
+  async start() {
+    this.module = await begun(await compiled("studio.wasm"), new Disk(), (...of) => this.send(...of));
+    this.port.postMessage({ ready: true });
+  }
+
+  send(_, __, at, length) {
+    const { buffer } = new Uint8Array(this.module.memory.buffer, at, length).slice();
+    this.port.postMessage({ found: buffer }, [buffer]);
+  }
+}
+
+async function compiled(address) {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
+  // Not every server knows the media type that the faster way asks for.
+  const isKnown = answer.headers.get("content-type")?.startsWith("application/wasm");
+  return isKnown ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
+}
+
+// A module at work, on a disk; `send` is what it says things with.
+async function begun(module, disk, send) {
+  let exports = null;
+  const imports = { ...wasiImports(disk, () => exports.memory), page: { send } };
+  const instance = await WebAssembly.instantiate(module, missingImports(module, imports));
+  exports = instance.exports;
+  exports._initialize?.();
+  return exports;
+}
+
+// Puts text or bytes where a module reads them.
+function say(module, what) {
+  const bytes = typeof what === "string" ? new TextEncoder().encode(what) : what;
+  const at = module.room(bytes.length);
+  new Uint8Array(module.memory.buffer, at, bytes.length).set(bytes);
+}
+
+if (self.name === "helper") onmessage = ({ data: { serve } }) => { self.hand = new HelpingHand(serve); };
+else {
+  const host = new Host({ keeps: self.name !== "arena" });
+  if (typeof SharedWorkerGlobalScope === "function") onconnect = ({ ports: [port] }) => host.join(port);
+  else host.join(self);
+}

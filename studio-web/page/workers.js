@@ -13,11 +13,28 @@ class WorkerConnection extends Connection {
     this.runs.onmessage = ({ data }) => this.hear(data);
     this.arena.onmessage = ({ data }) => this.hear(data);
     this.runs.start?.();
+    for (let helper = 0; helper < WorkerConnection.helpers(); helper += 1) this.addHelper();
     addEventListener("pagehide", () => this.runs.postMessage({ leave: true }));
   }
 
   static sharedWorker() {
     try { return new SharedWorker("worker.js", { name: "runs" }).port; } catch { return null; }
+  }
+
+  // One core is for the runs and one for the page; but one helper there is, which judges. More than a few have little to do.
+  static helpers() {
+    const asked = new URLSearchParams(location.search).get("helpers");
+    const count = asked === null ? (navigator.hardwareConcurrency || 2) - 2 : Number(asked) || 0;
+    return Math.min(Math.max(count, asked === null ? 1 : 0), 6);
+  }
+
+  // It talks to the worker of runs itself.
+  addHelper() {
+    const { port1, port2 } = new MessageChannel();
+    const helper = new Worker("worker.js", { name: "helper" });
+    helper.postMessage({ serve: port1 }, [port1]);
+    this.runs.postMessage({ helper: port2 }, [port2]);
+    this.hands = [...this.hands || [], helper];
   }
 
   hear({ event, frame, got, problem }) {
@@ -53,7 +70,10 @@ class WorkerConnection extends Connection {
     anchor.onclick = async event => {
       event.preventDefault();
       const { ok, name: named, blob } = await this.get(address);
-      if (ok) saveAs(blob, named || name); else this.tell({ is: "refused", request: "get", reason: await blob.text() });
+      if (ok) {
+        saveAs(blob, named || name);
+        this.tell({ is: "saved", name: named || name });
+      } else this.tell({ is: "refused", request: "get", reason: await blob.text() });
     };
   }
 }

@@ -1,15 +1,43 @@
 //! A studio in a worker: its pages, and its work.
 
-use crate::queue::Queue;
-use gambol_runs::Registry;
+use crate::{
+    desk::{Desk, Errand, Found},
+    queue::Queue,
+};
+use gambol_runs::{Registry, training::BatchEvaluator};
 use std::{collections::BTreeMap, path::PathBuf, sync::Arc, time::Duration};
-use studio::{Download, DownloadError, Library, Means, Reply, Viewer, Wanted};
+use studio::{Download, DownloadError, Library, Means, Reply, Viewer, Wanted, protocol::Verdict};
 
 /// A studio whose pages have numbers.
 pub struct Host {
     library: Arc<Library>,
     viewers: BTreeMap<u32, Viewer>,
     queue: Arc<Queue>,
+    desk: Arc<Desk>,
+}
+
+/// Evaluates and judges for a host in another worker.
+#[derive(Default)]
+pub struct Helper {
+    registry: Registry,
+    evaluator: Option<BatchEvaluator>,
+}
+
+impl Helper {
+    /// What comes of an errand; `None` if its configuration cannot be built, or was never sent.
+    pub fn run(&mut self, errand: Errand) -> Option<Found> {
+        match errand {
+            Errand::Evaluate { ticket, piece, config, batch } => {
+                if let Some(config) = &config {
+                    self.evaluator = BatchEvaluator::new(config, &self.registry).ok();
+                }
+                Some(Found::Evaluations { ticket, piece, evaluations: self.evaluator.as_ref()?.evaluate(batch) })
+            }
+            Errand::Judge { ticket, champion } => {
+                Some(Found::Verdict { ticket, verdict: Verdict::of(&champion, &self.registry) })
+            }
+        }
+    }
 }
 
 impl Host {
@@ -17,8 +45,14 @@ impl Host {
     pub fn new(registry: Registry, runs: PathBuf) -> Self {
         let queue = Arc::new(Queue::default());
         // A report is made when it is asked for: it would keep the page waiting.
-        let means = Means { workers: queue.clone(), threads: 1, writes_reports: false };
-        Self { library: Arc::new(Library::new(registry, runs, means)), viewers: BTreeMap::new(), queue }
+        let desk = Arc::new(Desk::new(queue.clone()));
+        let means = Means { workers: queue.clone(), helpers: Some(desk.clone()), threads: 1, writes_reports: false };
+        Self { library: Arc::new(Library::new(registry, runs, means)), viewers: BTreeMap::new(), queue, desk }
+    }
+
+    /// Where helpers come and go.
+    pub fn desk(&self) -> &Desk {
+        &self.desk
     }
 
     /// A page comes. `shows_scenes`: what is to be seen moves in another worker.

@@ -4,12 +4,13 @@
 
 #![allow(unsafe_code)]
 
-use crate::Host;
+use crate::{Helper, Host};
 use std::cell::RefCell;
 use studio::{DownloadError, Reply};
 
 thread_local! {
     static HOST: RefCell<Option<Host>> = const { RefCell::new(None) };
+    static HELPER: RefCell<Helper> = RefCell::default();
     static ROOM: RefCell<Vec<u8>> = const { RefCell::new(Vec::new()) };
 }
 
@@ -23,6 +24,10 @@ enum Kind {
     /// What was asked for by an address: first what it is, as JSON, then its bytes.
     About = 2,
     File = 3,
+    /// For a helper: a piece that is to be evaluated.
+    Errand = 4,
+    /// From a helper: its evaluations.
+    Found = 5,
 }
 
 #[link(wasm_import_module = "page")]
@@ -101,8 +106,47 @@ pub extern "C" fn get(page: u32) {
     send_to(page, Kind::File, &bytes);
 }
 
+/// A helper comes.
+#[unsafe(no_mangle)]
+pub extern "C" fn helper_comes(helper: u32) {
+    with_host(|host| host.desk().welcome(helper));
+    send_errands();
+}
+
+/// A helper goes.
+#[unsafe(no_mangle)]
+pub extern "C" fn helper_goes(helper: u32) {
+    with_host(|host| host.desk().dismiss(helper));
+}
+
+/// What a helper has found, in the room.
+#[unsafe(no_mangle)]
+pub extern "C" fn helper_brings(helper: u32) {
+    if let Ok(found) = serde_json::from_slice(&ROOM.take()) {
+        with_host(|host| host.desk().bring(helper, found));
+    }
+    send_errands();
+}
+
+fn send_errands() {
+    while let Some((helper, errand)) = with_host(|host| host.desk().errand()) {
+        send_to(helper, Kind::Errand, &serde_json::to_vec(&errand).unwrap_or_default());
+    }
+}
+
+/// In a helper: an errand, in the room.
+#[unsafe(no_mangle)]
+pub extern "C" fn help() {
+    let Ok(errand) = serde_json::from_slice(&ROOM.take()) else { return };
+    if let Some(found) = HELPER.with_borrow_mut(|helper| helper.run(errand)) {
+        send_to(0, Kind::Found, &serde_json::to_vec(&found).unwrap_or_default());
+    }
+}
+
 /// Does a bit of what there is to do. The milliseconds until there is more; below 0: nothing is to be done.
 #[unsafe(no_mangle)]
 pub extern "C" fn work() -> f64 {
-    with_host(|host| host.work()).map_or(-1.0, |wait| wait.as_secs_f64() * 1000.0)
+    let wait = with_host(|host| host.work());
+    send_errands();
+    wait.map_or(-1.0, |wait| wait.as_secs_f64() * 1000.0)
 }

@@ -5,6 +5,7 @@ class Keep {
     Object.assign(this, { connection, watch, open, draw });
     connection.on("catalogue", catalogue => this.fill(catalogue));
     connection.on("opened", event => this.show(event));
+    connection.on("saved", ({ name }) => this.say(`${name} is saved.`));
     const get = name => document.getElementById(name);
     get("keep-verify").addEventListener("click", () => this.verify());
     get("keep-draw").addEventListener("click", () => draw(this.watch.config.creature));

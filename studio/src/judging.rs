@@ -1,9 +1,11 @@
 //! The champions of a session, judged one after the other.
 
 use crate::{
+    protocol::Verdict,
     session::Session,
-    work::{Job, Next, PATIENCE},
+    work::{Job, Next, PATIENCE, Ticket},
 };
+use gambol_runs::champion::Champion;
 use std::{
     sync::{Arc, Weak},
     time::{Instant, SystemTime},
@@ -14,7 +16,7 @@ pub(crate) fn judge_champions(session: &Arc<Session>, look: &Weak<()>) {
     if !session.begin_judging() {
         return;
     }
-    let judging = Box::new(Judging { session: Arc::clone(session), look: look.clone(), judged: None });
+    let judging = Box::new(Judging { session: Arc::clone(session), look: look.clone(), judged: None, asked: None });
     if let Err(error) = session.means().workers.start("judge", judging) {
         tracing::warn!(%error, "no gait is judged");
     }
@@ -25,21 +27,53 @@ struct Judging {
     look: Weak<()>,
     /// When the champion file was written that was judged last.
     judged: Option<SystemTime>,
+    /// What a helper judges.
+    asked: Option<Ticket>,
 }
 
 /// Judging takes at most this share of one core.
 const SHARE: u32 = 20;
+
+impl Judging {
+    /// Judges it here, or has it judged by a helper.
+    fn judge(&mut self, champion: &Champion) {
+        match self.session.means().helpers.as_ref().filter(|helpers| helpers.are_there()) {
+            Some(helpers) => self.asked = Some(helpers.judge(champion)),
+            None => self.session.set_verdict(Verdict::of(champion, self.session.registry())),
+        }
+    }
+
+    /// Whether a helper is still at it.
+    fn is_asked(&mut self) -> bool {
+        let (Some(ticket), Some(helpers)) = (self.asked, &self.session.means().helpers) else { return false };
+        if !helpers.are_there() {
+            // It is judged again, here.
+            helpers.withdraw(ticket);
+            (self.asked, self.judged) = (None, None);
+            return false;
+        }
+        let Some(verdict) = helpers.verdict(ticket) else { return true };
+        self.session.set_verdict(verdict);
+        self.asked = None;
+        false
+    }
+}
 
 impl Job for Judging {
     fn go_on(&mut self) -> Next {
         if self.look.strong_count() == 0 {
             return Next::Done;
         }
+        if self.is_asked() {
+            return Next::After(PATIENCE);
+        }
         let changed = std::fs::metadata(self.session.folder().champion()).and_then(|file| file.modified()).ok();
         let began = Instant::now();
         if changed.is_some() && changed != self.judged {
             self.judged = changed;
-            self.session.judge();
+            if let Some(champion) = self.session.champion() {
+                self.judge(&champion);
+            }
         }
         Next::After((began.elapsed() * SHARE).max(PATIENCE))
     }
@@ -47,6 +81,9 @@ impl Job for Judging {
 
 impl Drop for Judging {
     fn drop(&mut self) {
+        if let (Some(ticket), Some(helpers)) = (self.asked, &self.session.means().helpers) {
+            helpers.withdraw(ticket);
+        }
         self.session.end_judging();
     }
 }

@@ -335,7 +335,7 @@ pub struct Opened {
 }
 
 /// What `gambol gait` says of a champion.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Verdict {
     /// The champion's generation.
     pub generation: u64,

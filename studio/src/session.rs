@@ -3,7 +3,7 @@
 use crate::{
     Entrant,
     protocol::{Opened, RunState, Verdict},
-    work::Workers,
+    work::{Helpers, Workers},
 };
 use gambol_runs::{
     Registry,
@@ -25,6 +25,8 @@ use std::{
 pub struct Means {
     /// Who trains and judges.
     pub workers: Arc<dyn Workers>,
+    /// Who helps with evaluations, where threads cannot.
+    pub helpers: Option<Arc<dyn Helpers>>,
     /// Threads of each training; 0: one for each core.
     pub threads: usize,
     /// Whether a run that has ended gets its report at once, and not only when it is asked for.
@@ -398,9 +400,7 @@ impl Session {
         self.inner().is_judged = false;
     }
 
-    pub(crate) fn judge(&self) {
-        let Some(champion) = self.champion() else { return };
-        let verdict = Verdict::of(&champion, &self.registry);
+    pub(crate) fn set_verdict(&self, verdict: Verdict) {
         self.inner().verdict = Some(verdict);
     }
 }

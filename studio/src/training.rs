@@ -3,15 +3,17 @@
 use crate::{
     protocol::RunState,
     session::{Session, SessionError},
-    work::{Job, Next, PATIENCE},
+    work::{Job, Next, PATIENCE, Ticket},
 };
 use gambol_runs::{
+    config::RunConfig,
     run::Run,
     run_folder::NewFolder,
     shaping::{PlannedStage, ShapingError, StageProgress},
-    training::{Outcome, Resources},
+    strategies::AnyStrategy,
+    training::{Answers, BatchEvaluator, Outcome, Resources, Step, TrainError},
 };
-use ne_core::{StopConditions, StopReason};
+use ne_core::{Generation, StopConditions, StopReason};
 use std::sync::Arc;
 
 /// How a training begins.
@@ -29,7 +31,16 @@ pub(crate) enum Plan {
 pub(crate) fn start(session: &Arc<Session>, plan: Plan) -> Result<(), SessionError> {
     session.begin()?;
     let name = format!("training of {}", session.name());
-    let job = TrainingJob { session: Arc::clone(session), plan: Some(plan), run: None, folder: None, has_ended: false };
+    let job = TrainingJob {
+        session: Arc::clone(session),
+        plan: Some(plan),
+        run: None,
+        folder: None,
+        has_ended: false,
+        answers: Answers::default(),
+        offered: None,
+        evaluator: None,
+    };
     session.means().workers.start(&name, Box::new(job)).map_err(SessionError::Thread)
 }
 
@@ -45,6 +56,12 @@ pub(crate) fn go_on(session: &Arc<Session>, generations: Option<u64>) -> Result<
     start(session, Plan::Resume(generations.map(|more| session.longer_by(more))))
 }
 
+/// Whether a training goes on.
+enum Going {
+    On,
+    Over(StopReason),
+}
+
 /// Whatever becomes of it, the session hears of its end.
 struct TrainingJob {
     session: Arc<Session>,
@@ -53,6 +70,12 @@ struct TrainingJob {
     /// Goes again if nothing came into it.
     folder: Option<NewFolder>,
     has_ended: bool,
+    /// What helpers have evaluated of the generation under way.
+    answers: Answers,
+    /// What they evaluate now.
+    offered: Option<Ticket>,
+    /// Evaluates what is left by helpers, and the configuration that it is for.
+    evaluator: Option<(RunConfig, BatchEvaluator)>,
 }
 
 impl TrainingJob {
@@ -73,14 +96,46 @@ impl TrainingJob {
         }
     }
 
-    /// Does a generation. The reason, if the run is over.
-    fn generation(&mut self) -> Result<Option<StopReason>, ShapingError> {
-        let Some(run) = &mut self.run else { return Ok(Some(StopReason::Interrupted)) };
+    /// Does a generation, with helpers a part of one.
+    fn generation(&mut self) -> Result<Going, ShapingError> {
+        let Some(run) = &mut self.run else { return Ok(Going::Over(StopReason::Interrupted)) };
         let session = &self.session;
         let mut on_stage_run = |planned: &PlannedStage, _: Option<&_>| session.see_stage(planned);
-        run.generation(&mut StageProgress { on_stage_run: &mut on_stage_run }, &mut |generation| {
-            session.see(generation)
-        })
+        let mut stage_progress = StageProgress { on_stage_run: &mut on_stage_run };
+        let mut on_generation = |generation: &Generation<'_, AnyStrategy>| session.see(generation);
+        let helpers = session.means().helpers.as_ref();
+        // A generation that was begun with helpers is brought to its end with their answers.
+        let Some(helpers) = helpers.filter(|helpers| helpers.are_there() || self.answers.are_there()) else {
+            let over = run.generation(&mut stage_progress, &mut on_generation)?;
+            return Ok(over.map_or(Going::On, Going::Over));
+        };
+        match run.generation_by(&mut self.answers, &mut stage_progress, &mut on_generation)? {
+            Step::Done => Ok(Going::On),
+            Step::Over(reason) => Ok(Going::Over(reason)),
+            Step::Wants(batch) => {
+                self.offered = run.stage_config().map(|config| helpers.offer(config, batch));
+                Ok(Going::On)
+            }
+        }
+    }
+
+    /// Collects what was offered, or evaluates a piece of it.
+    fn help(&mut self, ticket: Ticket) -> Result<Next, ShapingError> {
+        let Some(helpers) = self.session.means().helpers.clone() else { return Ok(Next::Now) };
+        if let Some(evaluations) = helpers.collect(ticket) {
+            self.answers.give(evaluations);
+            self.offered = None;
+            return Ok(Next::Now);
+        }
+        let Some((piece, batch)) = helpers.take(ticket) else { return Ok(Next::After(PATIENCE)) };
+        let Some(config) = self.run.as_ref().and_then(Run::stage_config) else { return Ok(Next::Now) };
+        let (of, evaluator) = match self.evaluator.take().filter(|(of, _)| of == config) {
+            Some(known) => known,
+            None => (config.clone(), BatchEvaluator::new(config, self.session.registry()).map_err(TrainError::from)?),
+        };
+        helpers.give(ticket, piece, evaluator.evaluate(batch));
+        self.evaluator = Some((of, evaluator));
+        Ok(Next::Now)
     }
 
     fn finish(&mut self, reason: StopReason) -> Result<(), Box<dyn std::error::Error>> {
@@ -118,12 +173,16 @@ impl Job for TrainingJob {
                 Err(error) => self.break_off(&error),
             };
         }
-        if self.session.waits() {
+        if let Some(ticket) = self.offered {
+            return self.help(ticket).unwrap_or_else(|error| self.break_off(&error));
+        }
+        // Between two batches of a generation is no place to wait.
+        if !self.answers.are_there() && self.session.waits() {
             return Next::After(PATIENCE);
         }
         let reason = match self.generation() {
-            Ok(None) => return Next::Now,
-            Ok(Some(reason)) => reason,
+            Ok(Going::On) => return Next::Now,
+            Ok(Going::Over(reason)) => reason,
             Err(error) => return self.break_off(&error),
         };
         match self.finish(reason) {
@@ -135,6 +194,9 @@ impl Job for TrainingJob {
 
 impl Drop for TrainingJob {
     fn drop(&mut self) {
+        if let (Some(ticket), Some(helpers)) = (self.offered, &self.session.means().helpers) {
+            helpers.withdraw(ticket);
+        }
         if !self.has_ended {
             self.break_off(&"its training broke off");
         }

@@ -45,7 +45,7 @@ impl Phenotype for Candidate {
 }
 
 fn candidate(phenotype: &dyn Phenotype) -> &Candidate {
-    let phenotype: &dyn Any = phenotype;
+    let phenotype: &dyn std::any::Any = phenotype;
     phenotype.downcast_ref().expect("a candidate")
 }
 

@@ -12,7 +12,7 @@ use crate::{
     run_folder::{FolderError, FolderLock, RunFolder},
     setup::Setup,
     strategies::AnyStrategy,
-    training::{Outcome, Resources, TrainError, Training},
+    training::{Answers, Outcome, Resources, Step, TrainError, Training},
 };
 use ne_core::{Generation, Progress, StopConditions, StopReason, promotion::Decision};
 use std::{path::Path, time::Instant};
@@ -118,23 +118,50 @@ impl<C: Curriculum> StagedTraining<C> {
         stage_progress: &mut StageProgress<'_>,
         on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
     ) -> Result<Option<StopReason>, ShapingError> {
+        let generation =
+            |training: &mut Training| Ok(training.generation(&mut *on_generation)?.map_or(Step::Done, Step::Over));
+        match self.step(stage_progress, generation)? {
+            Step::Over(reason) => Ok(Some(reason)),
+            _ => Ok(None),
+        }
+    }
+
+    /// As [`generation`](Self::generation), with evaluations from elsewhere: see [`Training::generation_by`].
+    ///
+    /// # Errors
+    /// As [`generation`](Self::generation) and [`Training::generation_by`].
+    pub fn generation_by(
+        &mut self,
+        answers: &mut Answers,
+        stage_progress: &mut StageProgress<'_>,
+        on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
+    ) -> Result<Step, ShapingError> {
+        self.step(stage_progress, |training| training.generation_by(answers, &mut *on_generation))
+    }
+
+    fn step(
+        &mut self,
+        stage_progress: &mut StageProgress<'_>,
+        generation: impl FnOnce(&mut Training) -> Result<Step, TrainError>,
+    ) -> Result<Step, ShapingError> {
         let Some(current) = &mut self.current else {
-            return match self.next(stage_progress)? {
+            return Ok(match self.next(stage_progress)? {
                 Next::Stage(current) => {
                     self.current = Some(*current);
-                    Ok(None)
+                    Step::Done
                 }
-                Next::End(reason) => Ok(Some(reason)),
-            };
+                Next::End(reason) => Step::Over(reason),
+            });
         };
-        let done = current.training.generation(on_generation);
-        match done.map_err(|error| self.of_the_run(error.into()))? {
-            None => Ok(None),
-            Some(reason) => {
-                let goes_on = self.end_stage_run(reason)?;
-                Ok((!goes_on).then_some(reason))
-            }
+        match generation(&mut current.training).map_err(|error| self.of_the_run(error.into()))? {
+            Step::Over(reason) => Ok(if self.end_stage_run(reason)? { Step::Done } else { Step::Over(reason) }),
+            step => Ok(step),
         }
+    }
+
+    /// What its [batches](crate::training::Batch) are evaluated by: the configuration of the stage under way.
+    pub fn stage_config(&self) -> Option<&RunConfig> {
+        self.current.as_ref().map(|current| current.training.config())
     }
 
     /// Does generation after generation until it is over, and saves.

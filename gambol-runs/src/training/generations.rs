@@ -1,4 +1,7 @@
-use super::{Outcome, Resources, TrainError};
+use super::{
+    Outcome, Resources, TrainError,
+    elsewhere::{Answers, Remembering, Step},
+};
 use crate::{
     champion::Champion,
     champion_selection::ReferenceSelection,
@@ -16,6 +19,7 @@ use ne_core::{
     successive_halving::SuccessiveHalving,
 };
 use std::{
+    cell::{Cell, RefCell},
     path::Path,
     sync::Arc,
     time::{Duration, Instant},
@@ -209,6 +213,45 @@ impl Training {
         drop(observers);
         done.map_err(|source| self.broke_off(source))?;
         Ok(None)
+    }
+
+    /// As [`generation`](Self::generation), with evaluations from elsewhere: as often as it [wants](Step::Wants) some, they are evaluated
+    /// by a [`BatchEvaluator`](super::BatchEvaluator), given, and it is called again. What the run finds is the same.
+    ///
+    /// Candidates for the champion are judged here as ever.
+    ///
+    /// # Errors
+    /// As [`generation`](Self::generation); and if the answers are not one for each net that was wanted.
+    pub fn generation_by(
+        &mut self,
+        answers: &mut Answers,
+        on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
+    ) -> Result<Step, TrainError> {
+        let elapsed = self.began.map_or(Duration::ZERO, |began| began.elapsed());
+        if let Some(reason) = self.evolution.is_over(elapsed) {
+            return Ok(Step::Over(reason));
+        }
+        let (asked, wanted) = (Cell::new(0), RefCell::new(None));
+        let remembering = Remembering { answers, rungs: self.evaluator.rungs(), asked, wanted };
+        let run = Recorded { config: &self.config, setup: &self.setup };
+        let recording = Recording { recorder: &mut self.recorder, run, called: on_generation };
+        let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(recording)];
+        let halving = self.evaluator.with_inner(&remembering);
+        let done = self.evolution.generation(&self.setup.task, &halving, &mut observers);
+        drop(observers);
+        match (done, remembering.wanted.into_inner()) {
+            (Err(EvolutionError::EvaluationCount { .. }), Some(batch)) => Ok(Step::Wants(batch)),
+            (Ok(_), _) => {
+                answers.clear();
+                Ok(Step::Done)
+            }
+            (Err(source), _) => Err(self.broke_off(source)),
+        }
+    }
+
+    /// What its [batches](super::Batch) are evaluated by.
+    pub fn config(&self) -> &RunConfig {
+        &self.config
     }
 
     /// Does generation after generation until it is over, and saves.

@@ -1,8 +1,10 @@
 //! Training: a run from its configuration to its folder, and on from where it stopped. [`train`] and [`resume`] do the whole; a
 //! [`Training`] does one generation at a time, for a program that has something else to do in between.
 
+mod elsewhere;
 mod generations;
 
+pub use elsewhere::{Answers, Batch, BatchEvaluator, Step};
 pub use generations::Training;
 
 use crate::{

@@ -79,12 +79,7 @@ impl Browser {
         let (socket, _) = client(&address, stream).expect("a web socket");
         socket.get_ref().set_read_timeout(Some(Duration::from_millis(50))).expect("a timeout");
         let mut browser = Self { process, socket, session: None, calls: 0, events: Vec::new(), _profile: profile };
-        let target = browser.call("Target.createTarget", json!({ "url": "about:blank" }));
-        let attach = json!({ "targetId": target["targetId"], "flatten": true });
-        browser.session = browser.call("Target.attachToTarget", attach)["sessionId"].as_str().map(str::to_owned);
-        for domain in ["Page", "Runtime", "Log", "Network"] {
-            browser.call(&format!("{domain}.enable"), json!({}));
-        }
+        browser.open_tab();
         browser
     }
 
@@ -104,6 +99,24 @@ impl Browser {
             assert!(since.elapsed() < PATIENCE, "{address} is not loaded");
             self.hear();
         }
+    }
+
+    /// Opens another tab, and goes to it. The one that was left.
+    pub(crate) fn open_tab(&mut self) -> Option<String> {
+        let left = self.session.take();
+        let target = self.call("Target.createTarget", json!({ "url": "about:blank" }));
+        let attach = json!({ "targetId": target["targetId"], "flatten": true });
+        self.session = self.call("Target.attachToTarget", attach)["sessionId"].as_str().map(str::to_owned);
+        for domain in ["Page", "Runtime", "Log", "Network"] {
+            self.call(&format!("{domain}.enable"), json!({}));
+        }
+        left
+    }
+
+    /// Goes back to a tab that was left.
+    pub(crate) fn go_to_tab(&mut self, session: Option<String>) {
+        self.session = session;
+        self.call("Page.bringToFront", json!({}));
     }
 
     /// What an expression is worth in the page, a promise when it is kept.

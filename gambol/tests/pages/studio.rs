@@ -1,12 +1,14 @@
 //! The studio, used as a person would use it.
 
-use crate::browser::{Browser, Key};
+use crate::{
+    browser::{Browser, Key},
+    home::{Home, Studio},
+};
 use serde_json::Value;
 use std::{
     fs,
-    io::{BufRead, BufReader},
     path::Path,
-    process::{Child, Command, Stdio},
+    process::Command,
     thread,
     time::{Duration, Instant},
 };
@@ -16,42 +18,6 @@ const FOUR: Key = Key("4", "Digit4", 52);
 
 /// How long a chapter may take for anything.
 const PATIENCE: Duration = Duration::from_secs(90);
-
-/// A studio over the runs in a folder; it ends with this value.
-pub(crate) struct Studio {
-    process: Child,
-    pub(crate) url: String,
-}
-
-impl Studio {
-    pub(crate) fn start(folder: &Path, arguments: &[&str]) -> Self {
-        let mut process = Command::new(env!("CARGO_BIN_EXE_gambol"))
-            .args(["studio", "--no-open", "--threads", "1"])
-            .args(arguments)
-            .current_dir(folder)
-            .stdout(Stdio::piped())
-            .spawn()
-            .expect("the studio starts");
-        let mut lines = BufReader::new(process.stdout.take().expect("a pipe")).lines();
-        let first = lines.next().expect("it tells its address").expect("text");
-        let url = first.strip_prefix("The studio is at ").expect("an address").to_owned();
-        thread::spawn(move || lines.for_each(drop));
-        Self { process, url }
-    }
-
-    fn origin(&self) -> &str {
-        let end = self.url.match_indices('/').nth(2).map_or(self.url.len(), |(end, _)| end);
-        &self.url[..end]
-    }
-}
-
-impl Drop for Studio {
-    fn drop(&mut self) {
-        // It may have ended by itself.
-        let _ = self.process.kill();
-        let _ = self.process.wait();
-    }
-}
 
 /// Waits until an expression is true.
 #[track_caller]
@@ -116,8 +82,8 @@ fn train(browser: &mut Browser, creature: &str, movement: &str, generations: u32
     wait(browser, "the end", "document.getElementById('run-state').textContent.includes('the generations were done')");
 }
 
-pub(crate) fn begins(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &[]);
+pub(crate) fn begins(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &[]);
     browser.visit(&studio.url, 1280);
     wait(browser, "a biped that learns", "/generation \\d+/.test(document.getElementById('run-state').textContent)");
     wait(
@@ -162,8 +128,8 @@ pub(crate) fn begins(browser: &mut Browser, folder: &Path) {
     is_clean(browser, &studio);
 }
 
-pub(crate) fn chooses(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["tetrapod-1"]);
+pub(crate) fn chooses(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["tetrapod-1"]);
     browser.visit(&studio.url, 1280);
     wait(
         browser,
@@ -192,18 +158,15 @@ pub(crate) fn chooses(browser: &mut Browser, folder: &Path) {
         "document.getElementById('choose-command').textContent === 'gambol train tetrapod-1 running'",
     );
     train(browser, "tetrapod-2", "jumping", 3);
-    let run = folder.join("runs/tetrapod-2-jumping");
-    let verified = Command::new(env!("CARGO_BIN_EXE_gambol"))
-        .arg("verify")
-        .arg(run.join("champion.json"))
-        .output()
-        .expect("it runs");
+    let champion = folder.join("trained.json");
+    fs::write(&champion, studio.file(browser, "runs/tetrapod-2-jumping/champion.json")).expect("a file");
+    let verified = Command::new(env!("CARGO_BIN_EXE_gambol")).arg("verify").arg(champion).output().expect("it runs");
     assert!(verified.status.success(), "what was trained in the studio is verified");
     is_clean(browser, &studio);
 }
 
-pub(crate) fn plays(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["biped-1"]);
+pub(crate) fn plays(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
     browser.visit(&studio.url, 1280);
     train(browser, "biped-1", "running", 12);
     browser.press(FOUR);
@@ -220,8 +183,8 @@ pub(crate) fn plays(browser: &mut Browser, folder: &Path) {
     is_clean(browser, &studio);
 }
 
-pub(crate) fn draws(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["tetrapod-1"]);
+pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["tetrapod-1"]);
     browser.visit(&studio.url, 1280);
     click(browser, "[data-chapter=draw]");
     wait(browser, "the editor", "document.querySelector('.editor-canvas') !== null");
@@ -236,13 +199,13 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path) {
     browser.press(Key("k", "KeyK", 75));
     wait(browser, "a training of it", "document.getElementById('run-state').textContent.includes('generation')");
     wait(browser, "its gait", "document.getElementById('verdict').textContent === 'Usable'");
-    assert!(folder.join("runs/creatures/my piano.json").is_file());
-    assert!(text(browser, "run-command").contains("'runs/creatures/my piano.json'"));
+    assert!(!studio.file(browser, "runs/creatures/my piano.json").is_empty());
+    assert!(text(browser, "run-command").contains("runs/creatures/my piano.json'"));
     is_clean(browser, &studio);
 }
 
-pub(crate) fn keeps(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["biped-1"]);
+pub(crate) fn keeps(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
     browser.visit(&studio.url, 1280);
     train(browser, "biped-1", "running", 60);
     click(browser, "[data-chapter=keep]");
@@ -256,10 +219,20 @@ pub(crate) fn keeps(browser: &mut Browser, folder: &Path) {
     };
     assert_eq!(said(browser, "player"), "biped-1-running.player is saved.");
     assert_eq!(said(browser, "csv"), "biped-1-running.csv is saved.");
-    let report = browser.evaluate("fetch(document.getElementById('keep-report').href).then(answer => answer.text())");
-    assert!(report.as_str().is_some_and(|page| page.contains("<title>")), "the report");
+    if *home == Home::Served {
+        let report =
+            browser.evaluate("fetch(document.getElementById('keep-report').href).then(answer => answer.text())");
+        assert!(report.as_str().is_some_and(|page| page.contains("<title>")), "the report");
+    } else {
+        click(browser, "#keep-report");
+        wait(
+            browser,
+            "the report",
+            "document.getElementById('keep-result').textContent === 'biped-1-running.html is saved.'",
+        );
+    }
     // A champion from a file, and one that is none.
-    let champion = fs::read_to_string(folder.join("runs/biped-1-running/champion.json")).expect("a champion");
+    let champion = String::from_utf8(studio.file(browser, "runs/biped-1-running/champion.json")).expect("text");
     let drop_file = |browser: &mut Browser, name: &str, text: &str| {
         browser.evaluate(&format!(
             "(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], {name:?})); \
@@ -280,8 +253,8 @@ pub(crate) fn keeps(browser: &mut Browser, folder: &Path) {
     assert_eq!(browser.complaints(), [""; 0], "errors");
 }
 
-pub(crate) fn fits(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["biped-1"]);
+pub(crate) fn fits(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
     for width in [360, 1280, 3840] {
         browser.visit(&studio.url, width);
         train(browser, "biped-1", "running", 2);
@@ -299,8 +272,8 @@ pub(crate) fn fits(browser: &mut Browser, folder: &Path) {
     is_clean(browser, &studio);
 }
 
-pub(crate) fn hostile(browser: &mut Browser, folder: &Path) {
-    let studio = Studio::start(folder, &["biped-1"]);
+pub(crate) fn hostile(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
     let mut creature: Value = serde_json::to_value(creatures::find("biped-1").expect("it is shipped")).expect("JSON");
     let script =
         "<img src=x onerror=\"document.body.dataset.harmed = 1\"><script>document.body.dataset.harmed = 1</script>";
@@ -318,5 +291,53 @@ pub(crate) fn hostile(browser: &mut Browser, folder: &Path) {
     }
     assert!(text(browser, "arena-title").starts_with("<img"), "it is shown as text");
     assert_eq!(browser.evaluate("document.body.dataset.harmed ?? null"), Value::Null);
+    is_clean(browser, &studio);
+}
+
+/// What was trained on the page is what the command line beside it trains.
+pub(crate) fn repeats(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
+    browser.visit(&studio.url, 1280);
+    for (creature, movement) in [("biped-1", "running"), ("tetrapod-2", "jumping"), ("decapod-1", "running")] {
+        train(browser, creature, movement, 8);
+        let command = text(browser, "run-command");
+        let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
+        let native = folder.join(format!("native-{creature}"));
+        let trained = Command::new(env!("CARGO_BIN_EXE_gambol"))
+            .args(arguments)
+            .args(["--quiet", "--no-report", "--out"])
+            .arg(&native)
+            .status()
+            .expect("it runs");
+        assert!(trained.success(), "{command}");
+        for name in ["config.json", "log.jsonl", "champion.json", "checkpoint", "gallery.jsonl"] {
+            let there = studio.file(browser, &format!("runs/{creature}-{movement}/{name}"));
+            assert!(there == fs::read(native.join(name)).expect("a file of the run"), "{creature}: another {name}");
+        }
+    }
+    is_clean(browser, &studio);
+}
+
+/// Two tabs see the same run, and what one does the other hears of.
+pub(crate) fn is_shared(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &[]);
+    browser.visit(&studio.url, 1280);
+    wait(browser, "a biped that learns", "/generation \\d+/.test(document.getElementById('run-state').textContent)");
+    let first = browser.open_tab();
+    browser.visit(&studio.url, 1280);
+    wait(
+        browser,
+        "the same biped",
+        "/training · generation \\d+/.test(document.getElementById('run-state').textContent)",
+    );
+    click(browser, "#run-pause");
+    wait(browser, "the pause", "document.getElementById('run-state').textContent.includes('training waits')");
+    browser.go_to_tab(first);
+    wait(
+        browser,
+        "the pause in the other",
+        "document.getElementById('run-state').textContent.includes('training waits')",
+    );
+    assert_eq!(browser.evaluate("document.querySelectorAll('#fitness-chart path').length > 1"), true);
     is_clean(browser, &studio);
 }
