@@ -4,6 +4,9 @@
 const NEWS = 50;
 const KEEPING = 1000;
 
+// Where the module has its runs.
+const RUNS = "/runs";
+
 class Host {
   constructor({ keeps }) {
     this.keeps = keeps;
@@ -45,11 +48,13 @@ class Host {
     port.start?.();
     const joins = { join: true };
     if (this.module) this.hear(page, joins); else this.early.push([page, joins]);
-    if (this.complaint) port.postMessage({ problem: this.complaint });
+    if (this.complaint) port.postMessage(this.complaint);
   }
 
-  hear(page, { join, leave, ask, get, address, helper }) {
-    this.guarded(() => {
+  hear(page, { join, leave, ask, get, address, helper, pack, unpack }) {
+    if (pack) this.pack(page, pack);
+    else if (unpack) this.unpack(page, unpack);
+    else this.guarded(() => {
       if (join) this.module.join(page, this.keeps ? 1 : 0);
       else if (leave) this.leave(page);
       else if (helper) this.welcome(page, helper);
@@ -63,6 +68,26 @@ class Host {
       }
     });
     this.turn(0);
+  }
+
+  // A whole run as a file, and back.
+  pack(page, { number, run }) {
+    const name = `${run}.tar`;
+    try {
+      const bytes = packed(run, filesBelow(this.disk, `${RUNS}/${run}`));
+      this.pages.get(page)?.postMessage({ got: { number, name, media: "application/x-tar", bytes } }, [bytes.buffer]);
+    } catch (error) {
+      this.pages.get(page)?.postMessage({ got: { number, failed: `${name}: ${error.message}` } });
+    }
+  }
+
+  unpack(page, { name, bytes }) {
+    try {
+      this.hear(page, { ask: JSON.stringify({ do: "open", run: addRun(this.disk, RUNS, new Uint8Array(bytes)) }) });
+    } catch (error) {
+      const event = { is: "refused", request: "open", reason: `${name}: ${error.message}` };
+      this.pages.get(page)?.postMessage({ event: JSON.stringify(event) });
+    }
   }
 
   leave(page) {
@@ -155,13 +180,13 @@ class Host {
   break(error) {
     this.module = null;
     console.error(error);
-    this.complain(`The studio broke off: ${error.message}. What was kept is there when the page is loaded again.`);
+    this.complain(`The studio broke off: ${error.message}. What was kept is there when the page is loaded again.`, true);
     setTimeout(() => close(), 100);
   }
 
-  complain(problem) {
-    this.complaint = problem;
-    for (const port of this.pages.values()) port.postMessage({ problem });
+  complain(problem, isOver = false) {
+    this.complaint = { problem, isOver };
+    for (const port of this.pages.values()) port.postMessage(this.complaint);
   }
 }
 

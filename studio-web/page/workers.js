@@ -37,10 +37,11 @@ class WorkerConnection extends Connection {
     this.hands = [...this.hands || [], helper];
   }
 
-  hear({ event, frame, got, problem }) {
+  hear({ event, frame, got, problem, isOver }) {
     if (frame) this.onFrame(frame);
     else if (got) this.receive(got);
-    else if (problem) this.onState(false, problem);
+    else if (problem && isOver) this.onState(false, problem);
+    else if (problem) this.tell({ is: "refused", request: "keep", reason: problem });
     else if (event) {
       const told = JSON.parse(event);
       if (told.is === "scene") this.ask({ do: "enter", scene: told.scene }); else this.tell(told);
@@ -57,6 +58,17 @@ class WorkerConnection extends Connection {
     this.runs.postMessage({ get: this.number, address });
     return new Promise(resolve => this.wanted.set(this.number, resolve));
   }
+
+  // There is no program beside the page, and no folder to copy.
+  get isAlone() { return true; }
+
+  pack(run) {
+    this.number += 1;
+    this.runs.postMessage({ pack: { number: this.number, run } });
+    return new Promise(resolve => this.wanted.set(this.number, resolve));
+  }
+
+  unpack(name, bytes) { this.runs.postMessage({ unpack: { name, bytes } }, [bytes]); }
 
   receive({ number, name, media, missing, failed, bytes }) {
     const wrong = missing || failed;

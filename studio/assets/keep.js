@@ -8,6 +8,10 @@ class Keep {
     connection.on("saved", ({ name }) => this.say(`${name} is saved.`));
     const get = name => document.getElementById(name);
     get("keep-verify").addEventListener("click", () => this.verify());
+    get("keep-link").addEventListener("click", () => this.link());
+    // An address that is served has a secret in it, and leads to this machine.
+    for (const id of ["keep-pack", "keep-link"]) get(id).hidden = !connection.isAlone;
+    get("keep-pack").addEventListener("click", () => this.pack());
     get("keep-draw").addEventListener("click", () => draw(this.watch.config.creature));
     get("keep-file").addEventListener("change", event => this.read(event.target.files[0]));
     document.addEventListener("dragover", event => { event.preventDefault(); get("keep-drop").classList.add("over"); });
@@ -81,8 +85,28 @@ class Keep {
     return this.say(identical ? "Identical: the champion does to the bit what its file says." : `Not identical: it differs from step ${step} on.`);
   }
 
+  async link() {
+    const { ok, blob } = await this.connection.get(`runs/${encodeURIComponent(this.watch.run)}/champion.json`);
+    const text = await blob.text();
+    if (!ok) return this.say(text);
+    const address = await linkTo(text);
+    try {
+      await navigator.clipboard.writeText(address);
+      this.say(`A link of ${count(address.length, "character", "characters")} is copied; it opens this champion.`);
+    } catch { this.say(address); }
+    return undefined;
+  }
+
+  async pack() {
+    const { ok, name, blob } = await this.connection.pack(this.watch.run);
+    if (!ok) return this.say(await blob.text());
+    saveAs(blob, name);
+    return this.say(`${name} is saved. Unpacked, it is a run of the program; dropped here, it is this run again.`);
+  }
+
   async read(file) {
     if (!file) return;
+    if (file.name.endsWith(".tar") && this.connection.isAlone) return this.connection.unpack(file.name, await file.arrayBuffer());
     const text = await file.text();
     let parsed;
     try { parsed = JSON.parse(text); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }

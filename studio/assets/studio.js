@@ -28,6 +28,10 @@ class Studio {
     this.buildReadouts();
     this.connection.ask({ do: "look" });
     this.connection.ask({ do: "schema" });
+    // Before the address is that of a chapter.
+    this.linked = linkedIn(location.hash);
+    // What is wrong is said once there is a place for it.
+    this.linked.catch(() => {});
     const chapter = location.hash.slice(2);
     this.go(CHAPTERS.includes(chapter) ? chapter : "watch");
   }
@@ -67,11 +71,15 @@ class Studio {
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readTheme(); loop.redrawAll(); });
   }
 
-  // The first time: what was asked for on the command line, else the latest run, else a biped that learns to run.
-  begin({ runs, creatures }) {
+  // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to run.
+  async begin({ runs, creatures }) {
     if (this.begun) return;
     this.begun = true;
     if (this.chapter === "draw") this.buildEditor();
+    try {
+      const text = await this.linked;
+      if (text) return void this.connection.ask({ do: "open-champion", name: "the link", text });
+    } catch (error) { this.refuse(`The link is damaged: ${error.message}`); }
     const asked = new URLSearchParams(location.search);
     if (asked.get("creature")) {
       this.choose.choice.creature = asked.get("creature");

@@ -3,7 +3,7 @@
 use crate::browser::Browser;
 use std::{
     env, fs,
-    io::{BufRead, BufReader, Read, Write},
+    io::{BufRead, BufReader, Write},
     net::{TcpListener, TcpStream},
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
@@ -114,7 +114,7 @@ fn serve(folder: &Path) -> String {
 }
 
 fn answer(mut stream: TcpStream, folder: &Path) {
-    let mut lines = BufReader::new(stream.by_ref()).lines().map_while(Result::ok);
+    let mut lines = BufReader::new(&stream).lines().map_while(Result::ok);
     let first = lines.next().unwrap_or_default();
     lines.take_while(|line| !line.is_empty()).for_each(drop);
     let path = first.split(' ').nth(1).unwrap_or("/").split('?').next().unwrap_or("/");

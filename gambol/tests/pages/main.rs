@@ -75,7 +75,11 @@ fn main() -> ExitCode {
     };
     let served = in_both(&Home::Served);
     let hostile = chapter("does nothing that a creature's name says", &Home::Served, studio::hostile);
-    let static_page = built.iter().flat_map(in_both);
+    let alone = |home: &Home| {
+        let travels = chapter("lets runs and champions travel", home, studio::travels);
+        in_both(home).into_iter().chain([travels]).collect::<Vec<_>>()
+    };
+    let static_page = built.iter().flat_map(alone);
     libtest_mimic::run(&arguments, every.chain(others).chain(served).chain([hostile]).chain(static_page).collect())
         .exit_code()
 }

@@ -79,7 +79,10 @@ fn train(browser: &mut Browser, creature: &str, movement: &str, generations: u32
         &format!("document.getElementById('choose-command').textContent.includes('--generations {generations}')"),
     );
     click(browser, "#choose-train");
-    wait(browser, "the end", "document.getElementById('run-state').textContent.includes('the generations were done')");
+    let ended = format!(
+        "/the generations were done · generation {generations} /.test(document.getElementById('run-state').textContent)"
+    );
+    wait(browser, "the end", &ended);
 }
 
 pub(crate) fn begins(browser: &mut Browser, folder: &Path, home: &Home) {
@@ -298,8 +301,9 @@ pub(crate) fn hostile(browser: &mut Browser, folder: &Path, home: &Home) {
 pub(crate) fn repeats(browser: &mut Browser, folder: &Path, home: &Home) {
     let studio = Studio::start(home, folder, &["biped-1"]);
     browser.visit(&studio.url, 1280);
-    for (creature, movement) in [("biped-1", "running"), ("tetrapod-2", "jumping"), ("decapod-1", "running")] {
-        train(browser, creature, movement, 8);
+    let trained = [("biped-1", "running", 12), ("tetrapod-2", "jumping", 8), ("decapod-1", "running", 6)];
+    for (creature, movement, generations) in trained {
+        train(browser, creature, movement, generations);
         let command = text(browser, "run-command");
         let arguments: Vec<&str> = command.split_whitespace().skip(1).collect();
         let native = folder.join(format!("native-{creature}"));
@@ -340,4 +344,72 @@ pub(crate) fn is_shared(browser: &mut Browser, folder: &Path, home: &Home) {
     );
     assert_eq!(browser.evaluate("document.querySelectorAll('#fitness-chart path').length > 1"), true);
     is_clean(browser, &studio);
+}
+
+/// A run goes out as a file and comes in again; a champion is an address.
+pub(crate) fn travels(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
+    browser.visit(&studio.url, 1280);
+    train(browser, "biped-1", "running", 8);
+    click(browser, "[data-chapter=keep]");
+    wait(browser, "the gallery", "document.querySelectorAll('#keep-runs button').length === 1");
+    browser.evaluate("URL.createObjectURL = blob => { window.saved = blob; return 'blob:nothing'; }");
+    click(browser, "#keep-pack");
+    wait(
+        browser,
+        "the file",
+        "document.getElementById('keep-result').textContent.startsWith('biped-1-running.tar is saved')",
+    );
+    let digits = browser.evaluate(
+        "window.saved.arrayBuffer().then(bytes => [...new Uint8Array(bytes)].map(byte => byte.toString(16).padStart(2, '0')).join(''))",
+    );
+    let digits = digits.as_str().expect("text").as_bytes();
+    let byte = |pair: &[u8]| u8::from_str_radix(std::str::from_utf8(pair).expect("digits"), 16).expect("a byte");
+    let tar: Vec<u8> = digits.chunks(2).map(byte).collect();
+    fs::write(folder.join("run.tar"), &tar).expect("a file");
+    let unpacked = Command::new("tar").args(["xf", "run.tar"]).current_dir(folder).status().expect("there is tar");
+    assert!(unpacked.success());
+    let resumed = Command::new(env!("CARGO_BIN_EXE_gambol"))
+        .args(["resume", "biped-1-running", "--generations", "10", "--quiet", "--no-report"])
+        .current_dir(folder)
+        .status()
+        .expect("it runs");
+    assert!(resumed.success(), "a run of the page goes on in the program");
+    browser.evaluate(
+        "(() => { const data = new DataTransfer(); data.items.add(new File([window.saved], 'mine.tar')); \
+         document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true })); })()",
+    );
+    wait(browser, "the run again", "document.getElementById('keep-title').textContent === 'biped-1-running-2'");
+    for name in ["config.json", "log.jsonl", "champion.json", "checkpoint"] {
+        let (one, other) = (format!("runs/biped-1-running/{name}"), format!("runs/biped-1-running-2/{name}"));
+        wait(browser, "it is kept", "new Promise(resolve => setTimeout(() => resolve(true), 1500))");
+        assert!(studio.file(browser, &one) == studio.file(browser, &other), "{name}");
+    }
+    browser.evaluate(
+        "(() => { const data = new DataTransfer(); data.items.add(new File(['nothing'], 'wrong.tar')); \
+         document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true })); })()",
+    );
+    wait(
+        browser,
+        "a refusal",
+        "document.querySelector('#notice p').textContent.startsWith('wrong.tar: there is no run in it')",
+    );
+    browser.evaluate(
+        "Object.defineProperty(navigator, 'clipboard', { value: { writeText: async text => { window.copied = text; } } })",
+    );
+    click(browser, "#keep-link");
+    wait(browser, "the link", "document.getElementById('keep-result').textContent.includes('is copied')");
+    let link = browser.evaluate("window.copied").as_str().expect("text").to_owned();
+    // Only the part after the sign changes, which loads nothing anew.
+    browser.visit("about:blank", 1280);
+    browser.visit(&link, 1280);
+    wait(
+        browser,
+        "the champion",
+        "document.getElementById('run-state').textContent.startsWith('a champion of generation')",
+    );
+    wait(browser, "that moves", "parseFloat(document.querySelector('#arena-readouts dd').textContent) > 0.3");
+    browser.visit("about:blank", 1280);
+    browser.visit(&format!("{}x", &link[..link.len() - 9]), 1280);
+    wait(browser, "a damaged link", "!document.getElementById('notice').hidden");
 }

@@ -16,10 +16,11 @@ use std::{
 };
 
 /// What the worker runs, before the module.
-const WORKER: [&str; 4] = [
+const WORKER: [&str; 5] = [
     include_str!("../../page/disk.js"),
     include_str!("../../page/wasi.js"),
     include_str!("../../page/store.js"),
+    include_str!("../../page/tar.js"),
     include_str!("../../page/host.js"),
 ];
 const HOME: &str = include_str!("../../page/workers.js");
