@@ -8,7 +8,9 @@ const KEEPING = 1000;
 const RUNS = "/runs";
 
 class Host {
-  constructor({ keeps }) {
+  // `compiling`: a promise of the module. `keeps`: whether there are runs, which are kept.
+  constructor(compiling, { keeps }) {
+    this.compiling = compiling;
     this.keeps = keeps;
     this.pages = new Map();
     // Workers that help with evaluations, and the page that each came with.
@@ -23,7 +25,7 @@ class Host {
   }
 
   async start() {
-    const [module] = await Promise.all([compiled("studio.wasm"), this.load()]);
+    const [module] = await Promise.all([this.compiling, this.load()]);
     this.module = await begun(module, this.disk, (...of) => this.send(...of));
     for (const [page, message] of this.early.splice(0)) this.hear(page, message);
   }
@@ -44,7 +46,7 @@ class Host {
     this.number += 1;
     const page = this.number;
     this.pages.set(page, port);
-    port.onmessage = ({ data }) => { if (this.module) this.hear(page, data); else this.early.push([page, data]); };
+    port.addEventListener("message", ({ data }) => { if (this.module) this.hear(page, data); else this.early.push([page, data]); });
     port.start?.();
     const joins = { join: true };
     if (this.module) this.hear(page, joins); else this.early.push([page, joins]);
@@ -192,7 +194,8 @@ class Host {
 
 // A worker that evaluates for another.
 class HelpingHand {
-  constructor(port) {
+  constructor(compiling, port) {
+    this.compiling = compiling;
     this.port = port;
     port.onmessage = ({ data: { errand } }) => {
       say(this.module, new Uint8Array(errand));
@@ -202,7 +205,7 @@ class HelpingHand {
   }
 
   async start() {
-    this.module = await begun(await compiled("studio.wasm"), new Disk(), (...of) => this.send(...of));
+    this.module = await begun(await this.compiling, new Disk(), (...of) => this.send(...of));
     this.port.postMessage({ ready: true });
   }
 
@@ -210,14 +213,6 @@ class HelpingHand {
     const { buffer } = new Uint8Array(this.module.memory.buffer, at, length).slice();
     this.port.postMessage({ found: buffer }, [buffer]);
   }
-}
-
-async function compiled(address) {
-  const answer = await fetch(address);
-  if (!answer.ok) throw new Error(`${address}: ${answer.status}`);
-  // Not every server knows the media type that the faster way asks for.
-  const isKnown = answer.headers.get("content-type")?.startsWith("application/wasm");
-  return isKnown ? WebAssembly.compileStreaming(answer) : WebAssembly.compile(await answer.arrayBuffer());
 }
 
 // A module at work, on a disk; `send` is what it says things with.
@@ -237,9 +232,13 @@ function say(module, what) {
   new Uint8Array(module.memory.buffer, at, bytes.length).set(bytes);
 }
 
-if (self.name === "helper") onmessage = ({ data: { serve } }) => { self.hand = new HelpingHand(serve); };
-else {
-  const host = new Host({ keeps: self.name !== "arena" });
-  if (typeof SharedWorkerGlobalScope === "function") onconnect = ({ ports: [port] }) => host.join(port);
-  else host.join(self);
-}
+// A module that a page has compiled.
+const handed = () => new Promise(resolve => addEventListener("message", ({ data: { module } }) => { if (module) resolve(module); }));
+
+if (typeof SharedWorkerGlobalScope === "function") {
+  const host = new Host(compiled("studio.wasm"), { keeps: true });
+  onconnect = ({ ports: [port] }) => host.join(port);
+} else if (self.name === "helper") {
+  const compiling = handed();
+  addEventListener("message", ({ data: { serve } }) => { if (serve) self.hand = new HelpingHand(compiling, serve); });
+} else new Host(handed(), { keeps: self.name !== "arena" }).join(self);

@@ -8,13 +8,22 @@ class WorkerConnection extends Connection {
     super();
     this.wanted = new Map();
     this.number = 0;
-    this.runs = WorkerConnection.sharedWorker() || new Worker("worker.js", { name: "runs" });
-    this.arena = new Worker("worker.js", { name: "arena" });
+    this.helpers = [];
+    // Compiled once for all workers that can be handed it; one that is shared between tabs cannot.
+    this.module = compiled("studio.wasm");
+    this.module.catch(error => this.onState(false, `The studio cannot be loaded: ${error.message}`));
+    this.runs = WorkerConnection.sharedWorker() || this.worker("runs");
+    this.arena = this.worker("arena");
     this.runs.onmessage = ({ data }) => this.hear(data);
     this.arena.onmessage = ({ data }) => this.hear(data);
     this.runs.start?.();
-    for (let helper = 0; helper < WorkerConnection.helpers(); helper += 1) this.addHelper();
     addEventListener("pagehide", () => this.runs.postMessage({ leave: true }));
+  }
+
+  worker(name) {
+    const worker = new Worker("worker.js", { name });
+    this.module.then(module => worker.postMessage({ module }), () => {});
+    return worker;
   }
 
   static sharedWorker() {
@@ -22,7 +31,7 @@ class WorkerConnection extends Connection {
   }
 
   // One core is for the runs and one for the page; but one helper there is, which judges. More than a few have little to do.
-  static helpers() {
+  static mostHelpers() {
     const asked = new URLSearchParams(location.search).get("helpers");
     const count = asked === null ? (navigator.hardwareConcurrency || 2) - 2 : Number(asked) || 0;
     return Math.min(Math.max(count, asked === null ? 1 : 0), 6);
@@ -31,10 +40,10 @@ class WorkerConnection extends Connection {
   // It talks to the worker of runs itself.
   addHelper() {
     const { port1, port2 } = new MessageChannel();
-    const helper = new Worker("worker.js", { name: "helper" });
+    const helper = this.worker("helper");
     helper.postMessage({ serve: port1 }, [port1]);
     this.runs.postMessage({ helper: port2 }, [port2]);
-    this.hands = [...this.hands || [], helper];
+    this.helpers.push(helper);
   }
 
   hear({ event, frame, got, problem, isOver }) {
@@ -45,6 +54,8 @@ class WorkerConnection extends Connection {
     else if (event) {
       const told = JSON.parse(event);
       if (told.is === "scene") this.ask({ do: "enter", scene: told.scene }); else this.tell(told);
+      // Not before there is something to see.
+      if (told.is === "arena") while (this.helpers.length < WorkerConnection.mostHelpers()) this.addHelper();
     }
   }
 

@@ -16,13 +16,16 @@ use std::{
 };
 
 /// What the worker runs, before the module.
-const WORKER: [&str; 5] = [
+const WORKER: [&str; 6] = [
+    MODULE,
     include_str!("../../page/disk.js"),
     include_str!("../../page/wasi.js"),
     include_str!("../../page/store.js"),
     include_str!("../../page/tar.js"),
     include_str!("../../page/host.js"),
 ];
+/// What both do.
+const MODULE: &str = include_str!("../../page/module.js");
 const HOME: &str = include_str!("../../page/workers.js");
 
 /// The page runs what lies beside it, and asks nothing else of the network.
@@ -57,7 +60,7 @@ fn build(folder: &Path) -> Result<(), Box<dyn Error>> {
     let policy = format!("{head}\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
     fs::write(folder.join("index.html"), studio::page::PAGE.replacen(head, &policy, 1))?;
     fs::write(folder.join("studio.css"), studio::page::styles())?;
-    fs::write(folder.join("studio.js"), studio::page::scripts(HOME))?;
+    fs::write(folder.join("studio.js"), studio::page::scripts(&format!("{MODULE}\n{HOME}")))?;
     fs::write(folder.join("worker.js"), format!("\"use strict\";\n{}", WORKER.join("\n")))?;
     Ok(())
 }
