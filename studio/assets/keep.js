@@ -93,7 +93,12 @@ class Keep {
     try {
       await navigator.clipboard.writeText(address);
       this.say(`A link of ${count(address.length, "character", "characters")} is copied; it opens this champion.`);
-    } catch { this.say(address); }
+    } catch {
+      // The browser lets nothing be copied. The address is longer than the page is wide.
+      const anchor = element("a", "This is the link.");
+      anchor.href = address;
+      document.getElementById("keep-result").replaceChildren(anchor);
+    }
     return undefined;
   }
 

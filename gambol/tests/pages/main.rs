@@ -1,13 +1,14 @@
 //! Every kind of page, opened in a real browser.
 //!
-//! Needs Chromium (or Chrome) in the path, or the variable CHROMIUM; without it the tests are skipped, and say so.
+//! Needs Chromium (or Chrome) in the path, or the variable CHROMIUM; without it the tests are skipped, and say so. The studio is opened in
+//! Firefox as well, if that is in the path, or the variable FIREFOX names it.
 
 mod browser;
 mod home;
 mod kinds;
 mod studio;
 
-use browser::{Browser, RIGHT, SPACE, TAB};
+use browser::{Browser, Kind as BrowserKind, RIGHT, SPACE, TAB};
 use home::Home;
 use kinds::{KINDS, Kind};
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -20,19 +21,19 @@ const WIDTHS: [u32; 2] = [360, 1280];
 #[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
-    let program = browser::find();
-    if program.is_none() {
+    let chromium = BrowserKind::Chromium.find();
+    if chromium.is_none() {
         println!("skipped, for there is no Chromium here: install it, or set CHROMIUM to its path, and call");
         println!("    cargo test -p gambol --test pages");
     }
-    let ignored = program.is_none();
-    let program = program.unwrap_or_default();
+    let ignored = chromium.is_none();
+    let program = chromium.clone().unwrap_or_default();
     let trial = |name: String, check: fn(&mut Browser, &Path, &Kind), kind: &'static Kind| {
         let program = program.clone();
         let run = move || -> Result<(), Failed> {
             let folder = tempfile::tempdir()?;
             let page = (kind.make)(folder.path());
-            check(&mut Browser::start(&program), &page, kind);
+            check(&mut *BrowserKind::Chromium.start(&program), &page, kind);
             Ok(())
         };
         Trial::test(name, run).with_ignored_flag(ignored)
@@ -49,39 +50,55 @@ fn main() -> ExitCode {
         println!("the studio as a static page is not opened: docs/studio.md says how it is built; then set");
         println!("    GAMBOL_STUDIO_PAGE to its folder");
     }
-    let chapter = |name: &str, home: &Home, check: fn(&mut Browser, &Path, &Home)| {
+    let firefox = BrowserKind::Firefox.find();
+    if firefox.is_none() {
+        println!("the studio is not opened in Firefox: there is none here; install it, or set FIREFOX to its path");
+    }
+    let studios = [(BrowserKind::Chromium, chromium), (BrowserKind::Firefox, firefox)];
+    let homes = [Some(Home::Served), built];
+    let studio = studios.iter().flat_map(|(kind, program)| {
+        homes.iter().flatten().flat_map(move |home| chapters(*kind, program.as_deref(), home))
+    });
+    let all = every.chain(others).chain(studio).collect();
+    libtest_mimic::run(&arguments, all).exit_code()
+}
+
+/// The chapters of the studio, in a browser and a home. Those that are about the program are tried in one browser.
+fn chapters(kind: BrowserKind, program: Option<&Path>, home: &Home) -> Vec<Trial> {
+    type Check = fn(&mut Browser, &Path, &Home);
+    let mut chapters: Vec<(&str, Check)> = vec![
+        ("begins with a biped that learns to run", studio::begins),
+        ("trains what is chosen", studio::chooses),
+        ("lets a champion be played with", studio::plays),
+        ("trains what is drawn", studio::draws),
+        ("keeps, verifies and exports", studio::keeps),
+        ("fits a phone and a wall, and names its controls", studio::fits),
+        ("trains what the command line trains", studio::repeats),
+        ("is the same in two tabs", studio::is_shared),
+    ];
+    match home {
+        Home::Served if kind == BrowserKind::Chromium => {
+            chapters.push(("does nothing that a creature's name says", studio::hostile));
+        }
+        Home::Served => {}
+        Home::Static(_) => chapters.push(("lets runs and champions travel", studio::travels)),
+    }
+    let place = match home {
+        Home::Served => "the studio",
+        Home::Static(_) => "the studio as a static page",
+    };
+    let place = if kind == BrowserKind::Firefox { format!("{place}, in Firefox,") } else { place.to_owned() };
+    let is_there = program.is_some();
+    let program = program.unwrap_or(Path::new("")).to_owned();
+    let trial = |(name, check): (&str, Check)| {
         let (program, home) = (program.clone(), home.clone());
-        let title = match home {
-            Home::Served => format!("the studio {name}"),
-            Home::Static(_) => format!("the studio as a static page {name}"),
-        };
         let run = move || -> Result<(), Failed> {
-            check(&mut Browser::start(&program), tempfile::tempdir()?.path(), &home);
+            check(&mut *kind.start(&program), tempfile::tempdir()?.path(), &home);
             Ok(())
         };
-        Trial::test(title, run).with_ignored_flag(ignored)
+        Trial::test(format!("{place} {name}"), run).with_ignored_flag(!is_there)
     };
-    let in_both = |home: &Home| {
-        vec![
-            chapter("begins with a biped that learns to run", home, studio::begins),
-            chapter("trains what is chosen", home, studio::chooses),
-            chapter("lets a champion be played with", home, studio::plays),
-            chapter("trains what is drawn", home, studio::draws),
-            chapter("keeps, verifies and exports", home, studio::keeps),
-            chapter("fits a phone and a wall, and names its controls", home, studio::fits),
-            chapter("trains what the command line trains", home, studio::repeats),
-            chapter("is the same in two tabs", home, studio::is_shared),
-        ]
-    };
-    let served = in_both(&Home::Served);
-    let hostile = chapter("does nothing that a creature's name says", &Home::Served, studio::hostile);
-    let alone = |home: &Home| {
-        let travels = chapter("lets runs and champions travel", home, studio::travels);
-        in_both(home).into_iter().chain([travels]).collect::<Vec<_>>()
-    };
-    let static_page = built.iter().flat_map(alone);
-    libtest_mimic::run(&arguments, every.chain(others).chain(served).chain([hostile]).chain(static_page).collect())
-        .exit_code()
+    chapters.into_iter().map(trial).collect()
 }
 
 /// What holds for every page.
