@@ -51,6 +51,9 @@ struct Told {
 /// What is wrong, in words for the page.
 type Refusal = Box<dyn std::error::Error>;
 
+/// The most that are shown at once, the best of a generation.
+const MOST_ENTRANTS: usize = 1000;
+
 /// Lengths of history are sent in pieces of so many generations.
 const ROWS: usize = 2000;
 
@@ -142,10 +145,10 @@ impl Viewer {
                 let scene = self.scene(who, terrain.as_deref(), friction)?;
                 match self.shows_scenes {
                     true => Event::Scene { scene: Box::new(scene) },
-                    false => self.enter(&scene)?,
+                    false => self.enter(scene)?,
                 }
             }
-            Request::Enter { scene } => self.enter(&scene)?,
+            Request::Enter { scene } => self.enter(*scene)?,
             Request::Advance { steps } => {
                 let number = self.number;
                 let arena = self.arena()?;
@@ -225,8 +228,10 @@ impl Viewer {
     }
 
     /// Builds an arena, in place of the one that was.
-    fn enter(&mut self, scene: &Scene) -> Result<Event, Refusal> {
-        let arena = Arena::of(scene, self.library.registry())?;
+    fn enter(&mut self, mut scene: Scene) -> Result<Event, Refusal> {
+        // Each has a world of its own.
+        scene.entrants.truncate(MOST_ENTRANTS);
+        let arena = Arena::of(&scene, self.library.registry())?;
         self.number += 1;
         let fitness = scene.entrants.iter().map(|entrant| entrant.fitness.map(|fitness| fitness.get())).collect();
         let who = match scene.world {
