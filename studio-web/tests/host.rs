@@ -174,6 +174,12 @@ fn what_moves_can_be_elsewhere() -> Outcome {
         let advance = json!({ "do": "advance", "steps": 60 }).to_string();
         assert!(matches!(arena.answer(PAGE, &advance)[..], [Reply::Frame(_)]));
     }
+    // Each has a world of its own, so there is an end to them.
+    let told = ask(&mut runs, json!({ "do": "show", "who": "champion" }));
+    let mut scene = serde_json::to_value(&told[0])?["scene"].take();
+    scene["entrants"] = vec![scene["entrants"][0].clone(); 1100].into();
+    let entered = ask(&mut arena, json!({ "do": "enter", "scene": scene }));
+    assert!(matches!(&entered[0], Event::Arena { data, fitness, .. } if data.actors == 1000 && fitness.len() == 1000));
     Ok(())
 }
 
