@@ -42,7 +42,7 @@ pub(crate) struct Recorded<'a> {
     pub(crate) setup: &'a Setup,
 }
 
-/// A recorder at work, and who is called once a generation is written down.
+/// The observer of a generation: records it, then calls a function.
 pub(crate) struct Recording<'a> {
     pub(crate) recorder: &'a mut Recorder,
     pub(crate) run: Recorded<'a>,

@@ -84,22 +84,6 @@ impl Run {
         }
     }
 
-    /// Does generation after generation until it is over, and saves.
-    ///
-    /// # Errors
-    /// As [`generation`](Self::generation) and [`finish`](Self::finish).
-    pub fn complete(
-        mut self,
-        mut stage_progress: StageProgress<'_>,
-        on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
-    ) -> Result<Outcome, ShapingError> {
-        loop {
-            if let Some(reason) = self.generation(&mut stage_progress, on_generation)? {
-                return self.finish(reason);
-            }
-        }
-    }
-
     /// Saves what there is. `reason`: that of [`generation`](Self::generation), or [`StopReason::Interrupted`] at any moment.
     ///
     /// # Errors

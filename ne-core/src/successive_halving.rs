@@ -20,7 +20,7 @@ use std::{cmp::Reverse, fmt, sync::Arc};
 /// - The steps of an evaluation are those of all the rungs its individual ran.
 ///
 /// Without rungs it is the inner evaluator.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct SuccessiveHalving<E> {
     inner: E,
     rungs: Arc<[Rung]>,

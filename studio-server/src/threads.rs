@@ -1,9 +1,8 @@
 //! A thread for each job.
 
-use std::sync::Arc;
 use std::{
     io,
-    sync::{Condvar, Mutex, PoisonError},
+    sync::{Arc, Condvar, Mutex, PoisonError},
     thread,
 };
 use studio::work::{Job, Next, Workers};

@@ -22,9 +22,9 @@ pub struct Desk {
 
 #[derive(Default)]
 struct Inner {
-    /// Those who are there, and the configuration that each was sent last.
+    /// The helpers that have come, each with the number of the configuration it was sent last.
     helpers: BTreeMap<u32, Option<u64>>,
-    /// Those who have nothing to do.
+    /// The helpers without an errand.
     idle: BTreeSet<u32>,
     offers: BTreeMap<Ticket, Offer>,
     judgements: BTreeMap<Ticket, Judgement>,
@@ -104,7 +104,7 @@ struct Judgement {
     verdict: Option<Verdict>,
 }
 
-/// Each has so many pieces of a batch, so that those who are faster do more.
+/// Pieces of a batch for each worker: several, so that a faster worker does more of them.
 const PIECES_EACH: usize = 4;
 
 /// Fewer nets are not worth the way.
@@ -114,7 +114,7 @@ const SMALLEST: usize = 4;
 const LOST: Duration = Duration::from_secs(3);
 
 impl Desk {
-    /// Without helpers at first. `workers`: who is woken when something has come back.
+    /// A desk without helpers. It wakes `workers` when a helper brings something back.
     pub fn new(workers: Arc<dyn Workers>) -> Self {
         Self { inner: Mutex::default(), workers }
     }
@@ -131,15 +131,10 @@ impl Desk {
         let mut inner = self.inner();
         inner.helpers.remove(&helper);
         inner.idle.remove(&helper);
-        let pieces = inner.offers.values_mut().flat_map(|offer| &mut offer.pieces);
-        for piece in pieces.filter(|piece| piece.lent.as_ref().is_some_and(|lent| lent.to == Some(helper))) {
-            piece.lent = None;
-        }
-        let judgements = inner.judgements.values_mut();
-        for judgement in
-            judgements.filter(|judgement| judgement.lent.as_ref().is_some_and(|lent| lent.to == Some(helper)))
-        {
-            judgement.lent = None;
+        let Inner { offers, judgements, .. } = &mut *inner;
+        let pieces = offers.values_mut().flat_map(|offer| &mut offer.pieces).map(|piece| &mut piece.lent);
+        for lent in pieces.chain(judgements.values_mut().map(|judgement| &mut judgement.lent)) {
+            lent.take_if(|lent| lent.to == Some(helper));
         }
     }
 
@@ -245,7 +240,7 @@ impl Helpers for Desk {
     fn give(&self, ticket: Ticket, piece: usize, evaluations: Vec<Evaluation>) {
         let mut inner = self.inner();
         let piece = inner.offers.get_mut(&ticket).and_then(|offer| offer.pieces.get_mut(piece));
-        // Of a helper that was slow another has brought it, or nobody wants it any more.
+        // Another worker may have evaluated the piece meanwhile, or the batch was withdrawn.
         if let Some(piece) = piece.filter(|piece| piece.found.is_none() && evaluations.len() == piece.of.len()) {
             piece.found = Some(evaluations);
         }

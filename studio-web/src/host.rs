@@ -5,6 +5,7 @@ use crate::{
     queue::Queue,
 };
 use gambol_runs::{Registry, training::BatchEvaluator};
+use percent_encoding::percent_decode_str;
 use std::{collections::BTreeMap, path::PathBuf, sync::Arc, time::Duration};
 use studio::{Download, DownloadError, Library, Means, Reply, Viewer, Wanted, protocol::Verdict};
 
@@ -83,7 +84,8 @@ impl Host {
     pub fn download(&self, address: &str) -> Result<Download, DownloadError> {
         let missing = || DownloadError::Missing(format!("there is no \"{address}\""));
         let (run, wanted) = address.strip_prefix("runs/").and_then(|rest| rest.split_once('/')).ok_or_else(missing)?;
-        self.library.download(&decoded(run).ok_or_else(missing)?, &Wanted::parse(wanted)?)
+        let run = percent_decode_str(run).decode_utf8().map_err(|_| missing())?;
+        self.library.download(&run, &Wanted::parse(wanted)?)
     }
 
     /// Does a bit of what there is to do. How long it is until there is more; `None`: nothing is to be done.
@@ -96,35 +98,5 @@ impl Drop for Host {
     /// A job holds its session, and that the queue.
     fn drop(&mut self) {
         self.queue.clear();
-    }
-}
-
-/// Without the `%` and two digits that stand for a byte in a URL.
-fn decoded(text: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(text.len());
-    let mut rest = text.as_bytes();
-    while let [first, after @ ..] = rest {
-        rest = after;
-        if *first != b'%' {
-            bytes.push(*first);
-            continue;
-        }
-        let digit = |&byte: &u8| char::from(byte).to_digit(16);
-        bytes.push(u8::try_from(digit(rest.first()?)? * 16 + digit(rest.get(1)?)?).ok()?);
-        rest = &rest[2..];
-    }
-    String::from_utf8(bytes).ok()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn names_are_decoded() {
-        assert_eq!(decoded("a%20b%C3%A4"), Some("a bä".into()));
-        for wrong in ["%", "%2", "%zz", "%ff", "%+1"] {
-            assert_eq!(decoded(wrong), None, "{wrong}");
-        }
     }
 }

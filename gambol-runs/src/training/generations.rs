@@ -13,8 +13,8 @@ use crate::{
     strategies::{AnyGenome, AnyStrategy},
 };
 use ne_core::{
-    Evolution, EvolutionError, Generation, Genome, Observer, Parallel, Progress, Seed, StopConditions, StopReason,
-    Task,
+    Evaluator, Evolution, EvolutionError, Generation, Genome, Observer, Parallel, Progress, Seed, StopConditions,
+    StopReason, Task,
     promotion::{Decision, Promotion, StageState},
     successive_halving::SuccessiveHalving,
 };
@@ -201,18 +201,10 @@ impl Training {
         &mut self,
         on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
     ) -> Result<Option<StopReason>, TrainError> {
-        let _span = tracing::debug_span!("run", folder = %self.folder.path().display()).entered();
-        let elapsed = self.began.map_or(Duration::ZERO, |began| began.elapsed());
-        if let Some(reason) = self.evolution.is_over(elapsed) {
-            return Ok(Some(reason));
-        }
-        let run = Recorded { config: &self.config, setup: &self.setup };
-        let recording = Recording { recorder: &mut self.recorder, run, called: on_generation };
-        let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(recording)];
-        let done = self.evolution.generation(&self.setup.task, &self.evaluator, &mut observers);
-        drop(observers);
+        let evaluator = self.evaluator.clone();
+        let (over, done) = self.generation_with(&evaluator, on_generation);
         done.map_err(|source| self.broke_off(source))?;
-        Ok(None)
+        Ok(over)
     }
 
     /// As [`generation`](Self::generation), with evaluations from elsewhere: as often as it [wants](Step::Wants) some, they are evaluated
@@ -227,26 +219,36 @@ impl Training {
         answers: &mut Answers,
         on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
     ) -> Result<Step, TrainError> {
-        let elapsed = self.began.map_or(Duration::ZERO, |began| began.elapsed());
-        if let Some(reason) = self.evolution.is_over(elapsed) {
-            return Ok(Step::Over(reason));
-        }
         let (asked, wanted) = (Cell::new(0), RefCell::new(None));
-        let remembering = Remembering { answers, rungs: self.evaluator.rungs(), asked, wanted };
-        let run = Recorded { config: &self.config, setup: &self.setup };
-        let recording = Recording { recorder: &mut self.recorder, run, called: on_generation };
-        let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(recording)];
-        let halving = self.evaluator.with_inner(&remembering);
-        let done = self.evolution.generation(&self.setup.task, &halving, &mut observers);
-        drop(observers);
-        match (done, remembering.wanted.into_inner()) {
-            (Err(EvolutionError::EvaluationCount { .. }), Some(batch)) => Ok(Step::Wants(batch)),
-            (Ok(_), _) => {
+        let rungs = self.evaluator.clone();
+        let remembering = Remembering { answers, rungs: rungs.rungs(), asked, wanted };
+        let (over, done) = self.generation_with(&rungs.with_inner(&remembering), on_generation);
+        match (over, done, remembering.wanted.into_inner()) {
+            (Some(reason), ..) => Ok(Step::Over(reason)),
+            (_, Err(EvolutionError::EvaluationCount { .. }), Some(batch)) => Ok(Step::Wants(batch)),
+            (_, Err(source), _) => Err(self.broke_off(source)),
+            (_, Ok(()), _) => {
                 answers.clear();
                 Ok(Step::Done)
             }
-            (Err(source), _) => Err(self.broke_off(source)),
         }
+    }
+
+    /// Does a generation, unless it is over: then the reason.
+    fn generation_with(
+        &mut self,
+        evaluator: &impl Evaluator,
+        on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
+    ) -> (Option<StopReason>, Result<(), EvolutionError>) {
+        let _span = tracing::debug_span!("run", folder = %self.folder.path().display()).entered();
+        let elapsed = self.began.map_or(Duration::ZERO, |began| began.elapsed());
+        if let Some(reason) = self.evolution.is_over(elapsed) {
+            return (Some(reason), Ok(()));
+        }
+        let run = Recorded { config: &self.config, setup: &self.setup };
+        let recording = Recording { recorder: &mut self.recorder, run, called: on_generation };
+        let mut observers: [Box<dyn Observer<AnyStrategy> + '_>; 1] = [Box::new(recording)];
+        (None, self.evolution.generation(&self.setup.task, evaluator, &mut observers).map(drop))
     }
 
     /// What its [batches](super::Batch) are evaluated by.
