@@ -83,6 +83,16 @@ pub const STAIR_RISE: Bounds = Bounds::new(0.0, 2.0, "m");
 pub const STAIR_TREAD: Bounds = Bounds::new(0.05, 10.0, "m");
 /// Steepness of slopes.
 pub const SLOPE_DEGREES: Bounds = Bounds::new(0.0, 60.0, "°");
+/// Where a drawn obstacle begins, ahead of the creature.
+pub const DRAWN_PLACE: Bounds = Bounds::new(0.0, 1000.0, "m");
+/// Width of drawn boxes.
+pub const DRAWN_WIDTH: Bounds = Bounds::new(0.05, 100.0, "m");
+/// Width of drawn slopes.
+pub const SLOPE_WIDTH: Bounds = Bounds::new(0.3, 100.0, "m");
+/// Height of drawn boxes.
+pub const DRAWN_HEIGHT: Bounds = Bounds::new(0.01, 5.0, "m");
+/// How much higher the ground is behind a drawn slope.
+pub const DRAWN_RISE: Bounds = Bounds::new(-20.0, 20.0, "m");
 /// Height of the highest blocks of rough ground.
 pub const ROUGH_HEIGHT: Bounds = Bounds::new(0.0, 2.0, "m");
 /// Size of the range net inputs are scaled to.
@@ -94,6 +104,8 @@ pub const MOST_PARTS: usize = 256;
 pub const MOST_RAYS: usize = 64;
 /// Most kinds of obstacles of a terrain.
 pub const MOST_OBSTACLE_KINDS: usize = 16;
+/// Most drawn obstacles of a terrain.
+pub const MOST_DRAWN_OBSTACLES: usize = 200;
 /// Most decorations of a part.
 pub const MOST_DECORATIONS: usize = 256;
 /// Most points of a decoration.

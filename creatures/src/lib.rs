@@ -131,6 +131,8 @@ pub use look::{Decoration, Form, Look};
 #[cfg(feature = "files")]
 pub use motors::Motors;
 #[cfg(feature = "files")]
+pub use names::is_file_name;
+#[cfg(feature = "files")]
 pub use problem::Problem;
 #[cfg(feature = "schema")]
 pub use schema::{json_schema, tidy_schema};
@@ -146,5 +148,6 @@ pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};
 pub use source::{Probe, Source, clock_phase, jump_phase, stride_swing};
 #[cfg(feature = "files")]
 pub use terrain::{
-    BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles, TERRAINS, Terrain, TerrainEntry, TerrainError,
+    BodySizes, Direction, DrawnObstacle, ObstacleKind, ObstacleSizes, Obstacles, TERRAINS, Terrain, TerrainEntry,
+    TerrainError,
 };

@@ -1,7 +1,17 @@
-//! Guessing which name was meant.
+//! Names that are allowed, and guessing which name was meant.
+
+use crate::bounds::LONGEST_NAME;
 
 /// Names less alike than this are not offered.
 const LEAST_LIKENESS: f64 = 0.45;
+
+/// Whether nothing in a name can be read as a path or an option: 1 to 64 letters, digits, spaces, `-`, `_` or `.`, a letter or digit
+/// first. Names of creatures are such names.
+pub fn is_file_name(name: &str) -> bool {
+    let first_fits = name.chars().next().is_some_and(char::is_alphanumeric);
+    let all_fit = name.chars().all(|c| c.is_alphanumeric() || " -_.".contains(c));
+    first_fits && all_fit && name.chars().count() <= LONGEST_NAME
+}
 
 /// The candidate most like `name`, if any is like it at all; of equals the first. Case does not count.
 pub(crate) fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<String> {

@@ -1,6 +1,6 @@
 //! Terrains: their files, their errors, and their sizes for a body.
 
-use creatures::{Blueprint, BodySizes, Direction, ObstacleKind, Obstacles, TERRAINS, Terrain};
+use creatures::{Blueprint, BodySizes, Direction, DrawnObstacle, ObstacleKind, Obstacles, TERRAINS, Terrain};
 use proptest::prelude::*;
 
 fn sizes(name: &str) -> BodySizes {
@@ -28,7 +28,29 @@ fn any_obstacles() -> impl Strategy<Value = Obstacles> {
     ]
 }
 
+fn any_drawn() -> impl Strategy<Value = Vec<DrawnObstacle>> {
+    let one = (0..3, 0.0..2.0_f32, 0.1..2.0_f32, -0.9..0.9_f32);
+    prop::collection::vec(one, 0..6).prop_map(|all| {
+        let mut end = 0.0;
+        let place = |(kind, before, width, size): (i32, f32, f32, f32)| {
+            let from = end + before;
+            end = from + width;
+            match kind {
+                0 => DrawnObstacle::Box { from, width, height: 1.0 + size },
+                1 => DrawnObstacle::Gap { from, width },
+                _ => DrawnObstacle::Slope { from, width, rise: width * size },
+            }
+        };
+        all.into_iter().map(place).collect()
+    })
+}
+
 fn any_terrain() -> impl Strategy<Value = Terrain> {
+    let drawn = any_drawn().prop_map(|drawn| Terrain { drawn, ..Terrain::default() });
+    prop_oneof![of_obstacles(), drawn]
+}
+
+fn of_obstacles() -> impl Strategy<Value = Terrain> {
     let run_up = prop::option::of(0.0..100.0_f32);
     let obstacles = prop::collection::vec(any_obstacles(), 0..6);
     (obstacles, 0.0..=1.0_f32, any::<u64>(), 1.0..1000.0_f32, run_up, 0.0..0.9_f32).prop_map(
@@ -39,6 +61,7 @@ fn any_terrain() -> impl Strategy<Value = Terrain> {
             length,
             run_up,
             jitter,
+            drawn: Vec::new(),
         },
     )
 }
@@ -120,6 +143,61 @@ fn every_range_is_checked() {
     for (terrain, says) in rows {
         assert_eq!(terrain.validate().expect_err(says).to_string(), says);
     }
+}
+
+#[test]
+fn every_slip_of_drawn_obstacles_is_named() {
+    let drawn = |json: &str| -> Vec<String> {
+        let terrain: Terrain = serde_json::from_str(&format!(r#"{{"drawn": [{json}]}}"#)).expect("it can be read");
+        terrain.drawn_problems().iter().map(ToString::to_string).collect()
+    };
+    let fine = r#"{"box": {"from": 2, "width": 1, "height": 0.1}}, {"gap": {"from": 3, "width": 0.5}},
+        {"slope": {"from": 4, "width": 1, "rise": -1.7}}"#;
+    assert_eq!(drawn(fine), [""; 0]);
+    let rows = [
+        (r#"{"box": {"from": -1, "width": 1, "height": 1}}"#, "drawn[0].box.from = -1: must be from 0 to 1000 m"),
+        (
+            r#"{"box": {"from": 1, "width": 0.01, "height": 1}}"#,
+            "drawn[0].box.width = 0.01: must be from 0.05 to 100 m",
+        ),
+        (r#"{"box": {"from": 1, "width": 1, "height": 6}}"#, "drawn[0].box.height = 6: must be from 0.01 to 5 m"),
+        (r#"{"gap": {"from": 1, "width": 21}}"#, "drawn[0].gap.width = 21: must be from 0.01 to 20 m"),
+        (r#"{"slope": {"from": 1, "width": 50, "rise": 21}}"#, "drawn[0].slope.rise = 21: must be from -20 to 20 m"),
+        (
+            r#"{"slope": {"from": 1, "width": 1, "rise": 2}}"#,
+            "drawn[0].slope.rise = 2: must be at most 1.73 m up or down: 60 ° is the steepest",
+        ),
+        (
+            r#"{"gap": {"from": 1, "width": 2}}, {"gap": {"from": 2.5, "width": 1}}"#,
+            "drawn[1].gap.from = 2.5: must be at least 3, where drawn[0] ends",
+        ),
+        (
+            r#"{"gap": {"from": 990, "width": 12}}"#,
+            "drawn[0].gap.width = 12: must be at most 10, so that it ends within 1000 m",
+        ),
+    ];
+    for (json, says) in rows {
+        assert!(drawn(json).iter().any(|problem| problem == says), "{says}: {:?}", drawn(json));
+    }
+    let gap = |index| DrawnObstacle::Gap { from: index as f32, width: 0.5 };
+    let many = Terrain { drawn: (0..201).map(gap).collect(), ..Terrain::default() };
+    let error = many.validate().expect_err("too many").to_string();
+    assert_eq!(error, "drawn = 201 obstacles: must be at most 200 obstacles");
+    let both = Terrain { drawn: vec![gap(1)], ..TERRAINS[1].terrain() };
+    let error = both.validate().expect_err("one or the other").to_string();
+    assert_eq!(error, "drawn = 1 obstacles: must be empty where there are `obstacles`");
+}
+
+#[test]
+fn what_is_drawn_is_written_only_if_there_is_any() {
+    let json = serde_json::to_string(&Terrain::default()).expect("JSON");
+    assert!(!json.contains("drawn"), "{json}");
+    let gap = DrawnObstacle::Gap { from: 2.0, width: 0.5 };
+    let terrain = Terrain { drawn: vec![gap], ..Terrain::default() };
+    assert!(!terrain.is_flat() && !terrain.has_chance());
+    let json = serde_json::to_string(&terrain).expect("JSON");
+    assert!(json.ends_with(r#""drawn":[{"gap":{"from":2.0,"width":0.5}}]}"#), "{json}");
+    assert_eq!(serde_json::from_str::<Terrain>(&json).expect("valid"), terrain);
 }
 
 #[test]

@@ -1,5 +1,5 @@
 use crate::{Ground, GroundShape};
-use creatures::{Blueprint, BodySizes, Direction, ObstacleKind, ObstacleSizes, Terrain};
+use creatures::{Blueprint, BodySizes, Direction, DrawnObstacle, ObstacleKind, ObstacleSizes, Terrain};
 use ne_core::{Purpose, RandomStream, Seed};
 use rand::RngExt;
 
@@ -65,6 +65,13 @@ impl Landscape {
     /// Ground without any obstacle, also because all would be smaller than a millimetre, is [flat](Ground::flat).
     pub fn new(terrain: &Terrain, seed: u64, blueprint: &Blueprint) -> Self {
         let body = BodySizes::of(blueprint);
+        let pit = (1.5 * body.body_length).max(1.0);
+        if let Some(first) = terrain.drawn.first() {
+            let mut relief = Relief::new(body.back.min(0.0) - BEHIND, first.reach(&body)[0]);
+            terrain.drawn.iter().for_each(|obstacle| relief.add_drawn(obstacle, &body));
+            relief.level(BEYOND);
+            return Self { ground: relief.ground(pit), obstacles: relief.obstacles };
+        }
         let kinds: Vec<ObstacleSizes> =
             terrain.obstacles.iter().map(|obstacles| obstacles.sizes(terrain.difficulty, &body)).collect();
         if kinds.iter().all(|kind| kind.main < LEAST) {
@@ -84,7 +91,6 @@ impl Landscape {
             relief.level(kind.spacing * factor);
         }
         relief.level(BEYOND);
-        let pit = (1.5 * body.body_length).max(1.0);
         Self { ground: relief.ground(pit), obstacles: relief.obstacles }
     }
 
@@ -162,10 +168,42 @@ impl Relief {
         self.obstacles.push(Obstacle { kind, from, to: self.x });
     }
 
+    /// An obstacle in its place, with level ground before it.
+    fn add_drawn(&mut self, obstacle: &DrawnObstacle, body: &BodySizes) {
+        let [from, to] = obstacle.reach(body);
+        self.level_to(from);
+        match *obstacle {
+            DrawnObstacle::Box { height, .. } => {
+                let base = self.height;
+                self.height = base + height;
+                self.level_to(to);
+                self.height = base;
+            }
+            DrawnObstacle::Gap { .. } => {
+                self.pieces.push(Piece::Gap);
+                self.x = to;
+            }
+            DrawnObstacle::Slope { rise, .. } => {
+                let start = [self.x, self.height];
+                (self.x, self.height) = (to, self.height + rise);
+                self.pieces.push(Piece::Slope { from: start, to: [self.x, self.height] });
+            }
+        }
+        self.obstacles.push(Obstacle { kind: obstacle.kind(), from, to });
+    }
+
     /// Level ground of this width, as high as the outline is now.
     fn level(&mut self, width: f32) {
+        self.level_to(self.x + width);
+    }
+
+    /// Level ground up to here, as high as the outline is now; none if the outline is there already.
+    fn level_to(&mut self, to: f32) {
+        if to <= self.x {
+            return;
+        }
         let from = self.x;
-        self.x += width;
+        self.x = to;
         match self.pieces.last_mut() {
             Some(Piece::Level { to, height, .. }) if *height == self.height => *to = self.x,
             _ => self.pieces.push(Piece::Level { from, to: self.x, height: self.height }),

@@ -17,6 +17,7 @@ use crate::{
 use envs_core::{Conditions, Variation};
 use envs_lanes::LANES;
 use ne_core::{Seed, SettingError};
+use ne_net::Network;
 use rayon::prelude::*;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -161,57 +162,113 @@ impl Default for Perturbations {
 /// perturbations, whatever the threads.
 ///
 /// # Errors
-/// If the number of worlds or a field of the variation or the champion is out of range, or its movement is unknown or not judged.
+/// As [`PerturbedReplays::new`].
 pub fn robustness(
     champion: &Champion,
     registry: &Registry,
     perturbations: &Perturbations,
 ) -> Result<Robustness, RobustnessError> {
-    let &Perturbations { count, seed, variation } = perturbations;
-    SettingError::check_range("perturbations", count.into(), 1.0, MOST.into())?;
-    if let Some(variation) = variation {
-        variation.validate().map_err(|error| error.within("variation"))?;
-    }
-    let judge = Judge::new(champion.episode_parts(), registry)?;
-    let rules = judge.rules().ok_or_else(|| RobustnessError::NotJudged {
-        movement: champion.movement.name.clone(),
-        judged: registry.movements.judged().map(str::to_owned).collect(),
-    })?;
-    let unperturbed = judge.judge(&champion.network);
-    let progress_unperturbed = unperturbed.as_ref().map_or(0.0, GaitReport::progress);
-    let reach = progress_unperturbed.abs() as f32 + BEYOND;
-    let indices: Vec<u32> = (0..count).collect();
-    let trials: Vec<PerturbedTrial> = indices
-        .par_chunks(LANES)
-        .flat_map_iter(|indices| {
-            let draw = |&index: &u32| match variation {
-                Some(variation) => World::draw_of(variation, Seed::of_run(seed), index, &judge),
-                None => World::draw(Seed::of_run(seed), index, &judge, reach),
-            };
-            let worlds: Vec<World> = indices.iter().map(draw).collect();
-            let places: Vec<_> =
-                worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
-            let reports = Worlds::new(&judge, &places).judge(&champion.network);
-            worlds.into_iter().zip(reports).map(move |(world, report)| PerturbedTrial::new(&world, report))
+    let mut replays = PerturbedReplays::new(champion, registry, perturbations)?;
+    let indices: Vec<u32> = (0..perturbations.count).collect();
+    replays.trials = indices.par_chunks(LANES).flat_map_iter(|indices| replays.replay(indices)).collect();
+    Ok(replays.robustness())
+}
+
+/// The replays of a champion in perturbed worlds, a few at a time: for programs that do something else between them.
+pub struct PerturbedReplays {
+    judge: Judge,
+    network: Network,
+    perturbations: Perturbations,
+    unperturbed: Option<GaitReport>,
+    trials: Vec<PerturbedTrial>,
+    /// How the rules are called, and how they look at gaits.
+    rules: (String, View),
+    bumpy: bool,
+}
+
+impl PerturbedReplays {
+    /// Replays the champion in the world where it learned, and in none that is perturbed yet.
+    ///
+    /// # Errors
+    /// If the number of worlds or a field of the variation or the champion is out of range, or its movement is unknown or not judged.
+    pub fn new(
+        champion: &Champion,
+        registry: &Registry,
+        perturbations: &Perturbations,
+    ) -> Result<Self, RobustnessError> {
+        SettingError::check_range("perturbations", perturbations.count.into(), 1.0, MOST.into())?;
+        if let Some(variation) = perturbations.variation {
+            variation.validate().map_err(|error| error.within("variation"))?;
+        }
+        let judge = Judge::new(champion.episode_parts(), registry)?;
+        let rules = judge.rules().ok_or_else(|| RobustnessError::NotJudged {
+            movement: champion.movement.name.clone(),
+            judged: registry.movements.judged().map(str::to_owned).collect(),
+        })?;
+        Ok(Self {
+            rules: (rules.name().to_owned(), rules.view()),
+            unperturbed: judge.judge(&champion.network),
+            bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
+            network: champion.network.clone(),
+            perturbations: perturbations.clone(),
+            trials: Vec::new(),
+            judge,
         })
-        .collect();
-    let share = |trials: usize| trials as f64 / f64::from(count);
-    Ok(Robustness {
-        judged_as: rules.name().to_owned(),
-        view: rules.view(),
-        bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
-        usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
-        progress_unperturbed,
-        usable_share: share(trials.iter().filter(|trial| trial.usable).count()),
-        causes: causes(&trials),
-        fitness_kept: (progress_unperturbed > 0.0)
-            .then(|| median(trials.iter().map(|trial| trial.progress / progress_unperturbed).collect())),
-        reasons: reasons(&trials)
-            .into_iter()
-            .map(|(reason, count)| ReasonShare { reason: reason.to_owned(), share: share(count) })
-            .collect(),
-        trials,
-    })
+    }
+
+    /// In how many perturbed worlds it was replayed, and of how many.
+    pub fn progress(&self) -> [usize; 2] {
+        [self.trials.len(), self.perturbations.count as usize]
+    }
+
+    /// Replays it in a few more; nothing happens where it was replayed in all.
+    pub fn go_on(&mut self) {
+        let from = self.trials.len() as u32;
+        let indices: Vec<u32> = (from..self.perturbations.count).take(LANES).collect();
+        let trials = self.replay(&indices);
+        self.trials.extend(trials);
+    }
+
+    /// What is left of its gait in the worlds that it was replayed in.
+    pub fn robustness(self) -> Robustness {
+        let progress_unperturbed = self.progress_unperturbed();
+        let Self { trials, unperturbed, rules: (judged_as, view), bumpy, .. } = self;
+        let share = |count: usize| count as f64 / trials.len().max(1) as f64;
+        let kept = || median(trials.iter().map(|trial| trial.progress / progress_unperturbed).collect());
+        let reasons = reasons(&trials).into_iter();
+        Robustness {
+            judged_as,
+            view,
+            bumpy,
+            usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
+            progress_unperturbed,
+            usable_share: share(trials.iter().filter(|trial| trial.usable).count()),
+            causes: causes(&trials),
+            fitness_kept: (progress_unperturbed > 0.0 && !trials.is_empty()).then(kept),
+            reasons: reasons
+                .map(|(reason, count)| ReasonShare { reason: reason.to_owned(), share: share(count) })
+                .collect(),
+            trials,
+        }
+    }
+
+    fn progress_unperturbed(&self) -> f64 {
+        self.unperturbed.as_ref().map_or(0.0, GaitReport::progress)
+    }
+
+    /// Replays it in the worlds of these indices.
+    fn replay(&self, indices: &[u32]) -> Vec<PerturbedTrial> {
+        let Perturbations { seed, variation, .. } = self.perturbations;
+        let reach = self.progress_unperturbed().abs() as f32 + BEYOND;
+        let draw = |&index: &u32| match variation {
+            Some(variation) => World::draw_of(variation, Seed::of_run(seed), index, &self.judge),
+            None => World::draw(Seed::of_run(seed), index, &self.judge, reach),
+        };
+        let worlds: Vec<World> = indices.iter().map(draw).collect();
+        let places: Vec<_> = worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
+        let reports = Worlds::new(&self.judge, &places).judge(&self.network);
+        worlds.into_iter().zip(reports).map(|(world, report)| PerturbedTrial::new(&world, report)).collect()
+    }
 }
 
 /// How each cause is borne.

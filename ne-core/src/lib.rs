@@ -141,7 +141,7 @@ pub use selector::Selector;
 #[cfg(feature = "selection")]
 pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
 pub use setting::SettingError;
-pub use strategy::{FrontPoint, SpeciesReport, Statistic, Strategy};
+pub use strategy::{FrontPoint, Origin, SpeciesReport, Statistic, Strategy};
 pub use task::{Task, TaskFn};
 pub use threads::Threads;
 

@@ -39,6 +39,17 @@ pub trait Strategy: Serialize + Send {
         Vec::new()
     }
 
+    /// The species of each individual of the generation last told, in the order asked, for strategies that have species.
+    fn memberships(&self) -> Vec<u64> {
+        Vec::new()
+    }
+
+    /// Where each individual of the generation last told comes from, in the order asked, for strategies that breed. Empty also where it
+    /// is not known: no state keeps it, so that it is lost where a run is resumed between ask and tell.
+    fn origins(&self) -> &[Origin] {
+        &[]
+    }
+
     /// The best compromises between several objectives after `tell`, for strategies that look for them: none
     /// [dominates](crate::pareto::dominates) another, and no two are equal in all objectives. From the best in the
     /// first objective to the worst. `None`, the default: the strategy knows no front.
@@ -58,6 +69,29 @@ pub struct FrontPoint<'a, G> {
     pub objectives: &'a [Fitness],
     /// The generation it was evaluated in, from 1: with its seed the task gives fitness and objectives again.
     pub generation: u64,
+}
+
+/// Where an individual comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// It was drawn, or taken over from another search.
+    New,
+    /// It is a copy of the one at this place of the generation before.
+    Copy(u32),
+    /// It was bred from those at these places of the generation before: the same twice if it has one parent.
+    Child([u32; 2]),
+}
+
+impl Origin {
+    /// The places of its parents in the generation before, the one it is most like first.
+    pub fn parents(self) -> impl Iterator<Item = usize> {
+        let (first, second) = match self {
+            Self::New => (None, None),
+            Self::Copy(place) => (Some(place), None),
+            Self::Child([first, second]) => (Some(first), Some(second).filter(|_| second != first)),
+        };
+        first.into_iter().chain(second).map(|place| place as usize)
+    }
 }
 
 /// One species of a generation.

@@ -4,7 +4,7 @@ use crate::{
     mutation::{Proposal, apply},
     speciation::{Species, assign, breeders, offspring},
 };
-use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, SpeciesReport, Statistic, Strategy};
+use ne_core::{Evaluation, Fitness, Origin, Purpose, Seed, SettingError, SpeciesReport, Statistic, Strategy};
 use ne_net::Copies;
 use std::sync::Arc;
 
@@ -64,6 +64,8 @@ pub struct Neat {
     pub(crate) best: Option<Fitness>,
     /// Generations since `best` was beaten.
     pub(crate) stagnation: u64,
+    /// Of the generation last asked.
+    pub(crate) origins: Vec<Origin>,
 }
 
 impl Neat {
@@ -88,6 +90,7 @@ impl Neat {
             asked: false,
             best: None,
             stagnation: 0,
+            origins: Vec::new(),
         })
     }
 
@@ -164,7 +167,7 @@ impl Neat {
     }
 
     /// Writes the next generation, without the numbers of new structure; returns what each individual proposes.
-    fn breed(&self, population: &mut [NeatGenome], seed: Seed) -> Vec<Proposal> {
+    fn breed(&self, population: &mut [NeatGenome], origins: &mut Vec<Origin>, seed: Seed) -> Vec<Proposal> {
         let NeatSettings { speciation, reproduction, .. } = &self.settings;
         let breeders = breeders(&self.species, &self.scores, self.stagnation, speciation);
         let children = offspring(&breeders, &self.species, &self.scores, population.len(), speciation);
@@ -178,16 +181,26 @@ impl Neat {
                 if child == 0 && breeders[home].members.len() > reproduction.champion_above {
                     individual.copy_from(&self.parents[champion]);
                     proposals.push(Proposal::default());
+                    origins.push(Origin::Copy(champion as u32));
                 } else {
-                    proposals.push(self.reproduce(individual, home, &breeders, seed.individual(index as u64)));
+                    let (proposal, parents) =
+                        self.reproduce(individual, home, &breeders, seed.individual(index as u64));
+                    proposals.push(proposal);
+                    origins.push(Origin::Child(parents));
                 }
             }
         }
         proposals
     }
 
-    /// Writes a child of the breeding species `home`.
-    fn reproduce(&self, child: &mut NeatGenome, home: usize, breeders: &[&Species], seed: Seed) -> Proposal {
+    /// Writes a child of the breeding species `home`; returns what it proposes, and the places of its parents.
+    fn reproduce(
+        &self,
+        child: &mut NeatGenome,
+        home: usize,
+        breeders: &[&Species],
+        seed: Seed,
+    ) -> (Proposal, [u32; 2]) {
         let NeatSettings { reproduction, crossover, mutation, .. } = &self.settings;
         let mut stream = seed.stream(REPRODUCTION);
         let (first, second) = reproduction.parents(home, breeders, &mut stream);
@@ -197,7 +210,9 @@ impl Neat {
             let fitness = self.scores[first].cmp(&self.scores[second]);
             crossover.cross(&self.parents[first], &self.parents[second], fitness, child, &mut stream);
         }
-        mutation.mutate(child, self.settings.new_weights, &self.settings.hidden_activations, &mut stream)
+        let proposal =
+            mutation.mutate(child, self.settings.new_weights, &self.settings.hidden_activations, &mut stream);
+        (proposal, [first as u32, second as u32])
     }
 
     /// Moves the threshold towards the number of species aimed at.
@@ -225,6 +240,7 @@ impl Strategy for Neat {
         }
         let mut population = std::mem::take(&mut self.population);
         population.resize_with(self.settings.population, || NeatGenome::blank(self.layout, self.copies.clone()));
+        let mut origins = Vec::with_capacity(population.len());
         if self.parents.is_empty() && !self.start.is_empty() {
             let proposals = self.fill(&mut population, seed);
             self.number(&mut population, proposals);
@@ -233,10 +249,11 @@ impl Strategy for Neat {
                 self.draw(individual, seed.individual(index));
             }
         } else {
-            let proposals = self.breed(&mut population, seed);
+            let proposals = self.breed(&mut population, &mut origins, seed);
             self.number(&mut population, proposals);
         }
-        self.population = population;
+        origins.resize(population.len(), Origin::New);
+        (self.population, self.origins) = (population, origins);
         self.asked = true;
         &self.population
     }
@@ -290,5 +307,17 @@ impl Strategy for Neat {
             best: species.champion_score(&self.scores),
         };
         self.species.iter().map(report).collect()
+    }
+
+    fn memberships(&self) -> Vec<u64> {
+        let mut memberships = vec![0; self.parents.len()];
+        for species in &self.species {
+            species.members.iter().for_each(|&member| memberships[member] = species.id);
+        }
+        memberships
+    }
+
+    fn origins(&self) -> &[Origin] {
+        &self.origins
     }
 }

@@ -1,105 +1,14 @@
 //! A run that is watched, paused, stepped and stopped through a page is the run it would have been.
 
+mod common;
+
+use common::{Outcome, Page, choice, library};
 use serde_json::{Value, json};
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::Arc,
-    thread,
-    time::{Duration, Instant},
 };
-use studio::{
-    Library, Reply, Viewer,
-    protocol::{Event, RunState},
-};
-
-type Outcome = Result<(), Box<dyn std::error::Error>>;
-
-/// How long a test waits for anything.
-const PATIENCE: Duration = Duration::from_secs(60);
-
-struct Page {
-    viewer: Viewer,
-    events: Vec<Event>,
-    frames: Vec<Vec<u8>>,
-}
-
-impl Page {
-    fn new(library: &Arc<Library>) -> Self {
-        Self { viewer: Viewer::new(Arc::clone(library)), events: Vec::new(), frames: Vec::new() }
-    }
-
-    fn ask(&mut self, request: Value) {
-        let replies = self.viewer.answer(&request.to_string());
-        self.take(replies);
-    }
-
-    fn take(&mut self, replies: Vec<Reply>) {
-        for reply in replies {
-            match reply {
-                Reply::Event(event) => self.events.push(*event),
-                Reply::Frame(frame) => self.frames.push(frame),
-            }
-        }
-    }
-
-    fn wait(&mut self, what: &str, is_there: impl Fn(&Event) -> bool) {
-        let since = Instant::now();
-        while !self.events.iter().any(&is_there) {
-            assert!(since.elapsed() < PATIENCE, "{what} never came: {:?}", self.refusals());
-            let news = self.viewer.news();
-            self.take(news);
-            thread::sleep(Duration::from_millis(5));
-        }
-    }
-
-    fn wait_for(&mut self, state: &str) {
-        self.wait(state, |event| matches!(event, Event::State(found) if name(found) == state));
-    }
-
-    fn generations(&self) -> Vec<u64> {
-        let rows = self.events.iter().filter_map(|event| match event {
-            Event::Generations { rows } => Some(rows.iter().map(|row| row.generation)),
-            _ => None,
-        });
-        rows.flatten().collect()
-    }
-
-    fn refusals(&self) -> Vec<&str> {
-        fn refusal(event: &Event) -> Option<&str> {
-            match event {
-                Event::Refused { reason, .. } => Some(reason),
-                _ => None,
-            }
-        }
-        self.events.iter().filter_map(refusal).collect()
-    }
-
-    fn opened(&self) -> String {
-        let opened = |event: &Event| match event {
-            Event::Opened(opened) => Some(opened.run.clone()),
-            _ => None,
-        };
-        self.events.iter().rev().find_map(opened).expect("a run is open")
-    }
-}
-
-fn name(state: &RunState) -> &'static str {
-    match state {
-        RunState::Running => "running",
-        RunState::Paused => "paused",
-        RunState::Ended { .. } => "ended",
-        RunState::Broken { .. } => "broken",
-    }
-}
-
-fn library(folder: &Path) -> Arc<Library> {
-    Arc::new(studio_server::library(Default::default(), folder.join("runs"), 2))
-}
-
-fn choice(generations: u64) -> Value {
-    json!({ "creature": "biped-1", "movement": "running", "generations": generations, "seed": 7, "set": ["strategy.cma-es.population=16"] })
-}
+use studio::{Shown, protocol::Event};
 
 /// All files of a run but those that tell of the clock.
 fn bytes(run: &Path) -> Vec<(PathBuf, Vec<u8>)> {
@@ -176,13 +85,14 @@ fn a_generation_is_shown_at_once_and_moves_as_it_is_asked_to() -> Outcome {
     page.wait_for("ended");
     page.ask(json!({ "do": "show", "who": "population" }));
     let arena = page.events.iter().rev().find_map(|event| match event {
-        Event::Arena { number, who, generation, fitness, data } => {
-            Some((*number, *who, *generation, fitness.clone(), data.clone()))
+        Event::Arena { arena: 0, number, who, generation, members, data } => {
+            Some((*number, *who, *generation, members.clone(), data.clone()))
         }
         _ => None,
     });
-    let (number, who, generation, fitness, data) = arena.ok_or("no arena")?;
-    assert_eq!((number, who, generation, data.actors), (1, "population", 3, 16));
+    let (number, who, generation, members, data) = arena.ok_or("no arena")?;
+    assert_eq!((number, who, generation, data.actors), (1, Shown::Population, 3, 16));
+    let fitness: Vec<_> = members.iter().map(|member| member.fitness).collect();
     assert!(fitness.is_sorted_by(|one, other| one >= other), "the best first: {fitness:?}");
     for steps in [0, 10, 10] {
         page.ask(json!({ "do": "advance", "steps": steps }));

@@ -1,7 +1,7 @@
 // The connection to a studio in workers of this browser: one for the runs, which all tabs share where they can, and one for
 // what moves on this page.
 
-const OF_THE_ARENA = new Set(["enter", "advance", "tell", "push", "tilt", "put-box"]);
+const OF_THE_ARENA = new Set(["enter", "leave", "advance", "tell", "push", "tilt", "put-box"]);
 
 class WorkerConnection extends Connection {
   constructor() {
@@ -47,13 +47,13 @@ class WorkerConnection extends Connection {
   }
 
   hear({ event, frame, got, problem, isOver }) {
-    if (frame) this.onFrame(frame);
+    if (frame) this.takeFrame(frame);
     else if (got) this.receive(got);
     else if (problem && isOver) this.onState(false, problem);
     else if (problem) this.tell({ is: "refused", request: "keep", reason: problem });
     else if (event) {
       const told = JSON.parse(event);
-      if (told.is === "scene") this.ask({ do: "enter", scene: told.scene }); else this.tell(told);
+      if (told.is === "scene") this.ask({ do: "enter", scene: told.scene, arena: told.arena }); else this.tell(told);
       // Not before there is something to see.
       if (told.is === "arena") while (this.helpers.length < WorkerConnection.mostHelpers()) this.addHelper();
     }

@@ -3,96 +3,30 @@
 
 const HEADER = 5;
 
-// How much of one of a crowd is seen.
-const FAINT = 0.2;
-
-// A crowd of more than so many is drawn with half the pixels each way.
-const LARGE_CROWD = 24;
-
-// Half-transparent creatures: each part is painted once, and then only placed, on a picture of their own. Sixty pictures a
-// second of a hundred creatures are too many to paint.
-class Crowd {
-  constructor(model, creature) {
-    this.model = model;
-    // What each part takes, shape and decorations: left, bottom, right, top.
-    this.boxes = creature.parts.map(part => {
-      const [x, y] = [0, 1].map(axis => corners(part).map(corner => corner[axis]));
-      return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
-    });
-    this.scale = 0;
-    this.canvas = document.createElement("canvas");
-    this.context = this.canvas.getContext("2d");
-  }
-
-  // An empty picture for so many. Parts are painted anew where they would be seen much larger or smaller than they are.
-  begin(stage, count) {
-    this.share = stage.ratio * (count > LARGE_CROWD ? 0.5 : 1);
-    const [width, height] = [Math.ceil(stage.width * this.share), Math.ceil(stage.height * this.share)];
-    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    this.context.setTransform(1, 0, 0, 1, 0, 0);
-    this.context.clearRect(0, 0, width, height);
-    const wanted = stage.scale * this.share;
-    if (wanted < this.scale * 1.2 && wanted > this.scale * 0.6) return;
-    this.scale = wanted;
-    this.pictures = this.model.order.map(part => this.paint(part));
-  }
-
-  paint(part) {
-    const canvas = document.createElement("canvas");
-    const [left, bottom, right, top] = this.boxes[part.index];
-    canvas.width = Math.ceil((right - left) * this.scale) + 4;
-    canvas.height = Math.ceil((top - bottom) * this.scale) + 4;
-    const [x, y] = [2 - left * this.scale, 2 + top * this.scale];
-    const c = canvas.getContext("2d");
-    c.setTransform(this.scale, 0, 0, -this.scale, x, y);
-    c.lineJoin = c.lineCap = "round";
-    c.globalAlpha = part.opacity;
-    c.fillStyle = part.colour;
-    c.fill(part.path);
-    for (const { path, fill, stroke, width } of part.decorations) {
-      if (fill) { c.fillStyle = fill; c.fill(path); }
-      if (stroke) { c.lineWidth = width; c.strokeStyle = stroke; c.stroke(path); }
-    }
-    return { canvas, x, y, at: part.index * 3 };
-  }
-
-  draw(stage, pose) {
-    const c = this.context;
-    const size = stage.scale * this.share / this.scale;
-    c.globalAlpha = FAINT;
-    for (const { canvas, x, y, at } of this.pictures) {
-      const cos = Math.cos(pose[at + 2]) * size;
-      const sin = Math.sin(pose[at + 2]) * size;
-      c.setTransform(cos, -sin, sin, cos, stage.screenX(pose[at]) * this.share, stage.screenY(pose[at + 1]) * this.share);
-      c.drawImage(canvas, -x, -y);
-    }
-    c.globalAlpha = 1;
-  }
-
-  end(stage) {
-    stage.resetTransform();
-    stage.context.drawImage(this.canvas, 0, 0, this.canvas.width / this.share, this.canvas.height / this.share);
-  }
-}
-
 class Arena {
-  constructor(canvas, connection) {
+  // `place`: which of the studio's two arenas it shows.
+  constructor(canvas, connection, place = 0) {
     this.connection = connection;
+    this.place = place;
     this.stage = new Stage(canvas, 0.8);
     this.speed = 1;
     this.playing = true;
     this.follow = true;
     this.zoom = 1;
     this.followed = 0;
+    this.coloured = true;
     this.onEnter = () => {};
     this.onStep = () => {};
-    connection.on("arena", event => this.enter(event));
-    connection.on("ground", event => { this.stage.ground = decodeGround(event.ground); });
-    connection.onFrame = buffer => this.take(buffer);
+    connection.on("arena", event => { if (event.arena === this.place) this.enter(event); });
+    if (this.place === 0) connection.on("ground", event => { this.stage.ground = decodeGround(event.ground); });
+    connection.onFrame(buffer => this.take(buffer));
     this.listenToPointer();
   }
 
   get visible() { return this.stage.visible && this.model !== undefined; }
+
+  // Nothing is shown any more.
+  leave() { this.event = this.model = this.now = undefined; this.key = null; }
 
   enter(event) {
     const key = JSON.stringify(event.creature);
@@ -103,6 +37,7 @@ class Arena {
       this.key = key;
     }
     this.event = event;
+    this.tints = event.members.map(({ group }) => group ? tintOf(group.species ?? group.family) : undefined);
     this.stage.ground = decodeGround(event.ground);
     this.time = 0;
     this.asked = 0;
@@ -110,7 +45,7 @@ class Arena {
     this.followed = 0;
     this.origin = null;
     this.pending = true;
-    this.connection.ask({ do: "advance", steps: 0 });
+    this.connection.ask({ do: "advance", steps: 0, arena: this.place });
     this.onEnter(event);
   }
 
@@ -151,7 +86,7 @@ class Arena {
     // What cannot be kept up with is let go.
     this.time = Math.min(this.time, this.asked * this.event.time_step);
     this.pending = true;
-    this.connection.ask({ do: "advance", steps });
+    this.connection.ask({ do: "advance", steps, arena: this.place });
   }
 
   // The pose of a creature between the last two frames.
@@ -183,7 +118,7 @@ class Arena {
       const from = index * now.size;
       const x = stage.screenX(now.poses[from]);
       if (x < -200 || x > stage.width + 200) continue;
-      this.crowd.draw(stage, this.pose(index));
+      this.crowd.draw(stage, this.pose(index), this.coloured ? this.tints[index] : undefined, now.actors <= 3);
     }
     this.crowd.end(stage);
     const pose = this.pose(first);

@@ -32,6 +32,11 @@ class Choose {
     return { ...this.choice, set };
   }
 
+  // The creature that is chosen, as in a file.
+  get creature() {
+    return this.choice.drawn || this.catalogue?.creatures.find(({ name }) => name === this.choice.creature);
+  }
+
   // Asks a moment after the last change.
   ask() {
     clearTimeout(this.timer);
@@ -47,6 +52,12 @@ class Choose {
   setDrawn(creature) {
     this.choice = { ...this.choice, drawn: creature };
     delete this.choice.creature;
+    this.ask();
+  }
+
+  setTerrain(name) {
+    this.choice.terrain = name;
+    document.getElementById("choose-terrain").value = name;
     this.ask();
   }
 
@@ -131,25 +142,4 @@ function creatureCard(creature, checked, onChoose) {
   label.append(input, card);
   drawPortrait(canvas, creature);
   return label;
-}
-
-// A creature in its start pose, drawn once it can be seen.
-function drawPortrait(canvas, creature) {
-  const model = makeModel(creature);
-  const stage = new Stage(canvas, 0.82);
-  const pose = new Float32Array(creature.parts.flatMap(({ position, angle }) => [position[0], position[1], (angle || 0) * Math.PI / 180]));
-  // Portraits that were taken from the page are not drawn again.
-  loop.views = loop.views.filter(view => !view.wasThere || view.canvas.isConnected);
-  loop.addView({
-    canvas, clock: { time: 0 },
-    get visible() { this.wasThere ||= canvas.isConnected; return stage.visible && canvas.isConnected; },
-    get stale() { return stage.stale; }, set stale(value) { stage.stale = value; },
-    draw() {
-      stage.scale = fittingScale(stage, model, model.height, 0.78, 6);
-      stage.centreX = middleX(model, pose);
-      stage.drawScenery(0, { plain: true, bare: true });
-      drawShadow(stage, model, pose);
-      drawCreature(stage, model, pose);
-    },
-  });
 }

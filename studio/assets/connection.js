@@ -4,12 +4,18 @@
 class Connection {
   constructor() {
     this.listeners = new Map();
-    this.onFrame = () => {};
+    this.frameListeners = [];
     this.onState = () => {};
   }
 
   on(kind, listener) {
     this.listeners.set(kind, [...this.listeners.get(kind) || [], listener]);
+  }
+
+  onFrame(listener) { this.frameListeners.push(listener); }
+
+  takeFrame(buffer) {
+    for (const listener of this.frameListeners) listener(buffer);
   }
 
   tell(event) {

@@ -81,7 +81,7 @@ class Editor {
     const selected = selection && present[list][selection.index];
     orderParts(present);
     groundCreature(present);
-    if (selected) this.selection = { kind: selection.kind, index: present[list].indexOf(selected) };
+    if (selected) this.selection = { ...selection, index: present[list].indexOf(selected) };
     if (JSON.stringify(present) !== base.json) {
       this.past.push(base);
       this.future = [];
@@ -137,6 +137,11 @@ class Editor {
     this.refresh();
   }
 
+  chooseDecoration(index, decoration) {
+    this.select({ kind: "part", index, decoration });
+    if (this.decoration) this.say(`${decorationWord(this.decoration)}. Drag it, or its handles.`);
+  }
+
   setTool(tool) {
     this.tool = tool;
     this.surface.dataset.tool = tool;
@@ -169,6 +174,18 @@ class Editor {
     return this.selection ? hangingTree(this.present).joint[this.selection.index] : -1;
   }
 
+  // The chosen decoration of the selected part, if there is one.
+  get decoration() {
+    const { kind, index, decoration } = this.selection || {};
+    return kind === "part" ? decorationsOf(this.present.parts[index])[decoration] : undefined;
+  }
+
+  // Shows a change of the chosen decoration.
+  previewDecoration(change) {
+    const { index, decoration } = this.selection;
+    this.preview(c => change(c.parts[index].look.decorations[decoration]));
+  }
+
   // Does what a button or a key other than a tool's stands for; not while a drag is under way.
   act(action) {
     if (this.hand.gesture) return;
@@ -193,6 +210,7 @@ class Editor {
   }
 
   copy(make) {
+    if (this.decoration) { this.copyDecoration(make === mirrorSubtree); return; }
     const { part } = this;
     const tree = hangingTree(this.present);
     const size = part < 0 ? 0 : subtreeOf(tree, part).length;
@@ -206,10 +224,36 @@ class Editor {
     }
   }
 
+  copyDecoration(isMirror) {
+    const { index, decoration } = this.selection;
+    if (decorationsOf(this.present.parts[index]).length >= EDITOR_MOST_DECORATIONS) {
+      this.say(`At most ${EDITOR_MOST_DECORATIONS} decorations of a part.`);
+      return;
+    }
+    this.edit(c => {
+      const copy = copyDecoration(c.parts[index], decoration, isMirror);
+      if (copy >= 0) this.selection = { kind: "part", index, decoration: copy };
+    });
+    const isNew = this.selection.decoration !== decoration;
+    this.say(isNew ? "One decoration added, just in front." : "It is its own mirror image.");
+  }
+
+  removeDecoration() {
+    const { index, decoration } = this.selection;
+    this.edit(c => {
+      removeDecoration(c.parts[index], decoration);
+      const { length } = decorationsOf(c.parts[index]);
+      this.selection = { kind: "part", index, ...(length ? { decoration: Math.min(decoration, length - 1) } : {}) };
+    });
+    this.say("The decoration is gone.");
+  }
+
   remove() {
     const { selection } = this;
     if (!selection) {
       this.say("Select a part first.");
+    } else if (this.decoration) {
+      this.removeDecoration();
     } else if (selection.kind === "joint") {
       this.edit(c => {
         c.joints.splice(selection.index, 1);
@@ -229,8 +273,12 @@ class Editor {
   }
 
   nudge(step) {
-    const { part, joint } = this;
-    if (this.selection?.kind === "joint") {
+    const { part, joint, present } = this;
+    if (this.decoration) {
+      const own = turnedPoint(step, -(present.parts[part].angle || 0));
+      this.previewDecoration(decoration => shiftDecoration(decoration, own));
+      this.commit();
+    } else if (this.selection?.kind === "joint") {
       this.edit(c => { c.joints[joint].anchor = roundedPoint(c.joints[joint].anchor.map((value, axis) => value + step[axis])); });
     } else if (part >= 0) {
       this.edit(c => moveSubtree(c, part, step));
@@ -299,10 +347,10 @@ class Editor {
     return true;
   }
 
-  // Out of a drag, else out of the fields, else out of the selection.
+  // Out of a drag, else out of the fields, else out of a decoration, else out of the selection.
   escape(isOutside) {
     if (this.hand.gesture) this.hand.drop();
-    else if (isOutside) this.select(null);
+    else if (isOutside) this.select(this.decoration ? { kind: "part", index: this.part } : null);
     else this.surface.focus();
     return true;
   }

@@ -74,6 +74,24 @@ class EditorCanvas {
     return found.map(part => part.index);
   }
 
+  // Decorations of the selected part under a pointer, the topmost first: inside what is filled, or near an edge.
+  decorationsAt([x, y], reach) {
+    const { stage, editor } = this;
+    const c = stage.context;
+    const at = [x * stage.ratio, y * stage.ratio];
+    const { position, angle = 0, look } = editor.present.parts[editor.part];
+    stage.partTransform(...position, angle * EDITOR_DEGREE);
+    const isHit = decoration => {
+      if (!canDraw(decoration)) return false;
+      const { path, fill, width } = decorationPath(decoration);
+      c.lineWidth = Math.max(width, reach / stage.scale);
+      return (fill && c.isPointInPath(path, ...at)) || c.isPointInStroke(path, ...at);
+    };
+    const found = decorationsOf({ look }).map((_, i) => i).filter(i => isHit(look.decorations[i])).reverse();
+    stage.resetTransform();
+    return found;
+  }
+
   jointsAt(pixel, reach) {
     const { joints } = this.editor.present;
     const isNear = ({ anchor }) => {
@@ -100,6 +118,7 @@ class EditorCanvas {
     const { editor } = this;
     const { present, part, joint, tool } = editor;
     const found = [];
+    if (editor.decoration) return tool === "select" ? this.decorationHandles() : found;
     const hinge = present.joints[joint];
     if (hinge && part >= 0 && tool === "select") {
       const [x, y] = this.screen(hinge.anchor);
@@ -119,6 +138,17 @@ class EditorCanvas {
       }
     }
     return found;
+  }
+
+  decorationHandles() {
+    const { part, present, decoration } = this.editor;
+    const place = point => this.screen(partToWorld(present.parts[part], point));
+    return decorationHandles(decoration, 1 / this.stage.scale).map(handle => ({ ...handle, at: place(handle.at) }));
+  }
+
+  handleAt([x, y], reach) {
+    const far = ({ at }) => Math.hypot(at[0] - x, at[1] - y);
+    return this.handles().filter(handle => far(handle) <= reach).sort((a, b) => far(a) - far(b))[0];
   }
 
   // Beyond the end that is free, in the part's own frame.
@@ -203,7 +233,8 @@ class EditorCanvas {
   }
 
   drawJoints() {
-    const { present, joint: active } = this.editor;
+    const { present, decoration } = this.editor;
+    const active = decoration ? -1 : this.editor.joint;
     const tree = hangingTree(present);
     present.joints.forEach((joint, index) => {
       const child = tree.joint.indexOf(index);
@@ -263,8 +294,11 @@ class EditorCanvas {
 
   drawSelection() {
     const { editor } = this;
-    const { part, present } = editor;
-    if (part >= 0 && editor.selection.kind === "part") {
+    const { part, present, decoration } = editor;
+    if (decoration) {
+      this.outline(part, theme.accent, 1.5, [5, 4]);
+      this.outlineDecoration(decoration);
+    } else if (part >= 0 && editor.selection.kind === "part") {
       for (const other of subtreeOf(hangingTree(present), part).slice(1)) this.outline(other, theme.accent, 1.5, [5, 4]);
       this.outline(part, theme.paper, 4.5);
       this.outline(part, theme.accent, 2.5);
@@ -272,9 +306,41 @@ class EditorCanvas {
     for (const handle of this.handles()) this.drawHandle(handle);
   }
 
+  outlineDecoration(decoration) {
+    const { stage, editor } = this;
+    if (!canDraw(decoration)) return;
+    const c = stage.context;
+    const { position, angle = 0 } = editor.present.parts[editor.part];
+    c.save();
+    stage.partTransform(...position, angle * EDITOR_DEGREE);
+    for (const [colour, width] of [[theme.paper, 4], [theme.accent, 2]]) {
+      c.strokeStyle = colour;
+      c.lineWidth = width / stage.scale;
+      c.stroke(decorationPath(decoration).path);
+    }
+    c.restore();
+    this.drawFinder(decoration, position, angle);
+  }
+
+  // A ring around what is hardly seen.
+  drawFinder(decoration, position, angle) {
+    const { centre, half } = decorationBox(decoration);
+    if (Math.max(...half) * this.stage.scale > 9) return;
+    const c = this.stage.context;
+    c.beginPath();
+    c.arc(...this.screen(partToWorld({ position, angle }, centre)), 13, 0, 2 * Math.PI);
+    for (const [colour, width] of [[theme.paper, 3.5], [theme.accent, 1.5]]) {
+      c.strokeStyle = colour;
+      c.lineWidth = width;
+      c.stroke();
+    }
+  }
+
   drawHandle({ kind, at: [x, y], which }) {
     const c = this.stage.context;
-    if (kind === "size") {
+    if (kind === "paint") return;
+    if (kind === "between") { this.drawDot([x, y], 3, false); return; }
+    if (kind === "size" || kind === "side" || kind === "point") {
       c.fillStyle = theme.paper;
       c.strokeStyle = theme.accent;
       c.lineWidth = 2;

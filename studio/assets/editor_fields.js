@@ -12,7 +12,9 @@ const EDITOR_SENSORS = [
   ["commanded-speed", "how fast it is told to go", { top: 3 }],
   ["stride-clock", "a beat, the stronger the faster it is told to go", { period: 0.5, top: 3 }],
   ["jump-command", "whether it is told to jump"], ["jump-clock", "one turn of a clock from the jump on", { period: 0.5 }],
+  ["custom", "what a program of your own has it sense", { name: "my-sensor" }],
 ];
+const EDITOR_MOST_SENSORS = 64;
 const EDITOR_MOST_RAYS = 64;
 const EDITOR_SETTINGS = { period: "Time of one turn", length: "Reach", top: "Top speed" };
 
@@ -20,8 +22,10 @@ const EDITOR_SETTINGS = { period: "Time of one turn", length: "Reach", top: "Top
 function editorFields(creature, selection) {
   if (!selection) return creatureFields(creature);
   if (selection.kind === "joint") return jointFields(creature, selection.index);
+  if (decorationsOf(creature.parts[selection.index])[selection.decoration]) return decorationFields(creature, selection);
   const joint = hangingTree(creature).joint[selection.index];
-  return [...partFields(creature, selection.index), ...(joint === -1 ? [] : jointFields(creature, joint))];
+  const list = [{ key: "painted", kind: "heading", label: "Decorations" }, { key: "decorations", kind: "decorations" }];
+  return [...partFields(creature, selection.index), ...(joint === -1 ? [] : jointFields(creature, joint)), ...list];
 }
 
 function numberField(key, label, bounds, get, set, step = 0.01, help = `${bounds[0]} to ${bounds[1]}`) {
@@ -45,35 +49,106 @@ function creatureFields(creature) {
     { key: "facts", kind: "note", label: `${count(parts.length, "part", "parts")}, ${tidy(mass)} kg. Click one to change it.` },
     flag("self_collision", "Parts bump into each other", "otherwise they pass through"),
     flag("symmetric", "Same from both sides", "then it can run both ways"),
+    { key: "tags", kind: "heading", label: "What the controller moves" },
+    ...tagFields(creature),
     { key: "sensors", kind: "heading", label: "What it senses" },
     ...sensorFields(creature),
   ];
 }
 
+// Kinds of parts, in the order of the parts; then those that are to be moved and of which there is no part.
+function tagFields(creature) {
+  const tags = new Set([...creature.parts.slice(1).map(part => part.tag), ...drivenTags(creature)]);
+  return [...tags].map(tag => {
+    const names = creature.parts.filter(part => part.tag === tag).map(part => part.name);
+    const few = names.length > 4 ? [...names.slice(0, 3), `${names.length - 3} more`] : names;
+    return {
+      key: `tags.${tag}`, kind: "check", label: `Parts of the kind “${tag}”`,
+      help: few.join(", ") || "no part is of this kind",
+      get: c => drivenTags(c).includes(tag),
+      set: (c, on) => {
+        const rest = drivenTags(c).filter(other => other !== tag);
+        c.actuated_tags = on ? [...rest, tag] : rest;
+      },
+    };
+  });
+}
+
 function sensorName(sensor) { return typeof sensor === "string" ? sensor : Object.keys(sensor || {})[0] ?? "unknown"; }
 
+function sensorsOf(creature) { return creature.sensors || ["torso-rotation", "joint-angles"]; }
+function sensorsNamed(creature, name) { return sensorsOf(creature).filter(sensor => sensorName(sensor) === name); }
+
 function sensorFields(creature) {
-  const list = c => c.sensors || ["torso-rotation", "joint-angles"];
-  const find = (c, name) => list(c).find(sensor => sensorName(sensor) === name);
-  const words = name => (name[0]?.toUpperCase() ?? "") + name.slice(1).replace(/-/g, " ");
   const known = new Set(EDITOR_SENSORS.map(([name]) => name));
-  const others = [...new Set(list(creature).map(sensorName))].filter(name => !known.has(name));
-  return [...EDITOR_SENSORS, ...others.map(name => [name, "of another program"])].flatMap(([name, help, settings]) => [{
-    key: `sensors.${name}`, kind: "check", label: words(name), help, get: c => find(c, name) !== undefined,
-    set: (c, on) => {
-      const rest = list(c).filter(sensor => sensorName(sensor) !== name);
-      c.sensors = on ? [...rest, settings ? { [name]: structuredClone(settings) } : name] : rest;
-    },
-  }, ...(find(creature, name)?.[name] ? settingFields(name, settings, c => find(c, name)[name]) : [])]);
+  const others = [...new Set(sensorsOf(creature).map(sensorName))].filter(name => !known.has(name));
+  return [...EDITOR_SENSORS, ...others.map(name => [name, "of another program"])].flatMap(([name, help, settings]) => {
+    const words = (name[0]?.toUpperCase() ?? "") + name.slice(1).replace(/-/g, " ");
+    return [{
+      key: `sensors.${name}`, kind: "check", label: words, help, get: c => sensorsNamed(c, name).length > 0,
+      set: (c, on) => {
+        const rest = sensorsOf(c).filter(sensor => sensorName(sensor) !== name);
+        c.sensors = on ? [...rest, settings ? { [name]: structuredClone(settings) } : name] : rest;
+      },
+    }, ...(settings ? kindFields(creature, name, words, settings) : [])];
+  });
+}
+
+// The settings of all sensors of a kind: there may be two clocks.
+function kindFields(creature, name, words, settings) {
+  const found = sensorsNamed(creature, name);
+  const action = (key, label, change) => ({ key: `${name}.${key}`, kind: "action", label, press: editor => editor.edit(change) });
+  const fields = found.flatMap((sensor, nth) => {
+    const own = sensor[name] ? settingFields(`${name}.${nth}`, settings, c => sensorsNamed(c, name)[nth][name]) : [];
+    if (found.length === 1) return own;
+    const remove = action(`${nth}.remove`, `Remove ${words}, ${nth + 1}`, c => {
+      const gone = sensorsNamed(c, name)[nth];
+      c.sensors = c.sensors.filter(other => other !== gone);
+    });
+    return [...own.map(field => ({ ...field, label: `${field.label}, ${nth + 1}` })), remove];
+  });
+  if (!found.length || sensorsOf(creature).length >= EDITOR_MOST_SENSORS) return fields;
+  return [...fields, action("more", `One more ${words}`, c => {
+    c.sensors.push(otherSensor(sensorsNamed(c, name).at(-1), name, settings));
+  })];
+}
+
+// A sensor that tells something else than one of the same kind: two that tell the same are a problem.
+function otherSensor(sensor, name, settings) {
+  const made = { ...settings, ...structuredClone(sensor[name]) };
+  const [first] = Object.keys(settings);
+  if (first === "angles") made.angles = [made.angles].flat().map(angle => editorBounded(angle - 10, EDITOR_BOUNDS.limit, 0));
+  else if (first === "name") made.name = `${made.name} 2`;
+  else made[first] = editorRounded(editorBounded(made[first] * 1.5, EDITOR_BOUNDS[first], settings[first]), 2);
+  return { [name]: made };
 }
 
 function settingFields(sensor, settings, of) {
-  return Object.keys(settings || {}).map(name => {
+  return Object.keys(settings).flatMap(name => {
     const key = `${sensor}.${name}`;
-    if (name === "angles") return raysField(key, of);
+    if (name === "angles") return [raysField(key, of)];
+    if (name === "name") return customFields(sensor, of);
     const set = (c, value) => { of(c)[name] = value; };
-    return numberField(key, EDITOR_SETTINGS[name], EDITOR_BOUNDS[name], c => of(c)[name], set, 0.1);
+    return [numberField(key, EDITOR_SETTINGS[name], EDITOR_BOUNDS[name], c => of(c)[name], set, 0.1)];
   });
+}
+
+// A sensor of another program has settings that only that program knows.
+function customFields(sensor, of) {
+  const read = text => { try { return JSON.parse(text || "{}"); } catch { return null; } };
+  return [{
+    key: `${sensor}.name`, kind: "text", label: "Name", help: "under which the program knows it", get: c => of(c).name ?? "",
+    set: (c, value) => { of(c).name = value || of(c).name; },
+  }, {
+    key: `${sensor}.settings`, kind: "long", label: "Settings", help: "what it is told, as JSON: {\"most\": 0.5}",
+    get: c => of(c).settings ? JSON.stringify(of(c).settings) : "",
+    problem: value => typeof read(value) === "object" && read(value) && !Array.isArray(read(value)) ? "" : "No JSON object.",
+    set: (c, value) => {
+      const settings = read(value);
+      if (Object.keys(settings).length) of(c).settings = settings;
+      else delete of(c).settings;
+    },
+  }];
 }
 
 function raysField(key, of) {
@@ -91,6 +166,7 @@ function partFields(creature, index) {
   const of = c => c.parts[index];
   const part = of(creature);
   const driven = drivenTags(creature).join("”, “");
+  const isLoose = index > 0 && hangingTree(creature).joint[index] === -1;
   const number = (key, label, otherwise, step, help) => numberField(key, label, EDITOR_BOUNDS[key], c => of(c)[key] ?? otherwise,
     (c, value) => { of(c)[key] = value; }, step, help);
   const position = (axis, label) => numberField(`position[${axis}]`, label, EDITOR_BOUNDS.position, c => of(c).position[axis],
@@ -99,9 +175,11 @@ function partFields(creature, index) {
     { key: "part", kind: "heading", label: part.name },
     { key: "name", kind: "text", label: "Name", get: c => of(c).name, set: (c, value) => renamePart(c, index, value) },
     {
-      key: "tag", kind: "text", label: "Kind", help: `parts of the kind “${driven}” are moved by the controller`,
+      key: "tag", kind: "text", label: "Kind",
+      help: driven ? `parts of the kind “${driven}” are moved by the controller` : "the controller moves no kind of part",
       get: c => of(c).tag, set: (c, value) => { of(c).tag = value.slice(0, EDITOR_LONGEST_NAME) || of(c).tag; },
     },
+    ...(isLoose ? [parentField(creature, index)] : []),
     ...shapeFields(part, index),
     ...lookFields(part, index),
     number("density", "Density", 30, 1),
@@ -115,6 +193,18 @@ function partFields(creature, index) {
     }] : []),
     { key: "mass", kind: "note", label: `It weighs ${tidy(part.density * shapeArea(part.shape))} kg.` },
   ];
+}
+
+// The part that a part hangs on: any that does not hang on it.
+function parentField(creature, index) {
+  const tree = hangingTree(creature);
+  const own = subtreeOf(tree, index);
+  const options = Object.fromEntries(creature.parts.map(({ name }, i) => [i, name]).filter(([i]) => !own.includes(i)));
+  if (tree.parent[index] < 0) options[-1] = "nothing yet";
+  return {
+    key: "parent", kind: "choice", label: "Hangs on", options,
+    get: c => hangingTree(c).parent[index], set: (c, value) => { if (value !== "-1") hangOn(c, index, Number(value)); },
+  };
 }
 
 function shapeFields(part, index) {
@@ -142,12 +232,14 @@ function lookFields(part, index) {
     ...(part.shape.box ? [number("corner_radius", "Corner radius", set("corner_radius"))] : []),
     { key: "look.colour", kind: "colour", label: "Colour", get: get("colour", PLAIN_COLOUR), set: set("colour") },
     number("layer", "Layer", (c, value) => set("layer")(c, Math.round(value)), 1, "-100 back to 100 front"),
+    numberField("look.opacity", "Opacity", EDITOR_BOUNDS.opacity, get("opacity", 1), set("opacity"), 0.05, "0 (invisible) to 1"),
   ];
 }
 
 function jointFields(creature, index) {
   const of = c => c.joints[index];
   const joint = of(creature);
+  const child = hangingTree(creature).joint.indexOf(index);
   const motor = (name, label) => numberField(`motor.${name}`, label, EDITOR_BOUNDS[name], c => of(c).motor?.[name],
     (c, value) => { of(c).motor[name] = value; }, 1);
   const limit = (which, label, bounds) => numberField(`limits[${which}]`, label, bounds, c => of(c).limits[which],
@@ -156,6 +248,7 @@ function jointFields(creature, index) {
     (c, value) => { of(c).anchor[axis] = value; });
   return [
     { key: "joint", kind: "heading", label: `Hinge: ${joint.child} on ${joint.parent}` },
+    ...(child > 0 ? [parentField(creature, child)] : []),
     {
       key: "drive", kind: "choice", label: "Moved by",
       options: { driven: "the controller", held: "nothing: a motor holds it", limp: "nothing: it is limp" },
@@ -183,6 +276,9 @@ function setJointDrive(creature, joint, drive) {
     if (!drivenTags(creature).length) creature.actuated_tags = ["leg"];
     child.tag = drivenTags(creature)[0];
   }
-  if (drive === "held" && jointDrive(creature, joint) !== "held") child.tag = "held";
+  if (drive === "held" && jointDrive(creature, joint) !== "held") {
+    child.tag = "held";
+    for (let number = 2; drivenTags(creature).includes(child.tag); number++) child.tag = `held ${number}`;
+  }
   if (drive !== "limp") joint.limits.forEach((limit, which) => setLimit(joint, which, limit));
 }

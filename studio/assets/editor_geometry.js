@@ -5,7 +5,8 @@
 const EDITOR_BOUNDS = {
   size: [0.005, 50, "m"], density: [0.1, 10000, "kg/m²"], friction: [0, 10, ""], position: [-100, 100, "m"],
   angle: [-360, 360, "°"], limit: [-180, 180, "°"], top_speed: [0.01, 100, "rad/s"], top_torque: [0.01, 100000, "N·m"],
-  layer: [-100, 100, ""], corner_radius: [0, 50, "m"], period: [0.02, 100, "s"], length: [0.01, 100, "m"],
+  layer: [-100, 100, ""], corner_radius: [0, 50, "m"], opacity: [0, 1, ""], place: [-50, 50, "m"], extent: [0.0001, 50, "m"],
+  line_width: [0.0001, 10, "m"], period: [0.02, 100, "s"], length: [0.01, 100, "m"],
   top: [0.1, 20, "body lengths/s"],
 };
 const EDITOR_WIDEST_RANGE = 340;
@@ -43,6 +44,7 @@ function readableCreature(file) {
   creature.parts = objects(creature.parts).slice(0, EDITOR_MOST_PARTS);
   creature.joints = objects(creature.joints);
   for (const list of ["sensors", "actuated_tags"]) if (!Array.isArray(creature[list])) delete creature[list];
+  creature.actuated_tags &&= creature.actuated_tags.filter(tag => typeof tag === "string");
   creature.parts.forEach((part, i) => {
     part.name = String(part.name ?? `part ${i + 1}`);
     part.tag = String(part.tag ?? (i ? "leg" : "torso"));
@@ -52,6 +54,7 @@ function readableCreature(file) {
     if ("angle" in part) part.angle = editorBounded(part.angle, EDITOR_BOUNDS.angle, 0);
     if (!isObject(part.look)) delete part.look;
     else if ("decorations" in part.look) part.look.decorations = objects(part.look.decorations);
+    decorationsOf(part).forEach(repairDecoration);
   });
   for (const joint of creature.joints) {
     joint.parent = String(joint.parent);
@@ -205,30 +208,11 @@ function scaleSubtree(creature, index, factor) {
   placeSubtree(creature, index, point => [x + (point[0] - x) * share, y + (point[1] - y) * share]);
 }
 
-// Stretches what is painted on a part along the part's axes; a negative factor mirrors it. A turned ellipse or rectangle is
-// stretched along its own axes, which is exact unless it is turned and the factors differ.
+// Stretches how a part looks along the part's axes; a negative factor mirrors what is painted on it.
 function stretchLook(look, sx, sy) {
-  const size = Math.sqrt(Math.abs(sx * sy));
-  const radius = value => editorRounded(editorBounded(value * size, EDITOR_BOUNDS.corner_radius, 0));
-  if (look?.corner_radius) look.corner_radius = radius(look.corner_radius);
-  const point = place => [editorRounded((place?.[0] ?? 0) * sx), editorRounded((place?.[1] ?? 0) * sy)];
-  for (const { form } of look?.decorations || []) {
-    const turned = form?.ellipse || form?.rectangle;
-    const points = form?.polygon || form?.line;
-    if (Array.isArray(points?.points)) points.points = points.points.map(point);
-    if (!Array.isArray(turned?.centre)) continue;
-    turned.centre = point(turned.centre);
-    const [cos, sin] = turnedPoint([1, 0], turned.angle || 0);
-    const axes = [Math.hypot(cos * sx, sin * sy), Math.hypot(sin * sx, cos * sy)];
-    for (const name of ["radii", "size"]) {
-      const sizes = turned[name];
-      if (Array.isArray(sizes)) turned[name] = sizes.map((value, i) => Math.max(editorRounded(value * axes[i]), 1e-4));
-    }
-    if (turned.angle) turned.angle = editorRounded(Math.atan(sin * sy / (cos * sx || 1e-9)) / EDITOR_DEGREE, 3);
-    if (turned.corner_radius) turned.corner_radius = radius(turned.corner_radius);
-  }
-  if (size === 1) return;
-  for (const line of look?.decorations || []) if (line.width) line.width = editorRounded(Math.max(line.width * size, 1e-4));
+  const radius = (look?.corner_radius || 0) * Math.sqrt(Math.abs(sx * sy));
+  if (radius) look.corner_radius = editorRounded(editorBounded(radius, EDITOR_BOUNDS.corner_radius, 0));
+  for (const decoration of look?.decorations || []) stretchDecoration(decoration, sx, sy);
 }
 
 // Stands a lying box on end in its own frame, which is turned instead: nothing is seen of it, but a capsule can take its place.
@@ -236,15 +220,7 @@ function standOnEnd(part) {
   const { box } = part.shape;
   [box.width, box.height] = [box.height, box.width];
   setAngle(part, (part.angle || 0) + 90);
-  const point = place => [place?.[1] ?? 0, 0 - (place?.[0] ?? 0)];
-  for (const { form } of part.look?.decorations || []) {
-    const turned = form?.ellipse || form?.rectangle;
-    const points = form?.polygon || form?.line;
-    if (Array.isArray(points?.points)) points.points = points.points.map(point);
-    if (!Array.isArray(turned?.centre)) continue;
-    turned.centre = point(turned.centre);
-    setAngle(turned, (turned.angle || 0) - 90);
-  }
+  for (const decoration of decorationsOf(part)) placeDecoration(decoration, ([x, y]) => [y, -x], -90);
 }
 
 // Gives a part another shape. What hangs on it moves along with the place it hangs at; the point `from` of the part's own
@@ -374,19 +350,21 @@ function pullSide(creature, index, axis, sign, point, isFree) {
   reshapePart(creature, index, shape, axis ? [0, opposite] : [opposite, 0], axis ? [0, to] : [to, 0]);
 }
 
+// Whether the canvas can draw a decoration.
+function canDraw(decoration) {
+  try {
+    const isPlace = point => point.length === 2 && point.every(Number.isFinite);
+    return corners({ look: { decorations: [decoration] } }).every(isPlace) && decorationPath(decoration) !== null;
+  } catch {
+    return false;
+  }
+}
+
 // The creature as it can be drawn: what is painted on it in a way the canvas refuses is left out.
 function drawableCreature(creature) {
-  const canDraw = decoration => {
-    try {
-      const isPlace = point => point.length === 2 && point.every(Number.isFinite);
-      return corners({ look: { decorations: [decoration] } }).every(isPlace) && decorationPath(decoration) !== null;
-    } catch {
-      return false;
-    }
-  };
   const drawable = part => ({ ...part, look: {
     ...part.look, corner_radius: editorBounded(part.look?.corner_radius, EDITOR_BOUNDS.corner_radius, 0),
-    decorations: (part.look?.decorations || []).filter(canDraw),
+    decorations: decorationsOf(part).filter(canDraw),
   } });
   return { ...creature, parts: creature.parts.map(drawable) };
 }

@@ -11,6 +11,7 @@ class EditorHand {
       this.pointers.delete(event.pointerId);
       this.drop();
     });
+    surface.addEventListener("dblclick", event => this.twice(event));
     surface.addEventListener("wheel", event => {
       event.preventDefault();
       // Pinched touchpads report small steps with Ctrl held, some browsers report lines.
@@ -74,8 +75,14 @@ class EditorHand {
       return { click, move: this.drawing(world, altKey) };
     }
     if (editor.tool === "joint") return { move: pan.move, click: () => editor.joinAt(this.snapped(world, altKey), editor.part) };
-    const handle = canvas.handles().find(({ at }) => Math.hypot(at[0] - pixel[0], at[1] - pixel[1]) <= reach);
-    if (handle) return { move: this.pulling(handle) };
+    const handle = canvas.handleAt(pixel, reach);
+    if (handle && handle.kind !== "paint") return { move: this.pulling(handle) };
+    if (editor.decoration) {
+      const { decoration } = editor.selection;
+      const painted = canvas.decorationsAt(pixel, reach);
+      if (handle && !painted.includes(decoration)) painted.unshift(decoration);
+      if (painted.length) return this.pickingDecoration(painted, world);
+    }
     const joints = editor.tool === "select" ? canvas.jointsAt(pixel, reach) : [];
     if (joints.length) return this.picking("joint", joints, world);
     const parts = canvas.partsAt(world, pixel, reach);
@@ -93,6 +100,38 @@ class EditorHand {
     if (kind === "joint") return { click, move: this.movingJoint(index) };
     const move = { select: this.moving, turn: this.turning, scale: this.scaling }[editor.tool];
     return { click, move: move.call(this, index, world) };
+  }
+
+  // Like `picking`, among the decorations of the selected part.
+  pickingDecoration(found, world) {
+    const { editor } = this;
+    const { selection } = editor;
+    const choose = decoration => editor.chooseDecoration(selection.index, decoration);
+    const isAgain = found.includes(selection.decoration);
+    if (!isAgain) choose(found[0]);
+    const below = found[(found.indexOf(selection.decoration) + 1) % found.length];
+    const move = { select: this.shifting, turn: this.spinning, scale: this.growing }[editor.tool];
+    return { click: isAgain ? () => choose(below) : undefined, move: move.call(this, world) };
+  }
+
+  // A second click soon after the first goes from a part to what is painted there, or takes a point out of a decoration.
+  twice(event) {
+    const { editor, canvas } = this;
+    if (editor.tool === "part" || editor.tool === "joint") return;
+    const pixel = canvas.pixel(event);
+    const handle = canvas.handleAt(pixel, 9);
+    if (editor.decoration) {
+      const fewest = EDITOR_FEWEST_POINTS[formKind(editor.decoration)];
+      if (handle?.kind !== "point" || formOf(editor.decoration).points.length <= fewest) return;
+      editor.previewDecoration(decoration => formOf(decoration).points.splice(handle.which, 1));
+      editor.commit();
+      return;
+    }
+    const [index] = canvas.partsAt(canvas.world(pixel), pixel, 9);
+    if (index === undefined || handle || canvas.jointsAt(pixel, 9).length) return;
+    editor.select({ kind: "part", index });
+    const [decoration] = canvas.decorationsAt(pixel, 9);
+    if (decoration !== undefined) editor.chooseDecoration(index, decoration);
   }
 
   snapped(point, isFree) {
@@ -151,10 +190,81 @@ class EditorHand {
     };
   }
 
+  // Whole centimetres, or millimetres where they can be told apart.
+  get paintStep() { return this.canvas.stage.scale < 2500 ? 0.01 : 0.001; }
+
+  // A point in the frame of the selected part: the part's middle or an end within reach, else a whole number of steps. What
+  // hardly moves along an axis stays where it is on it.
+  paintPlace(world, isFree, before = [NaN, NaN]) {
+    const part = this.present.parts[this.editor.part];
+    const step = this.paintStep;
+    const own = worldToPart(part, world);
+    if (isFree) return own;
+    const near = [part.position, ...partEnds(part)].find(([x, y]) => Math.hypot(x - world[0], y - world[1]) <= this.reach);
+    if (near) return worldToPart(part, near);
+    return own.map((value, axis) => Math.abs(value - before[axis]) < step / 2 ? before[axis] : Math.round(value / step) * step);
+  }
+
+  // Drags the chosen decoration by its middle, a polygon or a line by its first point.
+  shifting(start) {
+    const { editor } = this;
+    const { centre, points } = formOf(editor.decoration);
+    const own = centre || points?.[0] || [0, 0];
+    const [x, y] = partToWorld(this.present.parts[editor.part], own);
+    return (world, isFree) => {
+      const place = this.paintPlace([x + world[0] - start[0], y + world[1] - start[1]], isFree, own);
+      editor.previewDecoration(decoration => shiftDecoration(decoration, [place[0] - own[0], place[1] - own[1]]));
+    };
+  }
+
+  spinning(start) {
+    const { editor } = this;
+    const part = this.present.parts[editor.part];
+    const [x, y] = partToWorld(part, decorationBox(editor.decoration).centre);
+    const direction = point => Math.atan2(point[1] - y, point[0] - x) / EDITOR_DEGREE;
+    const before = formOf(editor.decoration).angle || 0;
+    return (world, isFree) => {
+      const turn = direction(world) - direction(start);
+      const whole = Math.round((before + turn) / 5) * 5 - before;
+      editor.previewDecoration(decoration => turnDecoration(decoration, isFree ? turn : whole));
+    };
+  }
+
+  growing(start) {
+    const { editor } = this;
+    const [x, y] = partToWorld(this.present.parts[editor.part], decorationBox(editor.decoration).centre);
+    const far = point => Math.max(Math.hypot(point[0] - x, point[1] - y), 0.001);
+    return (world, isFree) => {
+      const factor = far(world) / far(start);
+      const whole = Math.max(Math.round(factor * 20) / 20, 0.05);
+      editor.previewDecoration(decoration => scaleDecoration(decoration, isFree ? factor : whole));
+    };
+  }
+
+  // Drags a handle of the chosen decoration.
+  pullingDecoration(handle) {
+    const { editor } = this;
+    const { kind, which, at } = handle;
+    if (kind === "spin") return this.spinning(this.canvas.world(at));
+    if (kind === "side") {
+      return (world, isFree) => editor.previewDecoration(decoration => {
+        const snap = size => isFree ? size : Math.max(Math.round(size / this.paintStep), 1) * this.paintStep;
+        pullDecorationSide(decoration, handle, worldToPart(this.present.parts[editor.part], world), snap);
+      });
+    }
+    const replaced = kind === "point" ? 1 : 0;
+    return (world, isFree) => {
+      const place = roundedPlace(this.paintPlace(world, isFree));
+      editor.previewDecoration(decoration => formOf(decoration).points.splice(which, replaced, place));
+    };
+  }
+
   // Drags a handle of what is selected.
-  pulling({ kind, at, axis, sign, which }) {
+  pulling(handle) {
     const { editor } = this;
     const { part, joint } = editor;
+    const { kind, at, axis, sign, which } = handle;
+    if (editor.decoration) return this.pullingDecoration(handle);
     if (kind === "turn") return this.turning(part, this.canvas.world(at));
     if (kind === "size") return (world, isFree) => editor.preview(c => pullSide(c, part, axis, sign, world, isFree));
     return (world, isFree) => editor.preview(c => pullLimit(c.joints[joint], c.parts[part], which, world, isFree));

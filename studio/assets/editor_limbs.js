@@ -79,6 +79,19 @@ function joinParts(creature, a, b, anchor) {
   return child;
 }
 
+// Hangs a part on another, wherever they are: its hinge stays; a new one is at the end nearest to the other part.
+function hangOn(creature, child, parent) {
+  const { name } = creature.parts[child];
+  const joint = creature.joints[hangingTree(creature).joint[child]];
+  if (joint) { joint.parent = creature.parts[parent].name; return; }
+  const [x, y] = creature.parts[parent].position;
+  const far = end => Math.hypot(end[0] - x, end[1] - y);
+  const anchor = partEnds(creature.parts[child]).reduce((a, b) => far(a) <= far(b) ? a : b);
+  const before = creature.joints.find(other => other.child === name);
+  creature.joints = creature.joints.filter(other => other !== before);
+  hangPart(creature, parent, child, anchor, before);
+}
+
 function turnJointRound(joint) {
   if (!joint) return;
   [joint.parent, joint.child] = [joint.child, joint.parent];

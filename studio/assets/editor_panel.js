@@ -105,26 +105,48 @@ class EditorPanel {
     this.root = editorElement("section", "editor-panel");
     this.root.setAttribute("aria-label", "What is selected");
     this.rows = [];
+    this.decorations = new EditorDecorations(editor);
   }
 
   refresh() {
     const { present, selection } = this.editor;
     const fields = editorFields(present, selection);
-    const signature = fields.map(field => field.key).join();
+    const signature = fields.map(({ key, options }) => key + JSON.stringify(options ?? "")).join();
     if (signature !== this.signature) this.rebuild(fields, signature);
-    fields.forEach((field, i) => this.rows[i].show(field));
+    else fields.forEach((field, i) => this.rows[i].show(field));
   }
 
-  // Whoever has just used a field that brought others along stays in it.
+  // Whoever has just used a field that brought others along, or went with them, stays in it or in the one at its place.
   rebuild(fields, signature) {
-    const focused = this.rows.find(row => row.root.contains(document.activeElement))?.field.key;
+    const { activeElement } = document;
+    const row = this.rows.find(({ root }) => root.contains(activeElement));
+    const place = this.rows.indexOf(row);
+    const isOther = this.rows[0]?.field.key !== fields[0].key;
+    const { list } = this.decorations;
+    const [at, scrolled] = [list.getBoundingClientRect(), list.scrollTop];
     this.signature = signature;
-    this.rows = fields.map(field => new EditorRow(this.editor, field));
-    this.root.replaceChildren(...this.rows.map(row => row.root));
-    if (focused) this.rows.find(row => row.field.key === focused)?.control?.focus();
+    this.rows = fields.map(field => field.kind === "decorations" ? this.decorations : new EditorRow(this.editor, field));
+    this.root.replaceChildren(...this.rows.map(({ root }) => root));
+    list.scrollTop = scrolled;
+    fields.forEach((field, i) => this.rows[i].show(field));
+    if (!row && isOther) this.root.scrollTop = 0;
+    if (!row) return;
+    if (at.height && list.isConnected) this.keepInPlace(at.top);
+    const same = row === this.decorations ? row : this.rows.find(({ field }) => field.key === row.field.key);
+    const near = same || this.rows.slice(0, place + 1).findLast(({ control }) => control);
+    const isThere = this.root.contains(activeElement) && !activeElement.closest("[hidden]");
+    (isThere ? activeElement : near?.control)?.focus({ preventScroll: true });
   }
 
-  focusFirst() { this.rows.find(row => row.control)?.control.focus(); }
+  // The list of decorations stays under the pointer as far as the panel, or else the page, can be scrolled.
+  keepInPlace(top) {
+    const shift = this.decorations.list.getBoundingClientRect().top - top;
+    const isAlone = getComputedStyle(this.root).overflowY === "auto";
+    if (isAlone) this.root.scrollTop += shift;
+    else window.scrollBy({ top: shift, behavior: "instant" });
+  }
+
+  focusFirst() { this.rows.find(row => row.control && row.field.kind !== "action")?.control.focus(); }
 }
 
 class EditorRow {
@@ -135,6 +157,13 @@ class EditorRow {
       return;
     }
     this.root = editorElement("div", `editor-field editor-field-${field.kind}`);
+    if (field.kind === "action") {
+      this.control = editorElement("button", "small", field.label);
+      this.control.type = "button";
+      this.control.addEventListener("click", () => this.field.press(editor));
+      this.root.append(this.control);
+      return;
+    }
     const label = editorElement("label", "editor-label", field.label);
     this.control = this.makeControl(field);
     this.control.id = label.htmlFor = `editor-field-${EditorRow.number = (EditorRow.number || 0) + 1}`;
@@ -151,16 +180,21 @@ class EditorRow {
     this.control.addEventListener("input", () => editor.preview(c => this.field.set(c, this.control.value)));
   }
 
-  makeControl({ kind, bounds, step, options }) {
+  makeControl({ kind, bounds, step, options, problem, rows = 3 }) {
     if (kind === "choice") {
       const select = editorElement("select", "editor-control");
       for (const value in options) select.append(new Option(options[value], value));
       return select;
     }
     const control = editorElement(kind === "long" ? "textarea" : "input", "editor-control");
-    if (kind === "long") control.rows = 3;
+    if (kind === "long") Object.assign(control, { rows, spellcheck: !problem });
     else control.type = { check: "checkbox", number: "number", colour: "color" }[kind] || "text";
-    if (kind === "number") Object.assign(control, { min: bounds[0], max: bounds[1], step, inputMode: "decimal" });
+    if (kind === "number") {
+      Object.assign(control, { max: bounds[1], step, inputMode: "decimal" });
+      // Browsers step from the least value on: from 0.005 they would go to 0.015.
+      if (Number.isInteger(bounds[0])) control.min = bounds[0];
+      else control.setAttribute("aria-valuemin", bounds[0]);
+    }
     if (kind === "text") Object.assign(control, { maxLength: 200, autocomplete: "off", spellcheck: false });
     return control;
   }
@@ -168,22 +202,35 @@ class EditorRow {
   show(field) {
     this.field = field;
     if (!this.control) { this.root.textContent = field.label; return; }
+    if (field.kind === "action") return;
     const { present } = this.editor;
     const value = field.get(present);
-    this.help.textContent = field.help ?? "";
+    // What could not be read is left to be put right, until the field is of something else.
+    if (this.isWrong && String(value) === this.shown) return;
+    this.judge("");
     if (field.kind === "check") { this.control.checked = value; return; }
     const text = field.kind === "number" ? String(editorRounded(Number(value), 4)) : String(value);
     // A half-typed value is left alone.
     if (document.activeElement === this.control && this.control.value !== this.shown && this.shown === text) return;
     this.shown = this.control.dataset.shown = text;
-    this.control.value = field.kind === "colour" && !/^#[0-9a-f]{6}$/i.test(text) ? PLAIN_COLOUR : text;
+    this.control.value = field.kind === "colour" && !isColour(text) ? PLAIN_COLOUR : text;
     if (this.swatches) this.showSwatches(present);
   }
 
-  // The colours the creature has already, to be used again.
+  // Says what is wrong with what is typed, or else what helps to type it.
+  judge(problem) {
+    this.isWrong = Boolean(problem);
+    this.help.textContent = problem || (this.field.help ?? "");
+    this.control.setAttribute("aria-invalid", String(this.isWrong));
+  }
+
+  // The colours the creature has already, to be used again: those of its parts, then what is painted on this one.
   showSwatches(creature) {
-    const isColour = colour => /^#[0-9a-f]{6}$/i.test(colour);
-    const colours = [...new Set(creature.parts.map(part => part.look?.colour))].filter(isColour).slice(0, 8);
+    const painted = decorationsOf(creature.parts[this.editor.part]).flatMap(({ fill, stroke }) => [fill, stroke]);
+    const colours = [...new Set([...creature.parts.map(part => part.look?.colour), ...painted])].filter(isColour).slice(0, 16);
+    if (colours.join() === this.colours) return;
+    this.colours = colours.join();
+    const hadFocus = this.swatches.contains(document.activeElement);
     this.swatches.replaceChildren(...colours.map(colour => {
       const button = editorElement("button", "editor-swatch");
       button.type = "button";
@@ -192,6 +239,7 @@ class EditorRow {
       button.addEventListener("click", () => this.editor.edit(c => this.field.set(c, colour)));
       return button;
     }));
+    if (hadFocus) this.control.focus({ preventScroll: true });
   }
 
   change() {
@@ -201,6 +249,9 @@ class EditorRow {
       value = value === "" ? NaN : editorBounded(Number(value), field.bounds, NaN);
       if (Number.isNaN(value)) { this.shown = null; this.show(field); return; }
     }
+    const problem = field.problem?.(value);
+    if (problem) { this.judge(problem); return; }
+    this.isWrong = false;
     this.shown = null;
     editor.edit(c => field.set(c, value));
   }
@@ -220,7 +271,8 @@ class EditorProblems {
     for (const { where = "", message = "" } of problems) {
       const button = editorElement("button", "editor-problem");
       button.type = "button";
-      const about = problemPlace(where, creature);
+      // What cannot be read at all has its place in its message.
+      const about = problemPlace(where || message, creature);
       const part = about?.kind === "part" ? creature.parts[about.index].name : about ? creature.joints[about.index].child : "";
       const text = String(message).startsWith(`${where}:`) ? String(message).slice(where.length + 1).trim() : String(message);
       button.append(editorElement("strong", "", part || where || "creature"), ` ${text}`);
@@ -235,8 +287,9 @@ class EditorProblems {
 
 // What a path such as `parts[2].shape` is about; null for the creature as a whole.
 function problemPlace(where, creature) {
-  const [, list, digits] = /^(parts|joints)\[(\d+)\]/.exec(where) || [];
+  const [, list, digits, painted] = /^(parts|joints)\[(\d+)\](?:\.look\.decorations\[(\d+)\])?/.exec(where) || [];
   const index = Number(digits);
   if (!list || index >= creature[list].length) return null;
-  return { kind: list === "parts" ? "part" : "joint", index };
+  const decoration = decorationsOf(creature[list][index])[painted] ? { decoration: Number(painted) } : {};
+  return { kind: list === "parts" ? "part" : "joint", index, ...decoration };
 }

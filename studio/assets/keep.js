@@ -1,14 +1,20 @@
 // Keeping: the gallery of runs, what the open one can be made into, and files that are dropped on the page.
 
 class Keep {
-  constructor(connection, watch, { open, draw }) {
-    Object.assign(this, { connection, watch, open, draw });
+  constructor(connection, watch, { open, draw, close }) {
+    Object.assign(this, { connection, watch, open, draw, close });
+    this.films = new Films(connection);
+    connection.on("robustness", state => this.showRobustness(state));
     connection.on("catalogue", catalogue => this.fill(catalogue));
     connection.on("opened", event => this.show(event));
     connection.on("saved", ({ name }) => this.say(`${name} is saved.`));
     const get = name => document.getElementById(name);
     get("keep-verify").addEventListener("click", () => this.verify());
     get("keep-link").addEventListener("click", () => this.link());
+    get("keep-robust").addEventListener("click", () => connection.ask({ do: "robustness" }));
+    get("keep-remove").addEventListener("click", () => this.askToRemove());
+    get("remove-no").addEventListener("click", () => get("remove-dialog").close());
+    get("remove-yes").addEventListener("click", () => this.remove());
     // An address that is served has a secret in it, and leads to this machine.
     for (const id of ["keep-pack", "keep-link"]) get(id).hidden = !connection.isAlone;
     get("keep-pack").addEventListener("click", () => this.pack());
@@ -27,6 +33,10 @@ class Keep {
     this.formats = formats;
     document.getElementById("keep-empty").hidden = runs.length > 0;
     document.getElementById("keep-runs").replaceChildren(...runs.map(run => this.card(run)));
+    if (this.removed && !runs.some(({ run }) => run === this.removed)) {
+      if (this.watch.run === this.removed) this.close(runs);
+      this.removed = null;
+    }
     if (this.watch.run) this.show(this.watch);
   }
 
@@ -43,7 +53,7 @@ class Keep {
     button.append(canvas, line);
     button.addEventListener("click", () => this.open(run));
     item.append(button);
-    drawPortrait(canvas, creature);
+    drawPortrait(canvas, creature, () => this.films.of(run, running ? null : fitness));
     return item;
   }
 
@@ -51,8 +61,11 @@ class Keep {
     const panel = document.getElementById("keep-open");
     panel.hidden = !run;
     if (!run) return;
+    // What is said of this run stays.
+    if (document.getElementById("keep-title").textContent === run) return;
     document.getElementById("keep-title").textContent = run;
     document.getElementById("keep-result").textContent = "";
+    document.getElementById("keep-robustness").hidden = true;
     const address = `runs/${encodeURIComponent(run)}`;
     this.connection.link(document.getElementById("keep-report"), `${address}/report`, `${run}.html`);
     this.connection.link(document.getElementById("keep-champion"), `${address}/champion.json`, `${run}.json`);
@@ -83,6 +96,34 @@ class Keep {
     if (!ok) return this.say(text);
     const { identical, diverges_at_step: step } = JSON.parse(text);
     return this.say(identical ? "Identical: the champion does to the bit what its file says." : `Not identical: it differs from step ${step} on.`);
+  }
+
+  // How far its champion was replayed in other worlds, and what came out.
+  showRobustness({ worlds: [done, of], result, problem }) {
+    const place = document.getElementById("keep-robustness");
+    place.hidden = !result;
+    if (problem) return this.say(problem);
+    if (!result) return this.say(of ? `Replayed in ${done} of ${of} worlds …` : "The champion is replayed …");
+    const percent = share => `${Math.round(share * 100)}\u00a0%`;
+    const kept = result.fitness_kept === null ? "" : `; it keeps ${percent(result.fitness_kept)} of its way`;
+    this.say(`Usable in ${percent(result.usable_share)} of ${of} worlds that are not quite the one it learned in${kept}.`);
+    const table = element("table");
+    const row = (kind, cells) => { const line = element("tr"); line.append(...cells.map(cell => element(kind, cell))); return line; };
+    table.append(row("th", ["What is changed", "Worlds", "Usable"]));
+    for (const { cause, worlds, usable_share: share } of result.causes) table.append(row("td", [cause.replaceAll("-", " "), String(worlds), percent(share)]));
+    place.replaceChildren(table);
+    return undefined;
+  }
+
+  askToRemove() {
+    document.getElementById("remove-title").textContent = `Remove ${this.watch.run}?`;
+    document.getElementById("remove-dialog").showModal();
+  }
+
+  remove() {
+    document.getElementById("remove-dialog").close();
+    this.removed = this.watch.run;
+    this.connection.ask({ do: "remove", run: this.removed });
   }
 
   async link() {

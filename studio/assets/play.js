@@ -23,9 +23,14 @@ class Play {
     }
     connection.on("catalogue", ({ terrains }) => {
       const options = terrains.map(({ name }) => { const option = element("option", name); option.value = name; return option; });
-      this.inputs.terrain.replaceChildren(this.inputs.terrain.options[0], ...options);
+      const { terrain } = this.inputs;
+      const chosen = terrain.value;
+      terrain.replaceChildren(terrain.options[0], ...options);
+      this.setTerrain(chosen);
     });
   }
+
+  setTerrain(name) { this.inputs.terrain.value = name; }
 
   // The champion from the start, in the world that is set.
   begin() {

@@ -18,7 +18,7 @@ class SocketConnection extends Connection {
       for (const message of this.waiting.splice(0)) this.socket.send(message);
     });
     this.socket.addEventListener("message", ({ data }) => {
-      if (typeof data === "string") this.tell(JSON.parse(data)); else this.onFrame(data);
+      if (typeof data === "string") this.tell(JSON.parse(data)); else this.takeFrame(data);
     });
     this.socket.addEventListener("close", () => {
       this.onState(false, "The studio does not answer. What was trained is saved; the page goes on as soon as the program does.");

@@ -4,7 +4,7 @@ const CHAPTERS = ["watch", "choose", "draw", "play", "keep"];
 const TOUR = [
   ["watch", "Watch", "A whole generation runs at once: the best is solid, the others are half transparent. Each generation begins where the last one ended."],
   ["choose", "Choose", "Pick a creature and a movement, and press Train. Everything else has a default that works."],
-  ["draw", "Draw", "Draw a body of your own: drag parts, join them, give them motors, and press K to see it learn."],
+  ["draw", "Draw", "Draw a body of your own: drag parts, join them, give them motors, and press K to see it learn. Under Ground you draw what it moves on."],
   ["play", "Play", "Push the champion, tilt the world, put a box in its way. One that was trained for “playing” obeys the arrow keys."],
   ["keep", "Keep", "All runs stay. Open one, verify it, make a GIF or a character for your game of it."],
 ];
@@ -16,16 +16,19 @@ class Studio {
     this.watch = new Watch(this.connection, this.arena);
     this.watch.refuse = text => this.refuse(text);
     this.net = new LiveNet(this.arena);
+    this.members = new Members(this.connection, this.arena, () => this.showAgain());
+    this.beside = new Beside(this.connection, this.arena, () => this.showAgain());
+    this.readouts = new Readouts(document.getElementById("arena-readouts"));
     this.play = new Play(this.connection, this.arena);
     this.choose = new Choose(this.connection, () => this.go("watch"));
     this.keep = new Keep(this.connection, this.watch, {
       open: run => { this.connection.ask({ do: "open", run }); this.go("watch"); },
       draw: creature => { this.go("draw"); this.draw(creature); },
+      close: runs => this.close(runs),
     });
     this.who = "population";
     this.listen();
     this.buildControls();
-    this.buildReadouts();
     this.connection.ask({ do: "look" });
     this.connection.ask({ do: "schema" });
     // Before the address is that of a chapter.
@@ -62,13 +65,25 @@ class Studio {
       this.shown = event;
       this.play.enter(event);
       this.net.enter(event);
-      const who = event.who === "population" ? `generation ${fixed(event.generation, 0)}, ${count(event.actors, "creature", "creatures")}`
-        : `the champion, of generation ${fixed(event.generation, 0)}`;
-      document.getElementById("arena-caption").textContent = who;
+      this.members.enter(event);
+      const generation = fixed(event.generation, 0);
+      const captions = {
+        population: `generation ${generation}, ${count(event.actors, "creature", "creatures")}`,
+        family: `one of generation ${generation} and where it comes from`,
+        champion: `the champion, of generation ${generation}`,
+      };
+      document.getElementById("arena-caption").textContent = captions[event.who];
     };
     this.arena.onHit = hit => this.chapter === "play" && this.play.push(hit);
     document.addEventListener("keydown", event => this.key(event));
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readTheme(); loop.redrawAll(); });
+  }
+
+  // The open run was removed: the latest that there is takes its place.
+  close(runs) {
+    this.opened = null;
+    if (runs.length) this.connection.ask({ do: "open", run: runs[0].run });
+    else this.watch.close();
   }
 
   // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to run.
@@ -102,6 +117,7 @@ class Studio {
     this.play.active = chapter === "play";
     // It is the champion that is played with.
     document.getElementById("show-who").closest("label").hidden = chapter === "play";
+    this.beside.setVisible(chapter !== "play");
     if (chapter === "draw") this.buildEditor();
     if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
     if (before && before !== chapter && (chapter === "play" || before === "play")) this.showAgain();
@@ -112,15 +128,11 @@ class Studio {
   buildEditor() {
     const creatures = this.choose.catalogue?.creatures;
     if (this.editor || !creatures) return;
-    let number = 0;
-    const waiting = new Map();
-    this.connection.on("checked", ({ number: of, problems }) => { waiting.get(of)?.(problems); waiting.delete(of); });
+    this.checked = new Map();
+    this.checks = 0;
+    this.connection.on("checked", ({ number, problems }) => { this.checked.get(number)?.(problems); this.checked.delete(number); });
     this.editor = new Editor(document.getElementById("draw-editor"), {
-      check: creature => new Promise(resolve => {
-        number += 1;
-        waiting.set(number, resolve);
-        this.connection.ask({ do: "check", creature, number });
-      }),
+      check: creature => this.check({ do: "check", creature }),
       changed: () => {},
       play: creature => {
         this.choose.setDrawn(creature);
@@ -131,17 +143,63 @@ class Studio {
     this.draw(this.watch.config?.creature || chosen || creatures[0]);
   }
 
+  // Asks what is wrong with what is drawn.
+  check(request) {
+    this.checks += 1;
+    return new Promise(resolve => {
+      this.checked.set(this.checks, resolve);
+      this.connection.ask({ ...request, number: this.checks });
+    });
+  }
+
+  // The one editor or the other.
+  showEditor(what) {
+    for (const radio of document.getElementsByName("draw-what")) radio.checked = radio.value === what;
+    document.getElementById("draw-editor").hidden = what !== "creature";
+    document.getElementById("draw-ground").hidden = what !== "ground";
+    if (what === "ground") this.buildTerrainEditor();
+  }
+
+  buildTerrainEditor() {
+    if (this.terrainEditor || !this.choose.catalogue) return;
+    this.terrainEditor = new TerrainEditor(document.getElementById("draw-ground"), {
+      creature: () => this.choose.creature,
+      check: terrain => this.check({ do: "check-terrain", terrain }),
+      keep: (name, terrain) => new Promise((resolve, reject) => {
+        this.keeping = { name, resolve, reject };
+        this.connection.ask({ do: "keep-terrain", name, terrain });
+      }),
+      train: name => {
+        this.choose.setTerrain(name);
+        this.choose.train();
+      },
+      play: name => {
+        this.play.setTerrain(name);
+        this.go("play");
+        if (!this.opened) this.refuse("There is no champion yet that could play on it: train one first.");
+      },
+    });
+    this.terrainEditor.setKept(this.choose.catalogue.terrains);
+    this.connection.on("catalogue", ({ terrains }) => {
+      this.terrainEditor.setKept(terrains);
+      if (terrains.some(({ name }) => name === this.keeping?.name)) this.keeping.resolve();
+    });
+    this.connection.on("refused", ({ request, reason }) => { if (request === "keep-terrain") this.keeping?.reject(new Error(reason)); });
+  }
+
   // Changes a creature; one that has the name of a shipped one gets a name of its own.
   draw(creature) {
     const { creatures, drawn } = this.choose.catalogue;
+    this.showEditor("creature");
     const isShipped = creatures.some(({ name }) => name === creature.name) && !drawn.includes(creature.name);
     this.editor.load(isShipped ? { ...creature, name: `my ${creature.name}` } : creature);
   }
 
   showAgain() {
     if (!this.opened) return;
-    if (this.chapter === "play") this.play.begin();
-    else this.connection.ask({ do: "show", who: this.who });
+    if (this.chapter === "play") return this.play.begin();
+    this.connection.ask({ do: "show", who: this.who });
+    return this.beside.show();
   }
 
   buildControls() {
@@ -154,7 +212,7 @@ class Studio {
       get("show-follow").setAttribute("aria-pressed", String(arena.follow));
     };
     this.toggle = () => { arena.playing = !arena.playing; label(); };
-    arena.onFollow = label;
+    arena.onFollow = () => { label(); this.members.tell(); };
     get("show-again").textContent = "⟲";
     play.addEventListener("click", this.toggle);
     get("show-again").addEventListener("click", () => this.showAgain());
@@ -165,6 +223,7 @@ class Studio {
     get("show-out").addEventListener("click", () => arena.zoomBy(0.8));
     label();
     for (const button of document.querySelectorAll("nav button")) button.addEventListener("click", () => this.go(button.dataset.chapter));
+    for (const radio of document.getElementsByName("draw-what")) radio.addEventListener("change", () => this.showEditor(radio.value));
     for (const button of document.querySelectorAll("[data-copy]")) {
       button.addEventListener("click", () => navigator.clipboard?.writeText(get(button.dataset.copy).textContent));
     }
@@ -188,29 +247,6 @@ class Studio {
     return undefined;
   }
 
-  buildReadouts() {
-    const list = document.getElementById("arena-readouts");
-    this.readouts = {};
-    for (const [name, unit] of [["time", "s"], ["distance", "m"], ["height", "m"]]) {
-      const group = element("div");
-      const value = element("dd");
-      const number = element("span", "–");
-      value.append(number, `\u00a0${unit}`);
-      group.append(element("dt", name), value);
-      list.append(group);
-      this.readouts[name] = number;
-    }
-  }
-
-  readOut() {
-    const { arena } = this;
-    if (!arena.now) return;
-    const at = Math.min(arena.followed, arena.now.actors - 1) * arena.now.size;
-    this.readouts.time.textContent = fixed(arena.seconds, 1);
-    this.readouts.distance.textContent = fixed(arena.now.poses[at] - arena.origin, 2);
-    this.readouts.height.textContent = fixed(arena.now.poses[at + 1], 2);
-  }
-
   refuse(text) {
     const notice = document.getElementById("notice");
     notice.hidden = !text;
@@ -226,13 +262,15 @@ class Studio {
     else if (event.key === "+" || event.key === "=") this.arena.zoomBy(1.25);
     else if (event.key === "-" || event.key === "−") this.arena.zoomBy(0.8);
     else if (event.key === "r" || event.key === "R") this.showAgain();
+    else if (event.key === "[") this.members.step(-1);
+    else if (event.key === "]") this.members.step(1);
     else if (event.key === " " && this.chapter === "watch" && !event.target.closest("button")) { event.preventDefault(); this.toggle(); }
   }
 
   // A generation is shown for a while; then the next is, if there is one.
   next() {
     const shown = this.shown;
-    if (!shown || this.chapter !== "watch" || !this.arena.playing) return;
+    if (!shown || this.chapter !== "watch" || !this.arena.playing || this.members.pinned) return;
     const seconds = this.arena.seconds;
     const newer = this.watch.last && this.watch.last.generation !== shown.generation;
     // The very first falls at once.
@@ -256,7 +294,8 @@ class Studio {
         this.arena.tick(Math.max(seconds, 0));
         this.arena.draw();
         this.net.draw();
-        this.readOut();
+        this.beside.draw(Math.max(seconds, 0));
+        this.readouts.show(this.arena);
         this.next();
         counted += 1;
       }

@@ -39,6 +39,14 @@ class Watch {
     this.setState(state);
   }
 
+  // No run is open any more.
+  close() {
+    Object.assign(this, { run: null, rows: [], stages: [], last: null });
+    document.getElementById("arena-title").textContent = "No run is open";
+    document.getElementById("keep-open").hidden = true;
+    this.setState({ state: "ended" });
+  }
+
   setState(state) {
     this.state = state.state;
     const words = { running: "training", paused: "training waits", ended: "", broken: "broke off: " };

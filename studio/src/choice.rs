@@ -1,7 +1,7 @@
 //! From what was chosen on a page to a configuration, and to the command line that does the same.
 
 use crate::protocol::{Choice, Described, Mistake};
-use creatures::{Blueprint, Creature, CreatureError};
+use creatures::{Blueprint, Creature, CreatureError, Terrain};
 use gambol_runs::{
     Registry,
     config::RunConfig,
@@ -12,16 +12,21 @@ use gambol_runs::{
     suggest,
     texts::shell_word,
 };
+use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The creatures that were drawn and kept.
+/// The creatures and terrains that were drawn and kept.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
-    /// Where.
-    pub folder: PathBuf,
-    /// Their names.
-    pub names: Vec<String>,
+    /// Where the creatures are.
+    pub creature_folder: PathBuf,
+    /// The names of the creatures.
+    pub creatures: Vec<String>,
+    /// Where the terrains are.
+    pub terrain_folder: PathBuf,
+    /// The names of the terrains.
+    pub terrains: Vec<String>,
 }
 
 /// Why a choice cannot be trained: in the words of the library, which name field and range.
@@ -108,12 +113,12 @@ impl Choice {
         Ok(config)
     }
 
-    /// What to type for the same run: a creature that was drawn is a file.
+    /// What to type for the same run: a creature that was drawn is a file, and so is a terrain.
     pub fn command(&self, kept: &Kept) -> String {
         let drawn = self.drawn.as_ref().and_then(|drawn| drawn.get("name")?.as_str());
         let named = self.creature.as_deref().unwrap_or("CREATURE");
-        let creature = match drawn.or(Some(named).filter(|name| kept.names.iter().any(|kept| kept == name))) {
-            Some(name) => kept.folder.join(format!("{name}.json")),
+        let creature = match drawn.or(Some(named).filter(|name| kept.creatures.iter().any(|kept| kept == name))) {
+            Some(name) => kept.creature_folder.join(format!("{name}.json")),
             None => named.into(),
         };
         let word = |text: &str| shell_word(Path::new(text));
@@ -125,12 +130,31 @@ impl Choice {
         };
         add("preset", self.preset.clone());
         add("strategy", self.strategy.clone());
-        add("terrain", self.terrain.clone());
+        match self.terrain.as_ref().filter(|&name| kept.terrains.contains(name)) {
+            Some(name) => {
+                let file = kept.terrain_folder.join(format!("{name}.json"));
+                add("config", Some(file.to_string_lossy().into_owned()));
+            }
+            None => add("terrain", self.terrain.clone()),
+        }
         add("variation", self.variation.clone());
         add("seed", self.seed.map(|seed| seed.to_string()));
         add("generations", self.generations.map(|generations| generations.to_string()));
         self.set.iter().for_each(|set| add("set", Some(set.clone())));
         command
+    }
+}
+
+/// What is wrong with a terrain that was drawn, as in a configuration.
+pub fn check_terrain(terrain: &Value) -> Vec<Mistake> {
+    let whole = |error: &dyn std::fmt::Display| vec![Mistake { place: String::new(), message: error.to_string() }];
+    match Terrain::deserialize(terrain) {
+        Err(error) => whole(&error),
+        Ok(terrain) => {
+            let mistakes: Vec<Mistake> = terrain.drawn_problems().iter().map(Mistake::from).collect();
+            let other = terrain.validate().err().filter(|_| mistakes.is_empty());
+            other.as_ref().map_or(mistakes, |error| vec![Mistake::from(error)])
+        }
     }
 }
 
@@ -153,7 +177,8 @@ mod tests {
     }
 
     fn kept() -> Kept {
-        Kept { folder: "runs/creatures".into(), names: vec!["mine".into()] }
+        let (creatures, terrains) = (vec!["mine".into()], vec!["my hills".into()]);
+        Kept { creature_folder: "runs/creatures".into(), creatures, terrain_folder: "runs/terrains".into(), terrains }
     }
 
     fn problem(choice: &Choice) -> String {
@@ -187,6 +212,21 @@ mod tests {
         let set = |set: &str| Choice { set: vec![set.into()], ..choice("biped-1", "running") };
         assert!(problem(&set("controller.input_range=-1")).contains("controller.input_range"));
         assert!(problem(&Choice::default()).contains("creature"));
+    }
+
+    #[test]
+    fn a_drawn_terrain_is_a_configuration() {
+        let command =
+            |terrain: &str| Choice { terrain: Some(terrain.into()), ..choice("biped-1", "running") }.command(&kept());
+        assert_eq!(command("my hills"), "gambol train biped-1 running --config 'runs/terrains/my hills.json'");
+        assert_eq!(command("gaps:0.3"), "gambol train biped-1 running --terrain gaps:0.3");
+        let gap = |from: f32| json!({ "gap": { "from": from, "width": 1 } });
+        assert_eq!(check_terrain(&json!({ "drawn": [gap(1.0), gap(2.5)] })), []);
+        let mistakes = check_terrain(&json!({ "drawn": [gap(1.0), gap(1.5)] }));
+        assert_eq!(mistakes.iter().map(|mistake| &*mistake.place).collect::<Vec<_>>(), ["drawn[1].gap.from"]);
+        let mistakes = check_terrain(&json!({ "drawn": [{ "gape": {} }] }));
+        assert!(mistakes[0].message.contains("unknown variant `gape`"), "{mistakes:?}");
+        assert_eq!(check_terrain(&json!({ "difficulty": 2 }))[0].place, "difficulty");
     }
 
     #[test]

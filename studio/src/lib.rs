@@ -19,6 +19,7 @@
 //! | [`protocol`] | what page and studio say to each other, as plain data |
 //! | [`Library`], [`Session`], [`Viewer`] | all runs, one run, what one page sees |
 //! | [`Scene`], [`Arena`] | what is to be shown; creatures that move on the same ground at once |
+//! | [`Member`], [`Descent`] | what is known of one of a generation, and where it comes from |
 //! | [`Wanted`], [`Download`] | what a page can have of a run as a file |
 //! | [`choice`] | from what was chosen on a page to a configuration |
 //! | [`page`] | the page: its sources, put together |
@@ -31,17 +32,22 @@ pub mod protocol;
 pub mod work;
 
 mod arena;
+mod descent;
 mod downloads;
+mod film;
 mod judging;
 mod library;
+mod population;
+mod robustness;
 mod scene;
 mod session;
 mod training;
 mod viewer;
 
 pub use arena::{Arena, MOST_STEPS};
+pub use descent::{Descent, Group, How, Member, Parent};
 pub use downloads::{Download, DownloadError, Wanted};
 pub use library::{Library, LibraryError};
-pub use scene::{Entrant, Scene, World};
+pub use scene::{Entrant, Scene, Shown, World};
 pub use session::{Means, Session, SessionError};
 pub use viewer::{Reply, Viewer};

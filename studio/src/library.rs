@@ -2,11 +2,11 @@
 
 use crate::{
     choice::{ChoiceError, Kept},
-    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState},
+    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState, TerrainChoice},
     session::{Means, Session, SessionError},
     training::{self, Plan},
 };
-use creatures::{Blueprint, Creature};
+use creatures::{Blueprint, Creature, Terrain, is_file_name};
 use gambol_exports::Format;
 use gambol_runs::{
     Registry,
@@ -28,6 +28,9 @@ use std::{
 
 /// Drawn creatures are kept in this folder among the runs.
 const CREATURES: &str = "creatures";
+
+/// Drawn terrains are kept in this folder among the runs, each as a configuration that has nothing but it.
+const TERRAINS: &str = "terrains";
 
 /// The most runs that a gallery shows.
 const MOST_RUNS: usize = 200;
@@ -59,6 +62,17 @@ pub enum LibraryError {
     /// A drawn creature cannot be kept.
     #[error("the creature cannot be kept: {0}")]
     Keep(String),
+    /// A drawn terrain cannot be kept.
+    #[error("the terrain cannot be kept: {0}")]
+    KeepTerrain(String),
+    /// A run cannot be removed.
+    #[error("the run \"{run}\" cannot be removed: {reason}")]
+    Remove {
+        /// Its name.
+        run: String,
+        /// Why.
+        reason: String,
+    },
 }
 
 impl Library {
@@ -77,10 +91,11 @@ impl Library {
         self.runs.join(CREATURES)
     }
 
-    /// The creatures that were drawn and kept.
+    /// The creatures and terrains that were drawn and kept.
     pub fn kept(&self) -> Kept {
-        let names = self.drawn_creatures().into_iter().map(|creature| creature.name).collect();
-        Kept { folder: self.creatures(), names }
+        let creatures = self.drawn_creatures().into_iter().map(|creature| creature.name).collect();
+        let terrains = self.drawn_terrains().into_iter().map(|(name, _)| name).collect();
+        Kept { creatures, terrains, creature_folder: self.creatures(), terrain_folder: self.runs.join(TERRAINS) }
     }
 
     /// What there is to choose from.
@@ -102,7 +117,7 @@ impl Library {
                 .iter()
                 .map(|entry| thing(entry.name(), entry.description()))
                 .collect(),
-            terrains: registry.terrains.entries().iter().map(|entry| thing(&entry.name, &entry.description)).collect(),
+            terrains: self.terrain_choices(),
             variations: registry
                 .variations
                 .entries()
@@ -137,26 +152,90 @@ impl Library {
         runs.into_iter().take(MOST_RUNS).filter_map(entry).collect()
     }
 
-    fn drawn_creatures(&self) -> Vec<Creature> {
-        let Ok(entries) = fs::read_dir(self.creatures()) else { return Vec::new() };
-        let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-        files.sort();
-        let read = |path: &PathBuf| {
-            path.extension().filter(|extension| *extension == "json")?;
-            let text = read_text(path, LARGEST_TEXT).ok()?;
-            Some(Blueprint::from_json(&text).ok()?.creature().clone())
-        };
-        files.iter().filter_map(read).collect()
+    fn terrain_choices(&self) -> Vec<TerrainChoice> {
+        let shipped = self.registry.terrains.entries().iter().map(|entry| TerrainChoice {
+            name: entry.name.clone(),
+            description: entry.description.clone(),
+            drawn: None,
+        });
+        let drawn = self.drawn_terrains().into_iter().map(|(name, terrain)| TerrainChoice {
+            name,
+            description: "drawn here".into(),
+            drawn: Some(terrain.drawn),
+        });
+        shipped.chain(drawn).collect()
     }
 
-    /// The registry with the creatures that were drawn here.
+    fn drawn_creatures(&self) -> Vec<Creature> {
+        let read = |(_, text): (String, String)| Some(Blueprint::from_json(&text).ok()?.creature().clone());
+        texts_in(&self.creatures()).into_iter().filter_map(read).collect()
+    }
+
+    fn drawn_terrains(&self) -> Vec<(String, Terrain)> {
+        let read = |(name, text): (String, String)| {
+            let config: serde_json::Value = serde_json::from_str(&text).ok()?;
+            let terrain: Terrain = serde_json::from_value(config.get("terrain")?.clone()).ok()?;
+            let is_new = self.registry.terrains.find(&name).is_err();
+            (is_new && terrain.validate().is_ok()).then_some((name, terrain))
+        };
+        texts_in(&self.runs.join(TERRAINS)).into_iter().filter_map(read).collect()
+    }
+
+    /// The registry with the creatures and terrains that were drawn here.
     pub fn registry_with_drawn(&self) -> Registry {
         let mut registry = self.registry.clone();
         for creature in self.drawn_creatures() {
             // Each was checked as it was read.
             let _ = serde_json::to_string(&creature).map(|json| registry.creatures.add_file(&json).map(drop));
         }
+        for (name, terrain) in self.drawn_terrains() {
+            registry.terrains.add(&name, "drawn here", terrain);
+        }
         registry
+    }
+
+    /// Keeps a drawn terrain under a name, in place of what was drawn under it before.
+    ///
+    /// # Errors
+    /// If it is not valid, its name is that of one that is shipped or cannot be that of a file, or it cannot be written.
+    pub fn keep_terrain(&self, name: &str, terrain: &Terrain) -> Result<PathBuf, LibraryError> {
+        let failed = |error: &dyn std::fmt::Display| LibraryError::KeepTerrain(error.to_string());
+        terrain.validate().map_err(|error| failed(&error))?;
+        if terrain.drawn.is_empty() {
+            return Err(failed(&"nothing is drawn yet"));
+        }
+        if !is_file_name(name) {
+            return Err(failed(&"its name must begin with a letter or digit, and have only these, spaces, - _ and ."));
+        }
+        if self.registry.terrains.find(name).is_ok() {
+            return Err(failed(&format!("\"{name}\" is the name of another; give it one of its own")));
+        }
+        let folder = self.runs.join(TERRAINS);
+        let path = folder.join(format!("{name}.json"));
+        archive::make_folder(&folder).map_err(|error| failed(&error))?;
+        let json = serde_json::to_string_pretty(&serde_json::json!({ "terrain": terrain }));
+        let json = json.map_err(|error| failed(&error))?;
+        archive::write_whole_together(&[(&*path, format!("{json}\n").as_bytes())]).map_err(|error| failed(&error))?;
+        Ok(path)
+    }
+
+    /// Removes a run with all that is in its folder.
+    ///
+    /// # Errors
+    /// If there is none, it is being trained, here or by another process, or its folder cannot be removed.
+    pub fn remove(&self, run: &str) -> Result<(), LibraryError> {
+        let folder = self.folder(run)?;
+        let failed =
+            |error: &dyn std::fmt::Display| LibraryError::Remove { run: run.into(), reason: error.to_string() };
+        let mut sessions = self.sessions();
+        if sessions.get(run).is_some_and(|session| session.is_training()) {
+            return Err(failed(&"it is being trained; stop it first"));
+        }
+        let lock = folder.lock().map_err(|error| failed(&error))?;
+        fs::remove_dir_all(folder.path()).map_err(|error| failed(&error))?;
+        drop(lock);
+        sessions.remove(run);
+        Ok(())
     }
 
     /// Keeps a drawn creature under its name, in place of what was drawn under it before.
@@ -250,6 +329,19 @@ impl Library {
     fn sessions(&self) -> MutexGuard<'_, BTreeMap<String, Arc<Session>>> {
         self.sessions.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// The JSON files in a folder, each with its name.
+fn texts_in(folder: &Path) -> Vec<(String, String)> {
+    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
+    files.sort();
+    let read = |path: &PathBuf| {
+        path.extension().filter(|extension| *extension == "json")?;
+        let name = path.file_stem()?.to_str()?.to_owned();
+        Some((name, read_text(path, LARGEST_TEXT).ok()?))
+    };
+    files.iter().filter_map(read).collect()
 }
 
 fn name_of(path: &Path) -> String {

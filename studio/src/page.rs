@@ -10,7 +10,12 @@ pub const PAGE: &str = include_str!("../assets/studio.html");
 
 const CONNECTION: &str = include_str!("../assets/connection.js");
 
-const STYLES: &[&str] = &[STYLE, include_str!("../assets/studio.css"), include_str!("../assets/editor.css")];
+const STYLES: &[&str] = &[
+    STYLE,
+    include_str!("../assets/studio.css"),
+    include_str!("../assets/editor.css"),
+    include_str!("../assets/terrain_editor.css"),
+];
 
 const SCRIPTS: &[&str] = &[
     DATA_SCRIPT,
@@ -21,21 +26,32 @@ const SCRIPTS: &[&str] = &[
     CHART_SCRIPT,
     NETWORK_SCRIPT,
     CONNECTION,
+    include_str!("../assets/crowd.js"),
     include_str!("../assets/arena.js"),
     include_str!("../assets/net.js"),
+    include_str!("../assets/members.js"),
+    include_str!("../assets/beside.js"),
     include_str!("../assets/watch.js"),
     include_str!("../assets/settings.js"),
+    include_str!("../assets/portrait.js"),
     include_str!("../assets/choose.js"),
     include_str!("../assets/play.js"),
     include_str!("../assets/link.js"),
     include_str!("../assets/keep.js"),
     include_str!("../assets/editor_geometry.js"),
+    include_str!("../assets/editor_decorations.js"),
     include_str!("../assets/editor_limbs.js"),
     include_str!("../assets/editor_fields.js"),
     include_str!("../assets/editor_panel.js"),
+    include_str!("../assets/editor_decoration_list.js"),
     include_str!("../assets/editor.js"),
     include_str!("../assets/editor_hand.js"),
     include_str!("../assets/editor_canvas.js"),
+    include_str!("../assets/terrain_geometry.js"),
+    include_str!("../assets/terrain_panel.js"),
+    include_str!("../assets/terrain_editor.js"),
+    include_str!("../assets/terrain_hand.js"),
+    include_str!("../assets/terrain_canvas.js"),
     include_str!("../assets/studio.js"),
 ];
 

@@ -1,8 +1,9 @@
 //! What is to be shown, as plain data: all that it takes to build an arena, wherever that is.
 
+use crate::descent::Member;
 use envs_rapier::RapierEnvironment;
 use gambol_runs::{Registry, champion::Champion, config::RunConfig, episode_parts::SetupError, judge::Judge};
-use ne_core::{Fitness, Seed};
+use ne_core::Seed;
 use ne_net::Network;
 use serde::{Deserialize, Serialize};
 
@@ -10,6 +11,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scene {
+    /// Which creatures they are.
+    pub who: Shown,
     /// The generation they are of.
     pub generation: u64,
     /// Where they move.
@@ -30,14 +33,26 @@ pub enum World {
     Judged(Box<Champion>),
 }
 
+/// Which creatures a scene has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Shown {
+    /// A generation, the best first.
+    Population,
+    /// One of a generation, and its parents.
+    Family,
+    /// A champion, perhaps with its ghost.
+    Champion,
+}
+
 /// One that is to be shown.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Entrant {
     /// Its controller.
     pub network: Network,
-    /// Its fitness in training; `None` if it failed there.
-    pub fitness: Option<Fitness>,
+    /// What else is known of it.
+    pub member: Member,
 }
 
 impl World {

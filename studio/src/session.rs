@@ -1,20 +1,20 @@
 //! One run: trained here, or opened from its folder.
 
 use crate::{
-    Entrant,
-    protocol::{Opened, RunState, Verdict},
+    population::{Population, Told},
+    protocol::{Opened, RobustnessState, RunState, Verdict},
     work::{Helpers, Workers},
 };
 use gambol_runs::{
     Registry,
     champion::Champion,
     config::RunConfig,
-    run_folder::{FolderError, GalleryKind, RunFolder},
+    run_folder::{FolderError, RunFolder},
     shaping::{self, PlannedStage},
-    strategies::{AnyGenome, AnyStrategy},
+    strategies::AnyStrategy,
     texts::shell_word,
 };
-use ne_core::{Fitness, Generation, GenerationReport, Genome, Seed, StopConditions, StopSignal};
+use ne_core::{Generation, GenerationReport, StopConditions, StopSignal};
 use std::{
     sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
     time::SystemTime,
@@ -64,30 +64,13 @@ struct Inner {
     stages: Vec<(usize, String)>,
     /// The configuration of the stage under way.
     stage_config: RunConfig,
-    generation: Option<Shown>,
+    generation: Option<Arc<Told>>,
     verdict: Option<Verdict>,
+    robustness: Option<RobustnessState>,
     /// Whether something waits for verdicts.
     is_judged: bool,
     /// When the log of a run that is trained elsewhere was last read.
     read: Option<SystemTime>,
-}
-
-/// A generation as it was told to the strategy.
-#[derive(Clone)]
-struct Shown {
-    number: u64,
-    seed: Seed,
-    genomes: Vec<AnyGenome>,
-    fitness: Vec<Option<Fitness>>,
-}
-
-/// Those of a generation, the best first.
-pub(crate) struct Population {
-    pub(crate) generation: u64,
-    pub(crate) seed: Seed,
-    pub(crate) entrants: Vec<Entrant>,
-    /// The run, or the stage that they are of.
-    pub(crate) config: RunConfig,
 }
 
 /// Why a run cannot be opened or begun here.
@@ -143,6 +126,7 @@ impl Session {
             stage_config: RunConfig { stages: Vec::new(), ..config.clone() },
             generation: None,
             verdict: None,
+            robustness: None,
             is_judged: false,
             read: None,
         };
@@ -195,28 +179,17 @@ impl Session {
 
     /// The latest generation; of a run that was opened the latest that its gallery has.
     pub(crate) fn population(&self) -> Option<Population> {
-        let (shown, config) = {
+        let (told, config) = {
             let inner = self.inner();
             (inner.generation.clone(), inner.stage_config.clone())
         };
-        let Some(shown) = shown else { return self.kept_population() };
-        let members = shown.genomes.iter().zip(&shown.fitness);
-        let entrant = |(genome, &fitness): (&AnyGenome, _)| Entrant { network: genome.express(), fitness };
-        let entrants = best_first(members.map(entrant).collect());
-        Some(Population { generation: shown.number, seed: shown.seed, entrants, config })
-    }
-
-    fn kept_population(&self) -> Option<Population> {
-        let (folder, config) = self.latest_stage()?;
-        let gallery = folder.read_gallery().ok()?;
-        let entry = gallery.into_iter().rev().find(|entry| entry.kind == GalleryKind::Population)?;
-        let entrant = |member: gambol_runs::run_folder::GalleryMember| Entrant {
-            network: member.network,
-            fitness: member.fitness,
-        };
-        let seed = Seed::of_run(config.seed).generation(entry.generation);
-        let entrants = best_first(entry.members.into_iter().map(entrant).collect());
-        Some(Population { generation: entry.generation, seed, entrants, config })
+        match told {
+            Some(told) => Some(Population::of(told, config)),
+            None => {
+                let (folder, config) = self.latest_stage()?;
+                Population::read(&folder, config)
+            }
+        }
     }
 
     /// The folder and configuration of the latest stage; of a run without stages its own.
@@ -372,19 +345,15 @@ impl Session {
     /// Notes a generation.
     pub(crate) fn see(&self, generation: &Generation<'_, AnyStrategy>) {
         let number = generation.report.generation;
-        let shown = Shown {
-            number,
-            seed: generation.seed.generation(number),
-            genomes: generation.genomes.to_vec(),
-            fitness: generation.evaluations.iter().map(ne_core::Evaluation::fitness).collect(),
-        };
+        let before = self.inner().generation.clone();
+        let told = Told::new(generation, before.as_deref());
         let mut inner = self.inner();
         // One that is resumed does its last generations again.
         let first = inner.stages.last().map_or(0, |stage| stage.0);
         let place = usize::try_from(number - 1).unwrap_or(usize::MAX).saturating_add(first);
         inner.rows.truncate(place);
         inner.rows.push(generation.report.clone());
-        inner.generation = Some(shown);
+        inner.generation = Some(Arc::new(told));
         if let Pace::Steps(steps) = &mut inner.pace {
             *steps = steps.saturating_sub(1);
         }
@@ -403,9 +372,13 @@ impl Session {
     pub(crate) fn set_verdict(&self, verdict: Verdict) {
         self.inner().verdict = Some(verdict);
     }
-}
 
-fn best_first(mut entrants: Vec<Entrant>) -> Vec<Entrant> {
-    entrants.sort_by_key(|entrant| std::cmp::Reverse(entrant.fitness));
-    entrants
+    /// How far its champion was replayed in other worlds; `None`: nothing was asked for.
+    pub(crate) fn robustness(&self) -> Option<RobustnessState> {
+        self.inner().robustness.clone()
+    }
+
+    pub(crate) fn set_robustness(&self, state: RobustnessState) {
+        self.inner().robustness = Some(state);
+    }
 }

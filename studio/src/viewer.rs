@@ -1,14 +1,16 @@
 //! What one page sees: it answers what the page asks, and tells it what is new.
 
 use crate::{
-    Arena, Entrant, Scene, World, choice,
+    Arena, Entrant, Member, Scene, Shown, World, choice,
     judging::judge_champions,
     library::Library,
-    protocol::{Event, Opened, Request, RunState, Verdict, Who},
-    session::{Population, Session},
+    population::Population,
+    protocol::{Event, Opened, Request, RobustnessState, RunState, Verdict, Who},
+    robustness,
+    session::Session,
     training,
 };
-use creatures::Creature;
+use creatures::{Creature, Terrain};
 use gambol_runs::champion::Champion;
 use ne_core::Seed;
 use serde_json::Value;
@@ -33,8 +35,12 @@ pub struct Viewer {
     guest: Option<Box<Champion>>,
     /// The champion that was shown last.
     shown: Option<Box<Champion>>,
+    /// The generation that was shown last, without the nets of its members.
+    population: Option<Population>,
+    /// The run whose champion is in the second arena, and what the page knows of its verdict.
+    beside: Option<(Arc<Session>, Option<Verdict>)>,
     told: Told,
-    arena: Option<Arena>,
+    arenas: [Option<(u32, Arena)>; 2],
     number: u32,
     shows_scenes: bool,
 }
@@ -46,6 +52,7 @@ struct Told {
     stages: usize,
     state: Option<RunState>,
     verdict: Option<Verdict>,
+    robustness: Option<RobustnessState>,
 }
 
 /// What is wrong, in words for the page.
@@ -67,8 +74,9 @@ impl Viewer {
     /// A page that sees nothing yet.
     pub fn new(library: Arc<Library>) -> Self {
         let (look, told) = (Arc::new(()), Told::default());
-        let (session, guest, shown, arena, number, shows_scenes) = (None, None, None, None, 0, false);
-        Self { library, session, look, guest, shown, told, arena, number, shows_scenes }
+        let (session, guest, shown, population, beside) = (None, None, None, None, None);
+        let (arenas, number, shows_scenes) = ([None, None], 0, false);
+        Self { library, session, look, guest, shown, population, beside, told, arenas, number, shows_scenes }
     }
 
     /// For a page whose creatures move elsewhere: it is sent the [scene](Scene) that is to be shown, and lets another viewer
@@ -93,9 +101,9 @@ impl Viewer {
 
     /// What is new in the open run.
     pub fn news(&mut self) -> Vec<Reply> {
-        let Some(session) = self.session.clone() else { return Vec::new() };
+        let mut news: Vec<Reply> = self.news_beside().into_iter().collect();
+        let Some(session) = self.session.clone() else { return news };
         session.refresh();
-        let mut news: Vec<Reply> = Vec::new();
         let (rows, stages) = session.since(self.told.rows, self.told.stages);
         self.told.stages += stages.len();
         news.extend(stages.into_iter().map(|(row, name)| Event::Stage { name, row }.into()));
@@ -104,6 +112,10 @@ impl Viewer {
         if let Some(verdict) = session.verdict().filter(|verdict| self.told.verdict.as_ref() != Some(verdict)) {
             self.told.verdict = Some(verdict.clone());
             news.push(Event::Verdict(verdict).into());
+        }
+        if let Some(state) = session.robustness().filter(|state| self.told.robustness.as_ref() != Some(state)) {
+            self.told.robustness = Some(state.clone());
+            news.push(Event::Robustness(state).into());
         }
         // The state comes last: a page that hears of the end has then heard of all generations.
         let state = session.state();
@@ -129,6 +141,26 @@ impl Viewer {
                 library.keep(&creature)?;
                 Event::Catalogue(Box::new(library.catalogue()))
             }
+            Request::CheckTerrain { terrain, number } => {
+                Event::Checked { number, problems: choice::check_terrain(&terrain) }
+            }
+            Request::KeepTerrain { name, terrain } => {
+                let terrain: Terrain = serde_json::from_value(terrain)?;
+                library.keep_terrain(&name, &terrain)?;
+                Event::Catalogue(Box::new(library.catalogue()))
+            }
+            Request::Remove { run } => {
+                library.remove(&run)?;
+                if self.session.as_ref().is_some_and(|session| session.name() == run) {
+                    (self.session, self.population, self.told) = (None, None, Told::default());
+                }
+                Event::Catalogue(Box::new(library.catalogue()))
+            }
+            Request::Film { run } => library.film(&run),
+            Request::Robustness => {
+                robustness::replay(self.session()?, &Arc::downgrade(&self.look))?;
+                return Ok(self.news());
+            }
             Request::Train { choice } => return Ok(self.open(library.train(&choice)?)),
             Request::Open { run } => return Ok(self.open(library.open(&run)?)),
             Request::OpenChampion { name, text } => {
@@ -141,28 +173,33 @@ impl Viewer {
                 training::go_on(self.session()?, generations)?;
                 return Ok(self.news());
             }
-            Request::Show { who, terrain, friction } => {
-                let scene = self.scene(who, terrain.as_deref(), friction)?;
-                match self.shows_scenes {
-                    true => Event::Scene { scene: Box::new(scene) },
-                    false => self.enter(scene)?,
-                }
+            Request::Show { who, arena, run: Some(run), .. } => return self.show_beside(&run, who, arena),
+            Request::Show { family_of: Some(place), arena, .. } => {
+                let scene = self.family(place)?;
+                self.show(scene, arena)?
             }
-            Request::Enter { scene } => self.enter(*scene)?,
-            Request::Advance { steps } => {
-                let number = self.number;
-                let arena = self.arena()?;
+            Request::Show { who, arena, terrain, friction, .. } => {
+                let scene = self.scene(who, terrain.as_deref(), friction)?;
+                self.show(scene, arena)?
+            }
+            Request::Enter { scene, arena } => self.enter(*scene, arena)?,
+            Request::Leave { arena } => {
+                self.leave(arena);
+                return Ok(Vec::new());
+            }
+            Request::Advance { steps, arena } => {
+                let (number, arena) = self.arena(arena)?;
                 arena.advance(steps);
                 return Ok(vec![Reply::Frame(arena.frame(number))]);
             }
             Request::Tell(told) => {
-                self.arena()?.tell(told);
+                self.arena(0)?.1.tell(told);
                 return Ok(Vec::new());
             }
             Request::Push { part, velocity } => return self.meddle(|arena| Ok(arena.push(part, velocity)?)),
             Request::Tilt { angle, factor } => return self.meddle(|arena| Ok(arena.tilt(angle, factor)?)),
             Request::PutBox { x, width, height } => {
-                let arena = self.arena()?;
+                let (_, arena) = self.arena(0)?;
                 arena.put_box(x, width, height)?;
                 Event::Ground { ground: arena.ground_data() }
             }
@@ -172,10 +209,10 @@ impl Viewer {
 
     fn open(&mut self, session: Arc<Session>) -> Vec<Reply> {
         // What worked for the run that was open may end.
-        (self.look, self.shown) = (Arc::new(()), None);
+        (self.look, self.shown, self.population, self.beside) = (Arc::new(()), None, None, None);
         judge_champions(&session, &Arc::downgrade(&self.look));
         let opened = session.opened();
-        (self.session, self.guest, self.arena, self.told) = (Some(session), None, None, Told::default());
+        (self.session, self.guest, self.arenas, self.told) = (Some(session), None, [None, None], Told::default());
         self.told.state = Some(opened.state.clone());
         let mut replies = vec![Event::Opened(Box::new(opened)).into()];
         replies.extend(self.news());
@@ -192,22 +229,27 @@ impl Viewer {
         let opened = Opened { run: String::new(), config, unit, command: String::new(), state };
         let verdict = Event::Verdict(Verdict::of(&champion, registry));
         let replies = vec![Event::Opened(Box::new(opened)).into(), verdict.into()];
-        (self.session, self.guest, self.arena) = (None, Some(Box::new(champion)), None);
+        (self.session, self.guest, self.arenas) = (None, Some(Box::new(champion)), [None, None]);
+        (self.population, self.beside) = (None, None);
         Ok(replies)
     }
 
     /// What is to be shown.
     fn scene(&mut self, who: Who, terrain: Option<&str>, friction: Option<f32>) -> Result<Scene, Refusal> {
-        let terrain = terrain.map(|name| self.library.registry().terrains.terrain(name)).transpose()?;
+        let terrain = terrain.map(|name| self.library.registry_with_drawn().terrains.terrain(name)).transpose()?;
         let session = self.session.clone();
         let population = match (who, &session) {
             (Who::Population, Some(session)) => session.population(),
             _ => None,
         };
-        if let Some(Population { generation, seed, entrants, mut config }) = population {
-            config.terrain = terrain.unwrap_or(config.terrain);
+        if let Some(mut population) = population {
+            let config = &mut population.config;
+            config.terrain = terrain.unwrap_or_else(|| config.terrain.clone());
             config.physics.ground_friction = friction.unwrap_or(config.physics.ground_friction);
-            return Ok(Scene { generation, world: World::Training(Box::new(config)), entrants, seed: seed.trial(0) });
+            let entrants = std::mem::take(&mut population.entrants);
+            let scene = scene_of(&population, Shown::Population, entrants);
+            self.population = Some(population);
+            return Ok(scene);
         }
         let champion = self.guest.as_deref().cloned().or_else(|| session?.champion());
         let mut champion = champion.ok_or("there is no champion yet")?;
@@ -224,32 +266,77 @@ impl Viewer {
         champion.terrain = terrain.unwrap_or(champion.terrain);
         champion.physics.ground_friction = friction.unwrap_or(champion.physics.ground_friction);
         let generation = champion.generation;
-        Ok(Scene { generation, world: World::Judged(Box::new(champion)), entrants, seed: Seed::of_run(0) })
+        Ok(judged_scene(generation, champion, entrants))
+    }
+
+    /// One of the generation that was shown last, and its parents.
+    fn family(&self, place: usize) -> Result<Scene, Refusal> {
+        let population = self.population.as_ref().ok_or("no generation is shown")?;
+        let entrants = population.family(place).ok_or("nothing is known of its parents")?;
+        Ok(scene_of(population, Shown::Family, entrants))
+    }
+
+    /// Shows the champion of another run.
+    fn show_beside(&mut self, run: &str, who: Who, arena: usize) -> Result<Vec<Reply>, Refusal> {
+        if who == Who::Population {
+            return Err("only the champion of another run can be shown".into());
+        }
+        let session = self.library.open(run)?;
+        let champion = session.champion().ok_or("there is no champion yet")?;
+        judge_champions(&session, &Arc::downgrade(&self.look));
+        let entrants = vec![entrant(&champion)];
+        let event = self.show(judged_scene(champion.generation, champion, entrants), arena)?;
+        let beside = beside(&session, session.verdict());
+        self.beside = Some((Arc::clone(&session), session.verdict()));
+        Ok(vec![beside, event.into()])
+    }
+
+    fn news_beside(&mut self) -> Option<Reply> {
+        let (session, told) = self.beside.as_mut()?;
+        let verdict = session.verdict().filter(|verdict| told.as_ref() != Some(verdict))?;
+        *told = Some(verdict.clone());
+        Some(beside(session, Some(verdict)))
+    }
+
+    /// Shows a scene, or tells it to a page whose arena is elsewhere.
+    fn show(&mut self, scene: Scene, arena: usize) -> Result<Event, Refusal> {
+        match self.shows_scenes {
+            true => Ok(Event::Scene { scene: Box::new(scene), arena }),
+            false => self.enter(scene, arena),
+        }
     }
 
     /// Builds an arena, in place of the one that was.
-    fn enter(&mut self, mut scene: Scene) -> Result<Event, Refusal> {
+    fn enter(&mut self, mut scene: Scene, place: usize) -> Result<Event, Refusal> {
         // Each has a world of its own.
         scene.entrants.truncate(MOST_ENTRANTS);
         let arena = Arena::of(&scene, self.library.registry())?;
+        let room = self.arenas.get_mut(place).ok_or("there are two arenas, 0 and 1")?;
         self.number += 1;
-        let fitness = scene.entrants.iter().map(|entrant| entrant.fitness.map(|fitness| fitness.get())).collect();
-        let who = match scene.world {
-            World::Training(_) => "population",
-            World::Judged(_) => "champion",
-        };
-        let (number, generation) = (self.number, scene.generation);
-        let event = Event::Arena { number, who, generation, fitness, data: Box::new(arena.data()) };
-        self.arena = Some(arena);
-        Ok(event)
+        let data = Box::new(arena.data());
+        *room = Some((self.number, arena));
+        let Scene { who, generation, entrants, .. } = scene;
+        let members = entrants.into_iter().map(|entrant| entrant.member).collect();
+        Ok(Event::Arena { arena: place, number: self.number, who, generation, members, data })
+    }
+
+    fn leave(&mut self, place: usize) {
+        if let Some(room) = self.arenas.get_mut(place) {
+            *room = None;
+        }
+        if place == 1 {
+            self.beside = None;
+        }
     }
 
     fn session(&self) -> Result<&Arc<Session>, Refusal> {
         self.session.as_ref().ok_or_else(|| "no run is open".into())
     }
 
-    fn arena(&mut self) -> Result<&mut Arena, Refusal> {
-        self.arena.as_mut().ok_or_else(|| "nothing is shown".into())
+    /// What is in an arena, and the number that it goes by.
+    fn arena(&mut self, place: usize) -> Result<(u32, &mut Arena), Refusal> {
+        let shown = self.arenas.get_mut(place).and_then(Option::as_mut);
+        shown.map(|(number, arena)| (*number, arena)).ok_or_else(|| "nothing is shown".into())
     }
 
     fn control(&mut self, act: impl FnOnce(&Session)) -> Result<Vec<Reply>, Refusal> {
@@ -258,7 +345,7 @@ impl Viewer {
     }
 
     fn meddle(&mut self, act: impl FnOnce(&mut Arena) -> Result<(), Refusal>) -> Result<Vec<Reply>, Refusal> {
-        act(self.arena()?)?;
+        act(self.arena(0)?.1)?;
         Ok(Vec::new())
     }
 }
@@ -274,5 +361,24 @@ fn name_of(message: &str) -> String {
 }
 
 fn entrant(champion: &Champion) -> Entrant {
-    Entrant { network: champion.network.clone(), fitness: Some(champion.fitness) }
+    let member = Member { fitness: Some(champion.fitness), ..Member::default() };
+    Entrant { network: champion.network.clone(), member }
+}
+
+/// A generation, or some of it, in the first of its trials.
+fn scene_of(population: &Population, who: Shown, entrants: Vec<Entrant>) -> Scene {
+    let world = World::Training(Box::new(population.config.clone()));
+    Scene { who, generation: population.generation, world, entrants, seed: population.seed.trial(0) }
+}
+
+/// A champion, perhaps with its ghost, where it is judged.
+fn judged_scene(generation: u64, champion: Champion, entrants: Vec<Entrant>) -> Scene {
+    let world = World::Judged(Box::new(champion));
+    Scene { who: Shown::Champion, generation, world, entrants, seed: Seed::of_run(0) }
+}
+
+fn beside(session: &Session, verdict: Option<Verdict>) -> Reply {
+    let Opened { run, config, unit, .. } = session.opened();
+    let creature = if config.creature.title.is_empty() { config.creature.name } else { config.creature.title };
+    Event::Beside { run, creature, movement: config.movement.name, unit, verdict }.into()
 }

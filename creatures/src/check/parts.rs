@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::{looks, numbers};
 use crate::bounds::{ANGLE, DENSITY, FRICTION, LONGEST_NAME, POSITION, SIZE};
-use crate::names::shortened;
+use crate::names::{is_file_name, shortened};
 use crate::{Creature, Part, Problem};
 
 pub(super) fn check(creature: &Creature, problems: &mut Vec<Problem>) {
@@ -38,9 +38,7 @@ fn check_name(path: &str, field: &str, name: &str, problems: &mut Vec<Problem>) 
 
 /// The name of a creature becomes the name of a folder: nothing in it may be read as a path or an option.
 pub(super) fn check_creature_name(name: &str, problems: &mut Vec<Problem>) {
-    let first_fits = name.chars().next().is_some_and(char::is_alphanumeric);
-    let all_fit = name.chars().all(|c| c.is_alphanumeric() || " -_.".contains(c));
-    if !first_fits || !all_fit || name.chars().count() > LONGEST_NAME {
+    if !is_file_name(name) {
         problems.push(Problem::BadCreatureName { found: shortened(name) });
     }
 }

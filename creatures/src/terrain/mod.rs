@@ -1,12 +1,14 @@
 //! What a creature moves on, as plain data: kinds of obstacles, how large they are, and a seed.
 //!
 //! A terrain says what is to be built, not where: [`sizes`](Obstacles::sizes) turns it into metres for a body, and
-//! `envs-core` lays it out.
+//! `envs-core` lays it out. Only obstacles that were [drawn](DrawnObstacle) have places of their own.
 
+mod drawn;
 mod error;
 mod named;
 mod obstacles;
 
+pub use drawn::DrawnObstacle;
 pub use error::TerrainError;
 pub use named::{TERRAINS, TerrainEntry};
 pub use obstacles::{BodySizes, Direction, ObstacleKind, ObstacleSizes, Obstacles};
@@ -20,7 +22,12 @@ use serde::{Deserialize, Serialize};
 /// { "obstacles": [{ "gaps": {} }, { "stairs": { "rise": 0.1, "direction": "up" } }], "difficulty": 0.3, "seed": 7 }
 /// ```
 ///
-/// Sizes that are not given in metres follow from the difficulty and the body: see [`Obstacles`]. The default is flat.
+/// Sizes that are not given in metres follow from the difficulty and the body: see [`Obstacles`]. The default is flat. Or each obstacle
+/// is given with its place:
+///
+/// ```json
+/// { "drawn": [{ "box": { "from": 2, "width": 1, "height": 0.1 } }, { "slope": { "from": 4, "width": 3, "rise": -0.5 } }] }
+/// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
@@ -44,12 +51,18 @@ pub struct Terrain {
     /// By up to this share each spacing is longer or shorter, 0 to 0.9; default 0.3.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]
     pub jitter: f32,
+    /// Obstacles in their places, in place of `obstacles`: from left to right, at most 200, none within another. The other fields have
+    /// no effect on them.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "schema", schemars(length(max = 200)))]
+    pub drawn: Vec<DrawnObstacle>,
 }
 
 impl Default for Terrain {
     /// Flat.
     fn default() -> Self {
-        Self { obstacles: Vec::new(), difficulty: 0.5, seed: 0, length: 80.0, run_up: None, jitter: 0.3 }
+        let (obstacles, drawn) = (Vec::new(), Vec::new());
+        Self { obstacles, difficulty: 0.5, seed: 0, length: 80.0, run_up: None, jitter: 0.3, drawn }
     }
 }
 
@@ -67,7 +80,7 @@ impl Terrain {
 
     /// Whether it has no obstacles, for any body.
     pub fn is_flat(&self) -> bool {
-        self.obstacles.is_empty()
+        self.obstacles.is_empty() && self.drawn.is_empty()
     }
 
     /// Whether nothing of it was ever set: what files leave out.
@@ -78,7 +91,7 @@ impl Terrain {
     /// Whether its obstacles can differ from seed to seed.
     pub fn has_chance(&self) -> bool {
         let rough = |obstacles: &Obstacles| matches!(obstacles, Obstacles::Rough { .. });
-        !self.is_flat() && (self.jitter > 0.0 || self.obstacles.iter().any(rough))
+        !self.obstacles.is_empty() && (self.jitter > 0.0 || self.obstacles.iter().any(rough))
     }
 
     /// The level ground before the first obstacle, m.
@@ -103,7 +116,18 @@ impl Terrain {
         check("difficulty", self.difficulty, TERRAIN_DIFFICULTY)?;
         check("length", self.length, TERRAIN_LENGTH)?;
         check("jitter", self.jitter, TERRAIN_JITTER)?;
-        self.run_up.map_or(Ok(()), |run_up| check("run_up", run_up, TERRAIN_RUN_UP))
+        self.run_up.map_or(Ok(()), |run_up| check("run_up", run_up, TERRAIN_RUN_UP))?;
+        self.drawn_problems().into_iter().next().map_or(Ok(()), Err)
+    }
+
+    /// All that is wrong with the obstacles that were drawn, for an editor; of everything else [`validate`](Self::validate) names the first.
+    pub fn drawn_problems(&self) -> Vec<TerrainError> {
+        let mut problems = drawn::problems(&self.drawn);
+        if !self.drawn.is_empty() && !self.obstacles.is_empty() {
+            let found = format!("{} obstacles", self.drawn.len());
+            problems.push(TerrainError::new("drawn", found, "empty where there are `obstacles`"));
+        }
+        problems
     }
 }
 

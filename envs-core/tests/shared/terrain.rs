@@ -1,7 +1,7 @@
 //! Terrains laid out for a body.
 
 use crate::puppet::Puppet;
-use creatures::{Blueprint, BodySizes, Direction, ObstacleKind, Obstacles, TERRAINS, Terrain};
+use creatures::{Blueprint, BodySizes, Direction, DrawnObstacle, ObstacleKind, Obstacles, TERRAINS, Terrain};
 use envs_core::{CreatureEnvironment, Ground, GroundShape, Landscape, PhysicsSettings, Variation, next_gap};
 
 fn blueprint(name: &str) -> Blueprint {
@@ -120,6 +120,46 @@ fn slopes_are_as_steep_as_asked_and_meet_the_level_ground() {
             before = now;
         }
     }
+}
+
+#[test]
+fn what_is_drawn_stands_where_it_was_drawn() {
+    let drawn = vec![
+        DrawnObstacle::Box { from: 1.0, width: 0.5, height: 0.2 },
+        DrawnObstacle::Box { from: 1.5, width: 0.5, height: 0.4 },
+        DrawnObstacle::Slope { from: 3.0, width: 2.0, rise: 1.0 },
+        DrawnObstacle::Gap { from: 6.0, width: 0.6 },
+        DrawnObstacle::Slope { from: 6.6, width: 1.0, rise: -1.5 },
+        DrawnObstacle::Box { from: 9.0, width: 1.0, height: 0.1 },
+    ];
+    let terrain = Terrain { drawn, ..Terrain::default() };
+    for name in ["tetrapod-2", "apod"] {
+        let front = BodySizes::of(&blueprint(name)).front;
+        let Landscape { ground, obstacles } = lay_out(&terrain, name);
+        assert_eq!(ground.validate(), Ok(()));
+        let heights = [
+            (0.5, 0.0),
+            (1.25, 0.2),
+            (1.75, 0.4),
+            (2.5, 0.0),
+            (4.0, 0.5),
+            (5.5, 1.0),
+            (7.1, 0.25),
+            (8.5, -0.5),
+            (9.5, -0.4),
+            (400.0, -0.5),
+        ];
+        for (at, height) in heights {
+            let found = surface(&ground, front + at);
+            assert!((found - height).abs() < 1e-4, "{name}: {found} m at {at} m");
+        }
+        assert!(surface(&ground, front + 6.3) <= -1.5, "a pit is deep, wherever it is");
+        let kinds: Vec<_> = obstacles.iter().map(|obstacle| obstacle.kind.name()).collect();
+        assert_eq!(kinds, ["hurdles", "hurdles", "slopes", "gaps", "slopes", "hurdles"]);
+        assert_eq!((obstacles[3].from, obstacles[3].to), (front + 6.0, front + 6.6));
+    }
+    let [one, other] = [0, 1].map(|seed| Landscape::new(&terrain, seed, &blueprint("apod")));
+    assert_eq!(one, other, "nothing of it is chance");
 }
 
 #[test]

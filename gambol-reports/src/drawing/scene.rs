@@ -3,7 +3,7 @@
 use super::{
     axis::ticks,
     canvas::{Canvas, GROUND, GROUND_LINE, QUIET, lines},
-    corners::corners,
+    corners::outlines,
     creature::View,
     text::{Anchor, Style},
 };
@@ -16,14 +16,14 @@ const ROOM_FOR_NUMBER: f64 = 90.0;
 /// All shapes as one: outlines first, so that what lies inside another shape is covered.
 pub(crate) fn draw_ground(canvas: &mut Canvas, view: &View, ground: &Ground) {
     let (right, below) = (canvas.width() + 10.0, canvas.height() + 10.0);
-    let outline = |shape| match corners(shape) {
+    let on_screen = |outline: Result<Vec<[f32; 2]>, f32>| match outline {
         Ok(corners) => corners.into_iter().map(|corner| view.point(corner)).collect(),
         Err(height) => {
             let top = view.point([0.0, height])[1];
             vec![[-10.0, top], [right, top], [right, below.max(top)], [-10.0, below.max(top)]]
         }
     };
-    let shapes = ground.shapes.iter().map(outline);
+    let shapes = outlines(ground).map(on_screen);
     let is_seen = |points: &Vec<[f32; 2]>| {
         let beyond = |outside: &dyn Fn(&[f32; 2]) -> bool| points.iter().all(outside);
         !(beyond(&|point| point[0] < -5.0) || beyond(&|point| point[0] > right) || beyond(&|point| point[1] > below))

@@ -1,6 +1,6 @@
 //! Ground that is not flat, for the page.
 
-use crate::drawing::corners::corners;
+use crate::drawing::corners::outlines;
 use envs_core::Ground;
 use serde::Serialize;
 
@@ -23,8 +23,8 @@ impl GroundData {
             return None;
         }
         let mut data = Self { floor: None, shapes: Vec::new(), water: *ground == Ground::none() };
-        for shape in &ground.shapes {
-            match corners(shape) {
+        for outline in outlines(ground) {
+            match outline {
                 Ok(corners) => {
                     let ahead = corners.iter().all(|corner| corner[0] > to);
                     if !ahead && corners.iter().any(|corner| corner[0] > from) {
@@ -48,6 +48,16 @@ fn millimetres(place: f32) -> i32 {
 mod tests {
     use super::*;
     use envs_core::GroundShape;
+
+    #[test]
+    fn there_is_ground_below_slanted_ground() {
+        let slab = GroundShape::Slab { x: 0.0, y: 0.0, width: 2.0, height: 1.0, angle: 0.5 };
+        let data = GroundData::new(&Ground { shapes: vec![GroundShape::Floor { y: -3.0 }, slab] }, [-9.0, 9.0]);
+        let data = data.expect("it is not flat");
+        assert_eq!(data.shapes.len(), 1);
+        let (low, high) = (data.shapes[0].iter().skip(1).step_by(2).min(), data.shapes[0][1]);
+        assert!(low == Some(&-3000) && (-100..0).contains(&high), "{:?}", data.shapes);
+    }
 
     #[test]
     fn water_is_told_from_ground() {

@@ -219,7 +219,8 @@ pub(super) fn terrain(terrain: &Terrain, physics: &PhysicsSettings) -> String {
     }
     let kinds: Vec<&str> = terrain.obstacles.iter().map(|obstacles| obstacles.kind().name()).collect();
     match kinds.is_empty() {
-        true => "flat".into(),
+        true if terrain.is_flat() => "flat".into(),
+        true => format!("drawn, {} obstacles", terrain.drawn.len()),
         false => format!("{}, difficulty {}, seed {}", kinds.join(" + "), terrain.difficulty, terrain.seed),
     }
 }

@@ -3,7 +3,7 @@
 use super::{NetStrategy, Transfer};
 use crate::config::StrategySettings;
 use ne_core::{
-    Checkpoint, Evaluation, Fitness, FrontPoint, Genome, Seed, SettingError, SpeciesReport, Statistic, Strategy,
+    Checkpoint, Evaluation, Fitness, FrontPoint, Genome, Origin, Seed, SettingError, SpeciesReport, Statistic, Strategy,
 };
 use ne_net::{Network, Topology};
 use serde::{Serialize, Serializer};
@@ -77,6 +77,8 @@ trait Erased: erased_serde::Serialize + Send {
     fn tell(&mut self, evaluations: &[Evaluation], seed: Seed);
     fn statistics(&self) -> Vec<Statistic>;
     fn species(&self) -> Vec<SpeciesReport>;
+    fn memberships(&self) -> Vec<u64>;
+    fn origins(&self) -> &[Origin];
     fn front(&self) -> Option<&[Compromise]>;
     fn has_settings(&self, settings: &StrategySettings) -> bool;
     fn transfer(self: Box<Self>, settings: &StrategySettings, to: &Transfer<'_>) -> Result<AnyStrategy, SettingError>;
@@ -149,6 +151,14 @@ impl<S: NetStrategy> Erased for Held<S> {
         self.strategy.species()
     }
 
+    fn memberships(&self) -> Vec<u64> {
+        self.strategy.memberships()
+    }
+
+    fn origins(&self) -> &[Origin] {
+        self.strategy.origins()
+    }
+
     fn front(&self) -> Option<&[Compromise]> {
         self.front.as_deref()
     }
@@ -198,6 +208,14 @@ impl Strategy for AnyStrategy {
 
     fn species(&self) -> Vec<SpeciesReport> {
         self.0.species()
+    }
+
+    fn memberships(&self) -> Vec<u64> {
+        self.0.memberships()
+    }
+
+    fn origins(&self) -> &[Origin] {
+        self.0.origins()
     }
 
     fn front(&self) -> Option<Vec<FrontPoint<'_, AnyGenome>>> {

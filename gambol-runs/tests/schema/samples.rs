@@ -170,6 +170,13 @@ fn everyday() -> Vec<(String, Value)> {
             })),
         ),
         (
+            "drawn terrain".into(),
+            changed(json!({ "terrain": { "drawn": [
+            { "box": { "from": 2, "width": 1, "height": 0.2 } }, { "gap": { "from": 4, "width": 0.5 } },
+            { "slope": { "from": 6, "width": 2, "rise": -0.5 } },
+        ] } })),
+        ),
+        (
             "rungs".into(),
             changed(json!({
                 "trials": { "count": 4 },
@@ -401,6 +408,10 @@ pub(crate) const LISTS: &[(&str, WithList)] = &[
     }),
     ("/$defs/Terrain/properties/obstacles", |count| {
         changed(json!({ "terrain": { "obstacles": many(count, |_| json!({ "hurdles": {} })) } }))
+    }),
+    ("/$defs/Terrain/properties/drawn", |count| {
+        let gap = |index: usize| json!({ "gap": { "from": 2 * index, "width": 0.5 } });
+        changed(json!({ "terrain": { "drawn": many(count, gap) } }))
     }),
     ("/$defs/Commands/oneOf/given", |count| {
         changed(json!({ "commands": { "given": many(count, |index| json!({ "time": index })) } }))

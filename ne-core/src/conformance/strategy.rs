@@ -5,7 +5,7 @@ use super::{
     genome::{from_json, to_json},
     strategy_run::{Results, Told, generation, run, same},
 };
-use crate::{Seed, Strategy};
+use crate::{Origin, Seed, Strategy};
 use serde::de::DeserializeOwned;
 use std::collections::BTreeSet;
 
@@ -23,6 +23,12 @@ pub const SHAPE: Promise = Promise::new("strategy", "all genomes express phenoty
 pub const STATISTICS: Promise = Promise::new(
     "strategy",
     "statistics are finite and have the same names, once each, in the same order each generation",
+);
+/// Who is from where.
+pub const DESCENT: Promise = Promise::new(
+    "strategy",
+    "origins and memberships are one for each genome or none; parents are of the generation before, copies like them; \
+     species are as large as their members are many",
 );
 /// The same again.
 pub const DETERMINISTIC: Promise = Promise::new("strategy", "the same seed and results give the same run");
@@ -45,6 +51,7 @@ pub const PROMISES: &[Promise] = &[
     POPULATION,
     SHAPE,
     STATISTICS,
+    DESCENT,
     DETERMINISTIC,
     USES_SEED,
     RESUMES,
@@ -94,6 +101,7 @@ pub fn check_strategy<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned>(
     POPULATION.check(|| populations(&plain, size_varies))?;
     SHAPE.check(|| shapes(&plain))?;
     STATISTICS.check(|| statistics(&plain))?;
+    DESCENT.check(|| descent(&plain))?;
     plain.first().into_iter().chain(plain.last()).try_for_each(|told| check_genome(&told.sample))?;
     RESUMES.check(|| {
         let resumed = run_reloading(make(), seed, generations)?;
@@ -165,6 +173,36 @@ fn statistics<G>(run: &[Told<G>]) -> Result<(), String> {
         }
         if let Some((name, value)) = told.statistics.iter().find(|(_, value)| !value.is_finite()) {
             return Err(format!("{name} is {value}"));
+        }
+    }
+    Ok(())
+}
+
+fn descent<G>(run: &[Told<G>]) -> Result<(), String> {
+    let none: &[String] = &[];
+    for (generation, told) in (1..).zip(run) {
+        let before = if generation == 1 { none } else { &run[generation - 2].genomes };
+        let size = told.genomes.len();
+        for (what, count) in [("origins", told.origins.len()), ("memberships", told.memberships.len())] {
+            if count != 0 && count != size {
+                return Err(format!("{count} {what} of {size} genomes in generation {generation}"));
+            }
+        }
+        for (origin, genome) in told.origins.iter().zip(&told.genomes) {
+            if let Some(place) = origin.parents().find(|&place| place >= before.len()) {
+                return Err(format!("a parent at place {place} of {} before generation {generation}", before.len()));
+            }
+            if let Origin::Copy(place) = *origin
+                && before[place as usize] != *genome
+            {
+                return Err(format!("in generation {generation} a copy is not like the one at place {place}"));
+            }
+        }
+        for species in told.species.iter().filter(|_| !told.memberships.is_empty()) {
+            let members = told.memberships.iter().filter(|&&id| id == species.id).count() as u64;
+            if members != species.size {
+                return Err(format!("species {} has {} individuals, and {members} members", species.id, species.size));
+            }
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 use super::genome::to_json;
 use super::probe::Behaviour;
-use crate::{Evaluation, Failure, Genome, Phenotype, Seed, Strategy};
+use crate::{Evaluation, Failure, Genome, Origin, Phenotype, Seed, SpeciesReport, Strategy};
 
 /// What a strategy did in one generation, as text that tells every bit.
 #[derive(Clone, Debug)]
@@ -15,6 +15,9 @@ pub(super) struct Told<G> {
     pub(super) shapes: Vec<(usize, usize)>,
     /// Name and value of each.
     pub(super) statistics: Vec<(String, f64)>,
+    pub(super) origins: Vec<Origin>,
+    pub(super) memberships: Vec<u64>,
+    pub(super) species: Vec<SpeciesReport>,
 }
 
 /// How many genomes of a generation are kept as they are.
@@ -77,6 +80,9 @@ pub(super) fn generation<S: Strategy>(
         shapes: genomes.iter().map(shape).collect(),
         genomes: genomes.iter().map(to_json).collect::<Result<_, _>>()?,
         statistics: strategy.statistics().into_iter().map(|statistic| (statistic.name, statistic.value)).collect(),
+        origins: strategy.origins().to_vec(),
+        memberships: strategy.memberships(),
+        species: strategy.species(),
     })
 }
 

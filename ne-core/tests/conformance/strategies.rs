@@ -3,7 +3,7 @@ use crate::{
     common::{Climber, Weights},
 };
 use ne_core::{
-    Evaluation, Seed, Statistic, Strategy,
+    Evaluation, Origin, Seed, SpeciesReport, Statistic, Strategy,
     conformance::{StrategyOptions, check_strategy, genome, strategy::*},
 };
 use serde::{Deserialize, Serialize};
@@ -17,6 +17,8 @@ struct Flawed {
     asked: Vec<Weights>,
     #[serde(skip)]
     unsaved: u32,
+    #[serde(skip)]
+    origins: Vec<Origin>,
     failed: bool,
     extreme: bool,
     restless: f32,
@@ -33,6 +35,10 @@ enum Flaw {
     StatisticNan,
     StatisticComesAndGoes,
     StatisticTwice,
+    OriginsOfFew,
+    OrphanWithParents,
+    CopyThatDiffers,
+    SpeciesOfNobody,
     AskedByChance,
     IgnoresSeed,
     ForgetsInFile,
@@ -49,7 +55,8 @@ impl Flawed {
     fn new(flaw: Flaw) -> Self {
         let restless = if flaw == Flaw::CannotBeReadBack { f32::INFINITY } else { 0.0 };
         let inner = Climber::new(6);
-        Self { inner, flaw, asked: Vec::new(), unsaved: 0, failed: false, extreme: false, restless }
+        let (asked, origins) = (Vec::new(), Vec::new());
+        Self { inner, flaw, asked, unsaved: 0, origins, failed: false, extreme: false, restless }
     }
 }
 
@@ -78,6 +85,13 @@ impl Strategy for Flawed {
             Flaw::NanAtExtremes if self.extreme => self.asked[2].0.push(f32::NAN),
             _ => {}
         }
+        let count = self.asked.len();
+        self.origins = match self.flaw {
+            Flaw::OriginsOfFew => vec![Origin::New; count - 1],
+            Flaw::OrphanWithParents => vec![Origin::Child([0, 1]); count],
+            Flaw::CopyThatDiffers if generation == 2 => vec![Origin::Copy(1); count],
+            _ => Vec::new(),
+        };
         &self.asked
     }
 
@@ -100,6 +114,19 @@ impl Strategy for Flawed {
         }
         statistics
     }
+
+    fn origins(&self) -> &[Origin] {
+        &self.origins
+    }
+
+    fn memberships(&self) -> Vec<u64> {
+        if self.flaw == Flaw::SpeciesOfNobody { vec![1; self.asked.len()] } else { Vec::new() }
+    }
+
+    fn species(&self) -> Vec<SpeciesReport> {
+        let best = None;
+        if self.flaw == Flaw::SpeciesOfNobody { vec![SpeciesReport { id: 2, size: 1, best }] } else { Vec::new() }
+    }
 }
 
 #[test]
@@ -116,6 +143,10 @@ fn broken_strategies_are_caught() {
         (STATISTICS, "a statistic is NaN", check(Flaw::StatisticNan)),
         (STATISTICS, "a statistic comes and goes", check(Flaw::StatisticComesAndGoes)),
         (STATISTICS, "a statistic twice", check(Flaw::StatisticTwice)),
+        (DESCENT, "fewer origins than genomes", check(Flaw::OriginsOfFew)),
+        (DESCENT, "parents of the first generation", check(Flaw::OrphanWithParents)),
+        (DESCENT, "copies that differ", check(Flaw::CopyThatDiffers)),
+        (DESCENT, "species without members", check(Flaw::SpeciesOfNobody)),
         (DETERMINISTIC, "asks by chance of its own", check(Flaw::AskedByChance)),
         (USES_SEED, "ignores the seed", check(Flaw::IgnoresSeed)),
         (RESUMES, "forgets in a file", check(Flaw::ForgetsInFile)),

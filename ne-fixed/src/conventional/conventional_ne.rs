@@ -4,7 +4,7 @@ use crate::{
     diversity::diversity,
     nets::{Nets, Parents, begin, check_growth},
 };
-use ne_core::{Evaluation, Fitness, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
+use ne_core::{Evaluation, Fitness, Origin, Purpose, Seed, Selection, Selector, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
 use rand::RngExt;
 use serde::Deserialize;
@@ -47,6 +47,8 @@ pub struct ConventionalNe<S = Selection, C = CrossoverChoice, M = MutationChoice
     /// Generations since `best` was beaten.
     pub(super) stagnation: u64,
     pub(super) distinct_parents: usize,
+    /// Of the generation last asked.
+    pub(super) origins: Vec<Origin>,
 }
 
 impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
@@ -63,6 +65,7 @@ impl<S: Setting, C: Setting, M: Setting> ConventionalNe<S, C, M> {
             best: None,
             stagnation: 0,
             distinct_parents: 0,
+            origins: Vec::new(),
         })
     }
 
@@ -127,8 +130,8 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         *individual.genes_mut().1 = self.settings.mutation.initial_deviation();
     }
 
-    /// The best parents, best first.
-    fn elites(&self) -> Vec<WeightVector> {
+    /// The places of the best parents, best first.
+    fn elites(&self) -> Vec<usize> {
         let count = self.settings.elites;
         if count == 0 {
             return Vec::new();
@@ -138,12 +141,12 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         order.select_nth_unstable_by_key(count - 1, rank);
         order.truncate(count);
         order.sort_unstable_by_key(rank);
-        order.into_iter().map(|index| self.parents.nets[index].clone()).collect()
+        order
     }
 
     /// Children of parents that are selected two for each. A parent's weights are dropped once its last child is bred: two whole
     /// generations of a large population are more than its evaluation needs.
-    fn children(&mut self, count: usize, seed: Seed, mut add: impl FnMut(WeightVector)) {
+    fn children(&mut self, count: usize, seed: Seed, mut add: impl FnMut(WeightVector, Origin)) {
         let mut chosen = Vec::with_capacity(2 * count);
         let mut stream = seed.stream(PARENTS);
         self.settings.selection.select(&self.parents.scores, 2 * count, &mut stream, &mut chosen);
@@ -155,7 +158,8 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         others.for_each(|(other, _)| other.drop_weights());
         let strength = self.mutation_strength() as f32;
         for (index, parents) in (self.settings.elites..).zip(chosen.chunks_exact(2)) {
-            add(self.breed(parents, strength, seed.individual(index as u64)));
+            let (child, origin) = self.breed(parents, strength, seed.individual(index as u64));
+            add(child, origin);
             for &parent in parents {
                 uses[parent] -= 1;
                 if uses[parent] == 0 {
@@ -165,20 +169,22 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> ConventionalNe<S, C, M> {
         }
     }
 
-    /// The child of two parents.
-    fn breed(&self, parents: &[usize], strength: f32, seed: Seed) -> WeightVector {
+    /// The child of two parents, or of the first alone.
+    fn breed(&self, parents: &[usize], strength: f32, seed: Seed) -> (WeightVector, Origin) {
         let (first, second) = (&self.parents.nets[parents[0]], &self.parents.nets[parents[1]]);
         let mut stream = seed.stream(REPRODUCTION);
         let mut child = first.clone();
+        let mut origin = Origin::Child([parents[0] as u32; 2]);
         if stream.random::<f64>() < self.settings.crossover_rate {
             child = WeightVector::zero(self.nets.topology.clone());
             let (weights, deviation) = child.genes_mut();
             self.settings.crossover.cross(first.weights(), second.weights(), weights, &mut stream);
             *deviation = 0.5 * (first.mutation_deviation() + second.mutation_deviation());
+            origin = Origin::Child([parents[0] as u32, parents[1] as u32]);
         }
         let (weights, deviation) = child.genes_mut();
         self.settings.mutation.mutate(weights, deviation, strength, &mut stream);
-        child
+        (child, origin)
     }
 }
 
@@ -201,11 +207,20 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
         let ConventionalNeSettings { population: size, elites, immigrants, .. } = self.settings;
         let is_first = self.parents.nets.is_empty();
         let mut population = Vec::with_capacity(size);
+        let mut origins = Vec::with_capacity(size);
         if !is_first {
-            population.extend(self.elites());
-            self.children(size - elites - immigrants, seed, |child| population.push(child));
+            for place in self.elites() {
+                population.push(self.parents.nets[place].clone());
+                origins.push(Origin::Copy(place as u32));
+            }
+            self.children(size - elites - immigrants, seed, |child, origin| {
+                population.push(child);
+                origins.push(origin);
+            });
             self.parents.nets = Vec::new();
         }
+        origins.resize(size, Origin::New);
+        self.origins = origins;
         // In later generations these are immigrants, which are drawn.
         let start = if is_first { self.parents.start.as_slice() } else { &[] };
         for index in population.len()..size {
@@ -227,6 +242,10 @@ impl<S: Setting + Selector, C: Crossover, M: Mutation> Strategy for Conventional
         let best = self.parents.scores.iter().copied().max().flatten();
         self.stagnation = if best > self.best { 0 } else { self.stagnation + 1 };
         self.best = self.best.max(best);
+    }
+
+    fn origins(&self) -> &[Origin] {
+        &self.origins
     }
 
     fn statistics(&self) -> Vec<Statistic> {

@@ -1,0 +1,94 @@
+// The champion of another run, beside what is shown of the open one: on a ground of its own, at the same pace.
+
+class Beside {
+  // `showAgain`: shows what is beside it from the start.
+  constructor(connection, arena, showAgain) {
+    Object.assign(this, { connection, beside: arena, showAgain });
+    this.select = document.getElementById("show-beside");
+    this.stage = document.getElementById("beside-stage");
+    this.arena = new Arena(document.getElementById("beside-canvas"), connection, 1);
+    this.readouts = new Readouts(document.getElementById("beside-readouts"));
+    this.select.addEventListener("change", () => this.choose());
+    // A run that is being trained may have a champion by now.
+    for (const kind of ["focus", "pointerenter"]) this.select.addEventListener(kind, () => connection.ask({ do: "look" }));
+    connection.on("catalogue", ({ runs }) => this.fill(runs));
+    connection.on("beside", event => this.tell(event));
+    connection.on("opened", () => this.end());
+  }
+
+  get run() { return this.select.value; }
+
+  fill(runs) {
+    const chosen = this.run;
+    const names = runs.filter(({ fitness }) => fitness !== null).map(({ run }) => run);
+    const shown = [...this.select.options].slice(1).map(option => option.value);
+    if (names.join("/") === shown.join("/")) return;
+    const options = names.map(run => { const option = element("option", run); option.value = run; return option; });
+    this.select.replaceChildren(this.select.options[0], ...options);
+    this.select.value = names.includes(chosen) ? chosen : "";
+    if (chosen && !this.run) this.end();
+  }
+
+  choose() {
+    this.stage.hidden = !this.run;
+    if (this.run) this.showAgain(); else this.end();
+  }
+
+  // From the start, together with the other.
+  show() {
+    if (this.run && !this.stage.hidden) this.connection.ask({ do: "show", who: "champion", run: this.run, arena: 1 });
+  }
+
+  end() {
+    if (!this.stage.hidden) this.connection.ask({ do: "leave", arena: 1 });
+    this.stage.hidden = true;
+    this.select.value = "";
+    this.arena.leave();
+  }
+
+  // In other chapters it is not there.
+  setVisible(on) {
+    this.stage.hidden = !on || !this.run;
+    this.select.closest("label").hidden = !on;
+  }
+
+  tell({ creature, movement, verdict }) {
+    document.getElementById("beside-caption").textContent = `${creature} · ${movement}`;
+    const known = verdict && verdict.usable !== null;
+    const text = document.getElementById("beside-verdict");
+    text.textContent = !known ? "Not judged yet" : verdict.usable ? "Usable" : `Not usable yet: ${verdict.against.join("; ")}`;
+    text.className = `verdict ${!known ? "verdict-none" : verdict.usable ? "verdict-good" : "verdict-bad"}`;
+  }
+
+  draw(seconds) {
+    const { arena, beside } = this;
+    if (this.stage.hidden || !arena.visible) return;
+    Object.assign(arena, { playing: beside.playing, speed: beside.speed, zoom: beside.zoom });
+    arena.tick(seconds);
+    arena.draw();
+    this.readouts.show(arena);
+  }
+}
+
+// How far the followed creature has come.
+class Readouts {
+  constructor(list) {
+    this.numbers = {};
+    for (const [name, unit] of [["time", "s"], ["distance", "m"], ["height", "m"]]) {
+      const group = element("div");
+      const value = element("dd");
+      this.numbers[name] = element("span", "–");
+      value.append(this.numbers[name], `\u00a0${unit}`);
+      group.append(element("dt", name), value);
+      list.append(group);
+    }
+  }
+
+  show(arena) {
+    if (!arena.now) return;
+    const at = Math.min(arena.followed, arena.now.actors - 1) * arena.now.size;
+    this.numbers.time.textContent = fixed(arena.seconds, 1);
+    this.numbers.distance.textContent = fixed(arena.now.poses[at] - arena.origin, 2);
+    this.numbers.height.textContent = fixed(arena.now.poses[at + 1], 2);
+  }
+}

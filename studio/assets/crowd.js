@@ -1,0 +1,93 @@
+// A crowd: half-transparent creatures. Each part is painted once, and then only placed, on a picture of their own. Sixty
+// pictures a second of a hundred creatures are too many to paint.
+
+// How much of one of a crowd is seen.
+const FAINT = 0.2;
+
+// The same where its colour is to be told.
+const CLEAR = 0.34;
+
+// The same of a few.
+const HALF = 0.5;
+
+// A crowd of more than so many is drawn with half the pixels each way.
+const LARGE_CROWD = 24;
+
+// So many colours tell groups apart; more could not be told from each other.
+const TINTS = 12;
+
+// The colour of a group; neighbours among the numbers are far apart among the colours.
+function tintOf(group) { return group * 5 % TINTS; }
+
+function tintColour(tint) { return `hsl(${tint * 360 / TINTS} 62% ${tint % 2 ? 46 : 58}%)`; }
+
+class Crowd {
+  constructor(model, creature) {
+    this.model = model;
+    // What each part takes, shape and decorations: left, bottom, right, top.
+    this.boxes = creature.parts.map(part => {
+      const [x, y] = [0, 1].map(axis => corners(part).map(corner => corner[axis]));
+      return [Math.min(...x), Math.min(...y), Math.max(...x), Math.max(...y)];
+    });
+    this.scale = 0;
+    this.canvas = document.createElement("canvas");
+    this.context = this.canvas.getContext("2d");
+  }
+
+  // An empty picture for so many. Parts are painted anew where they would be seen much larger or smaller than they are.
+  begin(stage, count) {
+    this.share = stage.ratio * (count > LARGE_CROWD ? 0.5 : 1);
+    const [width, height] = [Math.ceil(stage.width * this.share), Math.ceil(stage.height * this.share)];
+    if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
+    this.context.setTransform(1, 0, 0, 1, 0, 0);
+    this.context.clearRect(0, 0, width, height);
+    const wanted = stage.scale * this.share;
+    if (wanted < this.scale * 1.2 && wanted > this.scale * 0.6) return;
+    this.scale = wanted;
+    this.painted = new Map();
+  }
+
+  // The parts in one colour, or in their own.
+  pictures(tint) {
+    if (!this.painted.has(tint)) this.painted.set(tint, this.model.order.map(part => this.paint(part, tint)));
+    return this.painted.get(tint);
+  }
+
+  paint(part, tint) {
+    const canvas = document.createElement("canvas");
+    const [left, bottom, right, top] = this.boxes[part.index];
+    canvas.width = Math.ceil((right - left) * this.scale) + 4;
+    canvas.height = Math.ceil((top - bottom) * this.scale) + 4;
+    const [x, y] = [2 - left * this.scale, 2 + top * this.scale];
+    const c = canvas.getContext("2d");
+    c.setTransform(this.scale, 0, 0, -this.scale, x, y);
+    c.lineJoin = c.lineCap = "round";
+    c.globalAlpha = part.opacity;
+    c.fillStyle = tint === undefined ? part.colour : tintColour(tint);
+    c.fill(part.path);
+    // A colour says more than a face.
+    if (tint === undefined) for (const { path, fill, stroke, width } of part.decorations) {
+      if (fill) { c.fillStyle = fill; c.fill(path); }
+      if (stroke) { c.lineWidth = width; c.strokeStyle = stroke; c.stroke(path); }
+    }
+    return { canvas, x, y, at: part.index * 3 };
+  }
+
+  draw(stage, pose, tint, few = false) {
+    const c = this.context;
+    const size = stage.scale * this.share / this.scale;
+    c.globalAlpha = few ? HALF : tint === undefined ? FAINT : CLEAR;
+    for (const { canvas, x, y, at } of this.pictures(tint)) {
+      const cos = Math.cos(pose[at + 2]) * size;
+      const sin = Math.sin(pose[at + 2]) * size;
+      c.setTransform(cos, -sin, sin, cos, stage.screenX(pose[at]) * this.share, stage.screenY(pose[at + 1]) * this.share);
+      c.drawImage(canvas, -x, -y);
+    }
+    c.globalAlpha = 1;
+  }
+
+  end(stage) {
+    stage.resetTransform();
+    stage.context.drawImage(this.canvas, 0, 0, this.canvas.width / this.share, this.canvas.height / this.share);
+  }
+}
