@@ -29,7 +29,7 @@ fn any_obstacles() -> impl Strategy<Value = Obstacles> {
 }
 
 fn any_drawn() -> impl Strategy<Value = Vec<DrawnObstacle>> {
-    let one = (0..3, 0.0..2.0_f32, 0.1..2.0_f32, -0.9..0.9_f32);
+    let one = (0..3, 0.0..2.0_f32, 0.3..2.0_f32, -0.9..0.9_f32);
     prop::collection::vec(one, 0..6).prop_map(|all| {
         let mut end = 0.0;
         let place = |(kind, before, width, size): (i32, f32, f32, f32)| {

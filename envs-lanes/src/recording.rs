@@ -29,6 +29,11 @@ pub fn play(
     plays: &[Play<'_>],
     mut observe: impl FnMut(usize, &Snapshot) -> bool,
 ) -> Vec<Outcome> {
+    play_all(environment, plays, &mut observe)
+}
+
+/// The same for any observer, so that the lanes are compiled once, here.
+fn play_all(environment: &LaneEnvironment, plays: &[Play<'_>], observe: Observer<'_>) -> Vec<Outcome> {
     let failure = |play: &Play<'_>| check_shape(environment, play.network).err();
     let begun = |play: &Play<'_>| Outcome { steps: 0, time_step: play.start.time_step, failure: failure(play) };
     let mut outcomes: Vec<Outcome> = plays.iter().map(begun).collect();
@@ -42,7 +47,7 @@ pub fn play(
         let (alike, others): (Vec<usize>, Vec<usize>) = waiting.into_iter().partition(is_like);
         let batch = Batch::new(environment, first, common.as_ref(), Instructions::best());
         let slots = (0..LANES).map(|_| None).collect();
-        Recorder { plays, batch, slots, waiting: alike.into_iter() }.play(&mut observe, &mut outcomes);
+        Recorder { plays, batch, slots, waiting: alike.into_iter() }.play(observe, &mut outcomes);
         waiting = others;
     }
     outcomes
@@ -57,6 +62,8 @@ fn check_shape(environment: &LaneEnvironment, network: &Network) -> Result<(), F
         Err(Failure::ShapeMismatch { found_inputs, found_outputs, inputs, outputs })
     }
 }
+
+type Observer<'a> = &'a mut dyn FnMut(usize, &Snapshot) -> bool;
 
 /// Plays going on side by side.
 struct Recorder<'a> {
@@ -75,7 +82,7 @@ struct Slot {
 }
 
 impl Recorder<'_> {
-    fn play(&mut self, observe: &mut impl FnMut(usize, &Snapshot) -> bool, outcomes: &mut [Outcome]) {
+    fn play(&mut self, observe: Observer<'_>, outcomes: &mut [Outcome]) {
         for lane in 0..LANES {
             self.slot_next(lane, observe);
         }
@@ -101,7 +108,7 @@ impl Recorder<'_> {
     }
 
     /// Begins the next play that lasts longer than its start.
-    fn slot_next(&mut self, lane: usize, observe: &mut impl FnMut(usize, &Snapshot) -> bool) {
+    fn slot_next(&mut self, lane: usize, observe: Observer<'_>) {
         self.slots[lane] = None;
         for index in self.waiting.by_ref() {
             let Play { network, start, steps } = self.plays[index];

@@ -1,6 +1,6 @@
 //! Ground made of several shapes: the lanes against rapier, to the bit.
 
-use creatures::{Blueprint, Creature, Sensor, Shape, TERRAINS, Terrain};
+use creatures::{Blueprint, Creature, DrawnObstacle, Sensor, Shape, TERRAINS, Terrain};
 use envs_core::{Conditions, Engine, Ground, GroundShape, PhysicsSettings, Variation};
 use envs_lanes::{LaneEngine, LaneEnvironment, LaneEpisode};
 use envs_rapier::{RapierEnvironment, RapierWorld};
@@ -128,6 +128,19 @@ fn crowded(name: &str) -> Terrain {
     Terrain { run_up: Some(0.1), length: 12.0, seed: 3, ..terrain.with_difficulty(0.35) }
 }
 
+/// All that can be drawn, some side by side.
+fn drawn() -> Terrain {
+    let drawn = vec![
+        DrawnObstacle::Box { from: 0.1, width: 0.5, height: 0.06 },
+        DrawnObstacle::Slope { from: 0.6, width: 1.0, rise: 0.2 },
+        DrawnObstacle::Slope { from: 1.6, width: 0.5, rise: -0.3 },
+        DrawnObstacle::Gap { from: 2.1, width: 0.3 },
+        DrawnObstacle::Box { from: 2.4, width: 0.3, height: 0.05 },
+        DrawnObstacle::Box { from: 2.7, width: 0.3, height: 0.1 },
+    ];
+    Terrain { drawn, ..Terrain::default() }
+}
+
 fn sensors(blueprint: &Blueprint) -> Vec<Sensor> {
     let mut sensors = vec![
         Sensor::TorsoHeight,
@@ -165,9 +178,10 @@ fn creatures_move_on_every_terrain_as_in_rapier() {
     let named = |name: &str| creatures::find(name).expect("shipped");
     let discs = rounded(|[width, height]| Shape::Circle { radius: 0.25 * (width + height) });
     let everyone = [named("tetrapod-2"), named("apod"), discs].map(|one| Blueprint::new(one).expect("valid"));
-    for entry in TERRAINS {
+    let named = TERRAINS.iter().map(|entry| (entry.name, crowded(entry.name)));
+    for (name, terrain) in named.chain([("drawn", drawn())]) {
         let reached = everyone.iter().filter(|blueprint| {
-            let (terrain, front) = (crowded(entry.name), blueprint.bounding_box()[2]);
+            let front = blueprint.bounding_box()[2];
             (1..=4)
                 .filter(|&seed| {
                     // The terrain's own seed, and one for each trial.
@@ -179,7 +193,7 @@ fn creatures_move_on_every_terrain_as_in_rapier() {
                 > 0
         });
         let reached = reached.count();
-        assert!(reached >= 2, "{}: {reached} of 3 touched the first obstacle", entry.name);
+        assert!(reached >= 2, "{name}: {reached} of 3 touched the first obstacle");
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::{
     config::RunConfig,
     run_folder::RunFolder,
-    shaping::{ShapingError, StageProgress, StagedTraining, Stages},
+    shaping::{self, ShapingError, StageProgress, StagedTraining, Stages},
     strategies::AnyStrategy,
     training::{Answers, Outcome, Resources, Step, Training},
 };
@@ -31,6 +31,19 @@ impl Run {
             true => Self::Plain(Box::new(Training::begin(config, folder, &resources)?)),
             false => Self::Staged(Box::new(StagedTraining::begin(config, folder, resources)?)),
         })
+    }
+
+    /// Begins a run in a new folder, from what another run or a champion has learned: as much as can be.
+    ///
+    /// # Errors
+    /// As [`train_from`](crate::shaping::train_from), where nothing may be lost.
+    pub fn begin_from(
+        config: &RunConfig,
+        source: &Path,
+        folder: &Path,
+        resources: &Resources,
+    ) -> Result<Self, ShapingError> {
+        Ok(Self::Plain(Box::new(shaping::begin_from(config, source, None, false, folder, resources)?)))
     }
 
     /// Goes on with a run from where it stopped. Other stop conditions, if given, take the place of the planned ones.

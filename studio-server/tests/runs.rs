@@ -257,3 +257,37 @@ fn two_studios_on_one_folder_do_not_train_one_run() -> Outcome {
     one.wait_for("ended");
     Ok(())
 }
+
+#[test]
+fn a_run_goes_on_from_another() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let library = library(folder.path());
+    let mut page = Page::new(&library);
+    page.ask(json!({ "do": "train", "choice": choice(4) }));
+    page.wait_for("ended");
+    let mut next = choice(3);
+    (next["movement"], next["from"]) = ("jumping".into(), "biped-1-running".into());
+    page.events.clear();
+    page.ask(json!({ "do": "train", "choice": next }));
+    page.wait_for("ended");
+    let config = library.folder("biped-1-jumping")?.read_config()?;
+    let origin = config.origin.ok_or("it came from nowhere")?;
+    assert!(origin.source.ends_with("biped-1-running") && origin.weights_kept > 0, "{origin:?}");
+    let described = |page: &mut Page, choice: &Value| {
+        page.ask(json!({ "do": "describe", "choice": choice }));
+        match page.events.last() {
+            Some(Event::Described(described)) => (described.command.clone(), described.problem.clone()),
+            _ => panic!("it is not described"),
+        }
+    };
+    let (command, problem) = described(&mut page, &next);
+    assert!(command.contains(" --from ") && command.contains("biped-1-running"), "{command}");
+    assert_eq!(problem, None);
+    // Another body would lose what was learned; another folder is none.
+    next["creature"] = "decapod-1".into();
+    let (_, problem) = described(&mut page, &next);
+    assert!(problem.as_ref().is_some_and(|problem| problem.contains("would be lost")), "{problem:?}");
+    next["from"] = "../elsewhere".into();
+    assert_eq!(described(&mut page, &next).1.as_deref(), Some("there is no run \"../elsewhere\""));
+    Ok(())
+}

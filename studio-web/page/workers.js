@@ -59,7 +59,15 @@ class WorkerConnection extends Connection {
     }
   }
 
+  // All that can be set is a file beside the page: the code that finds it out would be a twentieth of the module.
+  async tellSchema() {
+    try { this.tell({ is: "schema", schema: await (await fetch("schema.json")).json() }); } catch (error) {
+      this.tell({ is: "refused", request: "schema", reason: `The settings cannot be loaded: ${error.message}` });
+    }
+  }
+
   ask(request) {
+    if (request.do === "schema") return void this.tellSchema();
     const worker = OF_THE_ARENA.has(request.do) ? this.arena : this.runs;
     worker.postMessage({ ask: JSON.stringify(request) });
   }

@@ -11,7 +11,7 @@ use std::{
     path::{Path, PathBuf},
 };
 use studio::{
-    Reply,
+    Reply, Shown,
     protocol::{Event, RunState},
 };
 use studio_web::{Helper, Host, desk::Errand};
@@ -165,13 +165,13 @@ fn what_moves_can_be_elsewhere() -> Outcome {
     finish(&mut runs);
     let mut arena = Host::new(Registry::default(), folder.path().join("nothing"));
     arena.join(PAGE, false);
-    for who in ["population", "champion"] {
-        let told = ask(&mut runs, json!({ "do": "show", "who": who }));
+    for (who, named) in [(Shown::Population, "population"), (Shown::Champion, "champion")] {
+        let told = ask(&mut runs, json!({ "do": "show", "who": named, "arena": 1 }));
         let scene = serde_json::to_value(&told[0])?;
         assert_eq!(scene["is"], "scene");
-        let entered = ask(&mut arena, json!({ "do": "enter", "scene": scene["scene"] }));
+        let entered = ask(&mut arena, json!({ "do": "enter", "scene": scene["scene"], "arena": scene["arena"] }));
         assert!(matches!(&entered[0], Event::Arena { who: shown, .. } if *shown == who), "{entered:?}");
-        let advance = json!({ "do": "advance", "steps": 60 }).to_string();
+        let advance = json!({ "do": "advance", "steps": 60, "arena": 1 }).to_string();
         assert!(matches!(arena.answer(PAGE, &advance)[..], [Reply::Frame(_)]));
     }
     // Each has a world of its own, so there is an end to them.
@@ -179,7 +179,7 @@ fn what_moves_can_be_elsewhere() -> Outcome {
     let mut scene = serde_json::to_value(&told[0])?["scene"].take();
     scene["entrants"] = vec![scene["entrants"][0].clone(); 1100].into();
     let entered = ask(&mut arena, json!({ "do": "enter", "scene": scene }));
-    assert!(matches!(&entered[0], Event::Arena { data, fitness, .. } if data.actors == 1000 && fitness.len() == 1000));
+    assert!(matches!(&entered[0], Event::Arena { data, members, .. } if data.actors == 1000 && members.len() == 1000));
     Ok(())
 }
 

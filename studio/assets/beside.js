@@ -70,25 +70,38 @@ class Beside {
   }
 }
 
-// How far the followed creature has come.
+// How far the followed creature has come, and what it is told, if it does what it is told.
 class Readouts {
   constructor(list) {
     this.numbers = {};
-    for (const [name, unit] of [["time", "s"], ["distance", "m"], ["height", "m"]]) {
+    for (const [name, unit] of [["time", "s"], ["distance", "m"], ["height", "m"], ["told", "lengths/s"]]) {
       const group = element("div");
       const value = element("dd");
-      this.numbers[name] = element("span", "–");
+      this.numbers[name] = element("span");
       value.append(this.numbers[name], `\u00a0${unit}`);
       group.append(element("dt", name), value);
       list.append(group);
     }
+    this.told = list.lastElementChild;
+    this.clear();
   }
 
+  clear() {
+    for (const number of Object.values(this.numbers)) number.textContent = "–";
+    this.told.hidden = true;
+    this.arenaNumber = null;
+  }
+
+  // Ten times a second: nobody reads faster, and text takes longer to draw than a creature.
   show(arena) {
-    if (!arena.now) return;
+    const tenth = Math.floor(arena.seconds * 10 / Math.max(arena.speed, 1));
+    if (!arena.now || (this.arenaNumber === arena.event.number && this.tenth === tenth)) return;
+    Object.assign(this, { arenaNumber: arena.event.number, tenth });
     const at = Math.min(arena.followed, arena.now.actors - 1) * arena.now.size;
     this.numbers.time.textContent = fixed(arena.seconds, 1);
     this.numbers.distance.textContent = fixed(arena.now.poses[at] - arena.origin, 2);
     this.numbers.height.textContent = fixed(arena.now.poses[at + 1], 2);
+    this.told.hidden = !arena.event.follows_commands;
+    this.numbers.told.textContent = `${arena.now.jump ? "↑ " : ""}${fixed(arena.now.speed, 1)}`;
   }
 }

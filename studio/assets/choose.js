@@ -5,6 +5,7 @@ const FIELDS = [
   { name: "preset", label: "Preset", list: "presets", none: "the default" },
   { name: "strategy", label: "Strategy", list: "strategies", none: "the preset's" },
   { name: "terrain", label: "Terrain", list: "terrains", none: "flat" },
+  { name: "from", label: "Go on from", list: "runs", none: "nothing" },
   { name: "variation", label: "Variation of the world", list: "variations", none: "the preset's" },
   { name: "seed", label: "Seed", number: true, none: "the preset's" },
   { name: "generations", label: "Generations", number: true, none: "the preset's" },
@@ -63,8 +64,10 @@ class Choose {
 
   fill(catalogue) {
     this.catalogue = catalogue;
+    if (!catalogue.runs.some(({ run }) => run === this.choice.from)) delete this.choice.from;
     const creatures = document.getElementById("choose-creature");
-    const cards = catalogue.creatures.map(creature => creatureCard(creature, this.choice.creature === creature.name, () => {
+    const chosen = this.creature?.name;
+    const cards = catalogue.creatures.map(creature => creatureCard(creature, creature.name === chosen, () => {
       this.choice.creature = creature.name;
       delete this.choice.drawn;
       this.set.clear();
@@ -75,6 +78,13 @@ class Choose {
     movements.replaceChildren(movements.querySelector("legend"), ...catalogue.movements.map(movement => this.movementChoice(movement)));
     document.getElementById("choose-fields").replaceChildren(...FIELDS.map(field => this.field(field)));
     this.ask();
+  }
+
+  // What a field offers. A run that has no champion yet has learned nothing.
+  options(list) {
+    if (list !== "runs") return this.catalogue[list];
+    const learned = this.catalogue.runs.filter(({ fitness }) => fitness !== null);
+    return learned.map(({ run, creature, movement }) => ({ name: run, description: `${creature.title || creature.name}, ${movement}` }));
   }
 
   movementChoice({ name, description }) {
@@ -93,8 +103,9 @@ class Choose {
     input.id = `choose-${name}`;
     if (number) {
       Object.assign(input, { type: "number", min: 0, placeholder: none, value: this.choice[name] ?? "" });
+      typeOver(input);
     } else {
-      const options = this.catalogue[list].map(thing => { const option = element("option", thing.name); option.value = thing.name; option.title = thing.description; return option; });
+      const options = this.options(list).map(thing => { const option = element("option", thing.name); option.value = thing.name; option.title = thing.description; return option; });
       const first = element("option", none);
       first.value = "";
       input.append(first, ...options);

@@ -1,17 +1,16 @@
-// The creature editor: one creature, its history, what is selected, and the keys. EditorHand is the pointer's part in it,
-// EditorCanvas draws it.
+// The creature editor: one creature, what is selected in it, and what buttons and keys do. EditorHand is the pointer's part
+// in it, EditorCanvas draws it, EditorHistory goes back and forth.
 
 const EDITOR_KEYS = {
   s: "select", p: "part", j: "joint", r: "turn", c: "scale", l: "more", m: "mirror", x: "remove", Delete: "remove",
   Backspace: "remove", k: "play", g: "ground", 0: "fit", "+": "in", "=": "in", "-": "out", _: "out",
 };
 const EDITOR_ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
-const EDITOR_CHECK_DELAY = 150;
 
-class Editor {
+class Editor extends EditorHistory {
   constructor(root, hooks = {}) {
-    Object.assign(this, { root, hooks, tool: "select", shape: "capsule", selection: null, problems: [], past: [], future: [] });
-    this.checks = 0;
+    super(root, hooks);
+    Object.assign(this, { tool: "select", shape: "capsule", selection: null });
     this.toolbar = new EditorToolbar(this);
     this.panel = new EditorPanel(this);
     this.list = new EditorProblems(this);
@@ -42,64 +41,28 @@ class Editor {
 
   get creature() { return structuredClone(this.present); }
 
+  get toCheck() { return this.present; }
+
+  get mark() { return this.selection; }
+  set mark(selection) { this.selection = selection; }
+
   load(creature) {
-    const present = readableCreature(creature);
-    Object.assign(this, { present, past: [], future: [], base: null, selection: null, problems: [] });
+    Object.assign(this, { present: readableCreature(creature), selection: null, problems: [] });
+    this.forgetPast();
     this.hand.drop();
     this.setTool("select");
     this.canvas.fit();
     this.checkSoon();
   }
 
-  // Changes the creature: `change` is given a copy, and may select something in it.
-  edit(change) {
-    this.preview(change);
-    this.commit();
-  }
-
-  // Shows a change of the creature as it was before the first preview; `commit` keeps it, `cancel` drops it.
-  preview(change) {
-    this.base ||= { json: JSON.stringify(this.present), selection: this.selection };
-    const next = JSON.parse(this.base.json);
-    this.selection = this.base.selection;
-    change(next);
-    this.present = next;
-    this.refresh();
-  }
-
-  cancel() {
-    if (!this.base) return;
-    Object.assign(this, { present: JSON.parse(this.base.json), selection: this.base.selection, base: null });
-    this.refresh();
-  }
-
-  commit() {
-    const { base, present, selection } = this;
-    if (!base) return;
-    this.base = null;
+  // Parts from the torso outwards, and on the ground; what is selected stays so, wherever it is listed now.
+  tidy() {
+    const { present, selection } = this;
     const list = selection?.kind === "joint" ? "joints" : "parts";
     const selected = selection && present[list][selection.index];
     orderParts(present);
     groundCreature(present);
     if (selected) this.selection = { ...selection, index: present[list].indexOf(selected) };
-    if (JSON.stringify(present) !== base.json) {
-      this.past.push(base);
-      this.future = [];
-      this.changed();
-    }
-    this.refresh();
-  }
-
-  // Goes a step through the history, from one pile to the other.
-  step(from, to) {
-    this.cancel();
-    const entry = from.pop();
-    if (!entry) return;
-    to.push({ json: JSON.stringify(this.present), selection: this.selection });
-    this.present = JSON.parse(entry.json);
-    this.selection = entry.selection;
-    this.changed();
-    this.refresh();
   }
 
   changed() {
@@ -107,29 +70,9 @@ class Editor {
     this.hooks.changed?.(this.creature);
   }
 
-  // Asks for the problems once the creature has been left alone for a moment; an answer that is overtaken is dropped.
-  checkSoon() {
-    const turn = ++this.checks;
-    clearTimeout(this.timer);
-    this.timer = setTimeout(async () => {
-      const creature = this.creature;
-      const problems = await this.askForProblems(creature);
-      if (turn !== this.checks) return;
-      this.problems = problems;
-      this.list.show(problems, creature);
-      this.canvas.redraw();
-    }, EDITOR_CHECK_DELAY);
-  }
-
-  async askForProblems(creature) {
-    try {
-      const found = await this.hooks.check?.(structuredClone(creature));
-      return (Array.isArray(found) ? found : []).map(problem => ({
-        where: String(problem?.where ?? ""), message: String(problem?.message ?? problem),
-      }));
-    } catch (error) {
-      return [{ where: "", message: `could not be checked: ${error?.message ?? error}` }];
-    }
+  found(creature) {
+    this.list.show(this.problems, creature);
+    this.canvas.redraw();
   }
 
   select(selection) {
@@ -207,6 +150,7 @@ class Editor {
     });
     this.canvas.fit();
     this.setTool("part");
+    this.say("This is its body. Drag from the body down to the ground: that is a leg, with a hinge and a motor.");
   }
 
   copy(make) {
@@ -324,27 +268,6 @@ class Editor {
       this.selection = { kind: "joint", index: hangingTree(c).joint[child] };
     });
     this.say("Joined. Drag the ends of the arc to say how far it bends.");
-  }
-
-  // Keys work wherever the focus is in the editor, or nowhere, as long as no control wants the key.
-  keyDown(event) {
-    const { target, key } = event;
-    const isNowhere = target === document.body;
-    if (event.defaultPrevented || !this.root.getClientRects().length || !(isNowhere || this.root.contains(target))) return;
-    const field = target.closest("input, select, textarea");
-    const isTyping = field && field.dataset.shown !== undefined && field.value !== field.dataset.shown;
-    let isDone;
-    if (event.ctrlKey || event.metaKey) isDone = !isTyping && this.historyKey(event);
-    else if (key === "Escape") isDone = this.escape(isNowhere || target === this.surface);
-    else isDone = !field && !event.altKey && this.plainKey(event, target === this.surface, isNowhere);
-    if (isDone) event.preventDefault();
-  }
-
-  historyKey({ key, shiftKey }) {
-    const letter = key.toLowerCase();
-    if (letter !== "z" && letter !== "y") return false;
-    this.act(letter === "y" || shiftKey ? "redo" : "undo");
-    return true;
   }
 
   // Out of a drag, else out of the fields, else out of a decoration, else out of the selection.

@@ -22,7 +22,7 @@ const EDITOR_ACTIONS = [
   ["undo", "Ctrl Z", "Undo", "M8 4L4 8l4 4M4 8h10a5.5 5.5 0 0 1 0 11h-4"],
   ["redo", "Ctrl Y", "Redo", "M16 4l4 4-4 4M20 8H10a5.5 5.5 0 0 0 0 11h4"],
   ["ground", "G", "Ground", "M12 3v11M7.5 10l4.5 4.5 4.5-4.5M4 19.5h16"],
-  ["empty", "", "Empty", "M6 3h8l4 4v14H6zM14 3v4h4"],
+  ["empty", "", "New", "M6 3h8l4 4v14H6zM14 3v4h4"],
 ];
 const EDITOR_ZOOMS = [
   ["out", "−", "Zoom out", "M5 12h14"], ["fit", "0", "Show all", "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5"],
@@ -190,6 +190,7 @@ class EditorRow {
     if (kind === "long") Object.assign(control, { rows, spellcheck: !problem });
     else control.type = { check: "checkbox", number: "number", colour: "color" }[kind] || "text";
     if (kind === "number") {
+      typeOver(control);
       Object.assign(control, { max: bounds[1], step, inputMode: "decimal" });
       // Browsers step from the least value on: from 0.005 they would go to 0.015.
       if (Number.isInteger(bounds[0])) control.min = bounds[0];
@@ -266,7 +267,12 @@ class EditorProblems {
   }
 
   show(problems, creature) {
-    if (!problems.length) { this.root.replaceChildren(editorElement("p", "editor-fine", "No problem.")); return; }
+    if (!problems.length) {
+      const { parts, joints } = creature;
+      const facts = `${count(parts.length, "part", "parts")}, ${count(joints.length, "hinge", "hinges")}.`;
+      this.root.replaceChildren(editorElement("p", "editor-fine", `No problem. ${facts}`));
+      return;
+    }
     const list = editorElement("ul");
     for (const { where = "", message = "" } of problems) {
       const button = editorElement("button", "editor-problem");

@@ -4,7 +4,10 @@ class Members {
   // `show`: shows the generation or the champion again.
   constructor(connection, arena, show) {
     Object.assign(this, { connection, arena, show });
-    connection.on("opened", ({ unit }) => { this.unit = unit; });
+    connection.on("opened", ({ unit }) => {
+      this.unit = unit;
+      this.pin(false);
+    });
     const get = name => document.getElementById(name);
     this.panel = get("member");
     this.pinned = false;
@@ -18,8 +21,14 @@ class Members {
   // Another generation is shown, or a champion.
   enter({ who, members, generation }) {
     Object.assign(this, { who, members, generation });
-    if (who === "population") this.pin(false);
     document.getElementById("show-colours").hidden = who !== "population" || !members.some(({ group }) => group);
+    this.tell();
+  }
+
+  // Nothing is shown any more.
+  leave() {
+    this.members = null;
+    document.getElementById("show-colours").hidden = true;
     this.tell();
   }
 
@@ -44,8 +53,8 @@ class Members {
   // The whole generation comes back by the same button.
   showParents() {
     if (this.who === "family") return this.show();
-    this.connection.ask({ do: "show", who: "population", family_of: this.arena.followed });
-    return this.pin(true);
+    this.pin(true);
+    return this.connection.ask({ do: "show", who: "population", family_of: this.arena.followed });
   }
 
   tell() {

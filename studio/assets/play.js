@@ -12,7 +12,8 @@ class Play {
     for (const name of ["gravity", "tilt"]) this.inputs[name].addEventListener("input", () => this.tilt());
     for (const name of ["friction", "terrain"]) this.inputs[name].addEventListener("change", () => this.begin());
     get("play-box").addEventListener("click", () => this.putBox());
-    get("play-push").addEventListener("click", () => connection.ask({ do: "push", part: 0, velocity: [1.5, 0.5] }));
+    // From the front: one along its way would hardly be seen.
+    get("play-push").addEventListener("click", () => connection.ask({ do: "push", part: 0, velocity: [-2, 1] }));
     get("play-reset").addEventListener("click", () => this.begin());
     document.addEventListener("keydown", event => this.key(event, true));
     document.addEventListener("keyup", event => this.key(event, false));

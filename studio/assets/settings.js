@@ -60,6 +60,7 @@ class Settings {
     const input = about.choices ? this.choices(about.choices) : element("input");
     if (!about.choices) input.type = typeof value === "boolean" ? "checkbox" : typeof value === "number" ? "number" : "text";
     if (input.type === "number") {
+      typeOver(input);
       input.step = "any";
       if (about.low !== undefined) input.min = about.low;
       if (about.high !== undefined) input.max = about.high;
@@ -101,6 +102,13 @@ class Settings {
     const changed = size ? `, ${count(size, "is", "are")} not as the preset has it` : "";
     document.getElementById("settings-count").textContent = `${count(shown, "setting", "settings")}${changed}`;
   }
+}
+
+// A number that is clicked is typed over, as one that is reached with the Tab key is.
+function typeOver(input) {
+  let isNew = false;
+  input.addEventListener("pointerdown", () => { isNew = document.activeElement !== input; });
+  input.addEventListener("click", () => { if (isNew) input.select(); });
 }
 
 // The numbers, switches and texts of a value, each with its way there; lists of plain things are one text.

@@ -16,8 +16,8 @@ class Studio {
     this.watch = new Watch(this.connection, this.arena);
     this.watch.refuse = text => this.refuse(text);
     this.net = new LiveNet(this.arena);
-    this.members = new Members(this.connection, this.arena, () => this.showAgain());
-    this.beside = new Beside(this.connection, this.arena, () => this.showAgain());
+    this.members = new Members(this.connection, this.arena, () => this.showNow());
+    this.beside = new Beside(this.connection, this.arena, () => this.showNow());
     this.readouts = new Readouts(document.getElementById("arena-readouts"));
     this.play = new Play(this.connection, this.arena);
     this.choose = new Choose(this.connection, () => this.go("watch"));
@@ -52,7 +52,7 @@ class Studio {
       this.connection.ask({ do: "look" });
       this.showAgain();
     });
-    connection.on("generations", () => { if (!this.shown) this.showAgain(); });
+    connection.on("generations", () => { if (!this.shown && !this.members.pinned) this.showAgain(); });
     connection.onState = (on, problem) => {
       document.body.classList.toggle("offline", !on);
       if (on && this.wasOff) {
@@ -81,9 +81,16 @@ class Studio {
 
   // The open run was removed: the latest that there is takes its place.
   close(runs) {
-    this.opened = null;
-    if (runs.length) this.connection.ask({ do: "open", run: runs[0].run });
-    else this.watch.close();
+    this.opened = this.shown = null;
+    if (runs.length) return this.connection.ask({ do: "open", run: runs[0].run });
+    const { stage } = this.arena;
+    this.arena.leave();
+    stage.resetTransform();
+    stage.context.clearRect(0, 0, stage.width, stage.height);
+    this.readouts.clear();
+    this.members.leave();
+    document.getElementById("arena-caption").textContent = "";
+    return this.watch.close();
   }
 
   // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to run.
@@ -120,7 +127,7 @@ class Studio {
     this.beside.setVisible(chapter !== "play");
     if (chapter === "draw") this.buildEditor();
     if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
-    if (before && before !== chapter && (chapter === "play" || before === "play")) this.showAgain();
+    if (before && before !== chapter && (chapter === "play" || before === "play")) this.showNow();
     if (chapter === "play") document.getElementById("arena-canvas").focus();
   }
 
@@ -195,6 +202,12 @@ class Studio {
     this.editor.load(isShipped ? { ...creature, name: `my ${creature.name}` } : creature);
   }
 
+  // What is shown at somebody's wish is the latest there is, whatever was pinned.
+  showNow() {
+    this.members.pin(false);
+    this.showAgain();
+  }
+
   showAgain() {
     if (!this.opened) return;
     if (this.chapter === "play") return this.play.begin();
@@ -215,9 +228,9 @@ class Studio {
     arena.onFollow = () => { label(); this.members.tell(); };
     get("show-again").textContent = "⟲";
     play.addEventListener("click", this.toggle);
-    get("show-again").addEventListener("click", () => this.showAgain());
+    get("show-again").addEventListener("click", () => this.showNow());
     get("show-speed").addEventListener("change", event => { arena.speed = Number(event.target.value); });
-    get("show-who").addEventListener("change", event => { this.who = event.target.value; this.showAgain(); });
+    get("show-who").addEventListener("change", event => { this.who = event.target.value; this.showNow(); });
     get("show-follow").addEventListener("click", () => { arena.follow = !arena.follow; label(); });
     get("show-in").addEventListener("click", () => arena.zoomBy(1.25));
     get("show-out").addEventListener("click", () => arena.zoomBy(0.8));
@@ -261,7 +274,7 @@ class Studio {
     if (event.key === "f" || event.key === "F") document.getElementById("show-follow").click();
     else if (event.key === "+" || event.key === "=") this.arena.zoomBy(1.25);
     else if (event.key === "-" || event.key === "−") this.arena.zoomBy(0.8);
-    else if (event.key === "r" || event.key === "R") this.showAgain();
+    else if (event.key === "r" || event.key === "R") this.showNow();
     else if (event.key === "[") this.members.step(-1);
     else if (event.key === "]") this.members.step(1);
     else if (event.key === " " && this.chapter === "watch" && !event.target.closest("button")) { event.preventDefault(); this.toggle(); }

@@ -1,5 +1,5 @@
-// The terrain editor: one drawn terrain, its history, what is selected, and the keys. TerrainHand is the pointer's part in
-// it, TerrainCanvas draws it.
+// The terrain editor: one drawn terrain, what is selected in it, and what buttons and keys do. TerrainHand is the pointer's
+// part in it, TerrainCanvas draws it, EditorHistory goes back and forth.
 
 const TERRAIN_KEYS = {
   s: "select", b: "box", g: "gap", l: "slope", x: "remove", Delete: "remove", Backspace: "remove", k: "train", p: "play",
@@ -7,11 +7,12 @@ const TERRAIN_KEYS = {
 };
 const TERRAIN_PAGES = { PageUp: -0.8, PageDown: 0.8 };
 
-class TerrainEditor {
+class TerrainEditor extends EditorHistory {
   // Hooks: `creature` gives who stands at the start, `check` the problems of a terrain, `keep` keeps one under a name,
   // `train` and `play` go there with one that is kept.
   constructor(root, hooks = {}) {
-    Object.assign(this, { root, hooks, tool: "select", selected: -1, problems: [], kept: [], past: [], future: [], checks: 0 });
+    super(root, hooks);
+    Object.assign(this, { tool: "select", selected: -1, kept: [] });
     this.present = { name: "my ground", drawn: [] };
     this.toolbar = new TerrainToolbar(this);
     this.panel = new TerrainPanel(this);
@@ -43,78 +44,19 @@ class TerrainEditor {
     this.root.replaceChildren(frame);
   }
 
-  // Changes the terrain: `change` is given a copy and its obstacles, and may select one.
-  edit(change) {
-    this.preview(change);
-    this.commit();
-  }
+  get toCheck() { return { drawn: this.present.drawn }; }
 
-  // Shows a change of the terrain as it was before the first preview; `commit` keeps it, `cancel` drops it.
-  preview(change) {
-    this.base ||= this.entry();
-    const next = JSON.parse(this.base.json);
-    this.selected = this.base.selected;
-    change(next);
-    this.present = next;
-    this.refresh();
-  }
+  get mark() { return this.selected; }
+  set mark(selected) { this.selected = selected; }
 
-  entry() { return { json: JSON.stringify(this.present), selected: this.selected }; }
-
-  restore({ json, selected }) {
-    Object.assign(this, { present: JSON.parse(json), selected, base: null });
-    this.refresh();
-  }
-
-  cancel() {
-    if (this.base) this.restore(this.base);
-  }
-
-  commit() {
-    const { base } = this;
-    if (!base) return;
-    this.base = null;
-    if (JSON.stringify(this.present) !== base.json) {
-      this.past.push(base);
-      this.future = [];
-      this.checkSoon();
-      this.tell();
-    }
-    this.refresh();
-  }
-
-  // Goes a step through the history, from one pile to the other.
-  step(from, to) {
-    this.cancel();
-    const entry = from.pop();
-    if (!entry) return;
-    to.push(this.entry());
-    this.restore(entry);
+  changed() {
     this.checkSoon();
     this.tell();
   }
 
-  // Asks for the problems once the terrain has been left alone for a moment; an answer that is overtaken is dropped.
-  checkSoon() {
-    const turn = ++this.checks;
-    clearTimeout(this.timer);
-    this.timer = setTimeout(async () => {
-      const { drawn } = structuredClone(this.present);
-      const problems = await this.askForProblems(drawn);
-      if (turn !== this.checks) return;
-      this.problems = problems;
-      this.list.show(problems, drawn);
-      this.refresh();
-    }, EDITOR_CHECK_DELAY);
-  }
-
-  async askForProblems(drawn) {
-    try {
-      const found = await this.hooks.check?.({ drawn });
-      return (found || []).map(({ where, message }) => ({ where: String(where ?? ""), message: String(message) }));
-    } catch (error) {
-      return [{ where: "", message: `could not be checked: ${error?.message ?? error}` }];
-    }
+  found({ drawn }) {
+    this.list.show(this.problems, drawn);
+    this.refresh();
   }
 
   // What was drawn and kept, to be opened again.
@@ -275,25 +217,9 @@ class TerrainEditor {
     else this.sayFull();
   }
 
-  // Keys work wherever the focus is in the editor, or nowhere, as long as no control wants the key.
-  keyDown(event) {
-    const { target, key } = event;
-    const isNowhere = target === document.body;
-    if (event.defaultPrevented || !this.root.getClientRects().length || !(isNowhere || this.root.contains(target))) return;
-    const field = target.closest("input, select, textarea");
-    const isTyping = field && field.dataset.shown !== undefined && field.value !== field.dataset.shown;
-    let isDone;
-    if (event.ctrlKey || event.metaKey) isDone = this.controlKey(event, isTyping);
-    else if (key === "Escape") isDone = this.escape(isNowhere || target === this.surface);
-    else isDone = !field && !event.altKey && this.plainKey(event, target === this.surface, isNowhere);
-    if (isDone) event.preventDefault();
-  }
-
-  controlKey({ key, shiftKey }, isTyping) {
-    const letter = key.toLowerCase();
-    if (letter === "s") this.act("keep");
-    else if (isTyping || (letter !== "z" && letter !== "y")) return false;
-    else this.act(letter === "y" || shiftKey ? "redo" : "undo");
+  controlKey(event, isTyping) {
+    if (event.key.toLowerCase() !== "s") return super.controlKey(event, isTyping);
+    this.act("keep");
     return true;
   }
 

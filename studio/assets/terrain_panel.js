@@ -10,8 +10,7 @@ const TERRAIN_TOOLS = [
     "Drag from the foot of the slope to its end, up or down. All behind it goes along."],
 ];
 const TERRAIN_ACTIONS = [
-  ...EDITOR_ACTIONS.filter(([name]) => ["remove", "undo", "redo"].includes(name)),
-  ["empty", "", "New", EDITOR_ACTIONS.find(([name]) => name === "empty")[3]],
+  ...EDITOR_ACTIONS.filter(([name]) => ["remove", "undo", "redo", "empty"].includes(name)),
   ["keep", "Ctrl S", "Keep", "M12 3v11M7.5 9.5L12 14l4.5-4.5M4 15v5h16v-5"],
 ];
 const TERRAIN_STARTS = [

@@ -32,19 +32,27 @@ class Watch {
     document.getElementById("arena-title").textContent = `${name} · ${config.movement.name}`;
     document.getElementById("run-command").textContent = command;
     document.title = `${name} · Gambol studio`;
+    this.clear();
+    this.setState(state);
+  }
+
+  // Nothing is known of a run yet.
+  clear() {
     this.showVerdict({ usable: undefined, against: [] });
     document.getElementById("fitness-chart").replaceChildren();
     document.getElementById("fitness-legend").replaceChildren();
     this.chart = null;
-    this.setState(state);
   }
 
   // No run is open any more.
   close() {
-    Object.assign(this, { run: null, rows: [], stages: [], last: null });
+    Object.assign(this, { run: null, rows: [], stages: [], contacts: [], last: null });
     document.getElementById("arena-title").textContent = "No run is open";
+    document.getElementById("run-command").textContent = "";
+    document.title = "Gambol studio";
+    this.clear();
     document.getElementById("keep-open").hidden = true;
-    this.setState({ state: "ended" });
+    this.setState({ state: "ended", reason: "train one in Choose, or open one in Keep" });
   }
 
   setState(state) {
@@ -121,11 +129,13 @@ class Watch {
   drawFootfalls() {
     const { stage, footfalls } = { stage: this.footfalls, footfalls: this.contacts };
     const { event, model } = this.arena;
-    if (!stage.visible || !event || !footfalls.length) return;
+    const last = footfalls[footfalls.length - 1]?.step;
+    // Moving by less than a pixel is not seen.
+    if (!stage.visible || !event || !footfalls.length || Math.abs(last - this.footfallsAt) < 4) return;
+    this.footfallsAt = last;
     const c = stage.context;
     stage.resetTransform();
     c.clearRect(0, 0, stage.width, stage.height);
-    const last = footfalls[footfalls.length - 1].step;
     const span = FOOTFALL_SECONDS / event.time_step;
     const seen = footfalls.filter(({ step }) => step > last - span);
     const parts = model.parts.filter(part => seen.some(({ masks }) => masks[part.index] > 0)).slice(0, 6);

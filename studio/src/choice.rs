@@ -8,7 +8,7 @@ use gambol_runs::{
     program_name,
     request::{Request, RequestError},
     setup::Setup,
-    shaping::Stages,
+    shaping::{self, Stages},
     suggest,
     texts::shell_word,
 };
@@ -16,7 +16,7 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
-/// The creatures and terrains that were drawn and kept.
+/// The creatures and terrains that were drawn and kept, and where the runs are.
 #[derive(Clone, Debug, Default)]
 pub struct Kept {
     /// Where the creatures are.
@@ -27,6 +27,8 @@ pub struct Kept {
     pub terrain_folder: PathBuf,
     /// The names of the terrains.
     pub terrains: Vec<String>,
+    /// Where the runs are.
+    pub runs: PathBuf,
 }
 
 /// Why a choice cannot be trained: in the words of the library, which name field and range.
@@ -42,13 +44,17 @@ impl From<RequestError> for ChoiceError {
 
 impl Choice {
     /// The configuration, checked as the program checks it before it trains. A choice names things of the registry alone: no path from a
-    /// page is ever opened.
+    /// page is ever opened. `from`: the folder of the run that is gone on from.
     ///
     /// # Errors
     /// Says what is wrong, and where.
-    pub fn resolve(&self, registry: &Registry) -> Result<RunConfig, ChoiceError> {
-        let config = self.configure(registry, &self.set)?;
+    pub fn resolve(&self, registry: &Registry, from: Option<&Path>) -> Result<RunConfig, ChoiceError> {
+        let config = self.configure(registry, from, &self.set)?;
         let wrong = |error: &dyn std::fmt::Display| ChoiceError(error.to_string());
+        if let Some(from) = from {
+            shaping::configured_from(&config, from, registry).map_err(|error| wrong(&error))?;
+            return Ok(config);
+        }
         Setup::new(&config, registry).map_err(|error| wrong(&error))?;
         if !config.stages.is_empty() {
             Stages::new(&config, registry).map_err(|error| wrong(&error))?;
@@ -56,13 +62,13 @@ impl Choice {
         Ok(config)
     }
 
-    /// What the choice comes to, or what is wrong with it. `kept`: see [`command`](Self::command).
-    pub fn describe(&self, registry: &Registry, kept: &Kept) -> Described {
-        let (config, problem) = match self.resolve(registry) {
+    /// What the choice comes to, or what is wrong with it. `from`: see [`resolve`](Self::resolve), `kept`: see [`command`](Self::command).
+    pub fn describe(&self, registry: &Registry, from: Option<&Path>, kept: &Kept) -> Described {
+        let (config, problem) = match self.resolve(registry, from) {
             Ok(config) => (Some(config), None),
             Err(ChoiceError(problem)) => (None, Some(problem)),
         };
-        let preset = self.configure(registry, &[]).ok();
+        let preset = self.configure(registry, from, &[]).ok();
         Described { config, preset, problem, command: self.command(kept) }
     }
 
@@ -76,7 +82,7 @@ impl Choice {
         Ok(Some(blueprint.creature().clone()))
     }
 
-    fn configure(&self, registry: &Registry, set: &[String]) -> Result<RunConfig, ChoiceError> {
+    fn configure(&self, registry: &Registry, from: Option<&Path>, set: &[String]) -> Result<RunConfig, ChoiceError> {
         let mut registry = registry.clone();
         let name = match (self.drawn_creature()?, &self.creature) {
             (Some(drawn), _) => {
@@ -100,6 +106,7 @@ impl Choice {
             strategy: self.strategy.clone(),
             terrain: self.terrain.clone(),
             variation: self.variation.clone(),
+            from: from.map(Path::to_owned),
             set: set.to_vec(),
             ..Request::default()
         };
@@ -138,6 +145,7 @@ impl Choice {
             None => add("terrain", self.terrain.clone()),
         }
         add("variation", self.variation.clone());
+        add("from", self.from.as_ref().map(|run| kept.runs.join(run).to_string_lossy().into_owned()));
         add("seed", self.seed.map(|seed| seed.to_string()));
         add("generations", self.generations.map(|generations| generations.to_string()));
         self.set.iter().for_each(|set| add("set", Some(set.clone())));
@@ -178,11 +186,17 @@ mod tests {
 
     fn kept() -> Kept {
         let (creatures, terrains) = (vec!["mine".into()], vec!["my hills".into()]);
-        Kept { creature_folder: "runs/creatures".into(), creatures, terrain_folder: "runs/terrains".into(), terrains }
+        Kept {
+            creature_folder: "runs/creatures".into(),
+            creatures,
+            terrain_folder: "runs/terrains".into(),
+            terrains,
+            runs: "runs".into(),
+        }
     }
 
     fn problem(choice: &Choice) -> String {
-        choice.describe(&Registry::default(), &kept()).problem.expect("something is wrong")
+        choice.describe(&Registry::default(), None, &kept()).problem.expect("something is wrong")
     }
 
     #[test]
@@ -190,7 +204,7 @@ mod tests {
         let registry = Registry::default();
         let choice =
             Choice { seed: Some(7), set: vec!["controller.hidden=[5]".into()], ..choice("biped-1", "running") };
-        let described = choice.describe(&registry, &kept());
+        let described = choice.describe(&registry, None, &kept());
         assert_eq!(described.problem, None);
         assert_eq!(described.command, "gambol train biped-1 running --seed 7 --set 'controller.hidden=[5]'");
         let request = Request {
@@ -242,7 +256,7 @@ mod tests {
         let mut drawn = serde_json::to_value(creatures::find("tetrapod-1").expect("it is shipped")).expect("JSON");
         drawn["name"] = json!("mine");
         let choice = Choice { drawn: Some(drawn.clone()), ..choice("ignored", "running") };
-        let described = choice.describe(&Registry::default(), &kept());
+        let described = choice.describe(&Registry::default(), None, &kept());
         assert_eq!(described.config.map(|config| config.creature.name), Some("mine".into()));
         assert_eq!(described.command, "gambol train runs/creatures/mine.json running");
         assert_eq!(super::tests::choice("mine", "running").command(&kept()), described.command, "by its name, too");

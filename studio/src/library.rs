@@ -2,7 +2,7 @@
 
 use crate::{
     choice::{ChoiceError, Kept},
-    protocol::{Catalogue, Choice, ExportFormat, NamedThing, RunEntry, RunState, TerrainChoice},
+    protocol::{Catalogue, Choice, Described, ExportFormat, NamedThing, RunEntry, RunState, TerrainChoice},
     session::{Means, Session, SessionError},
     training::{self, Plan},
 };
@@ -95,7 +95,8 @@ impl Library {
     pub fn kept(&self) -> Kept {
         let creatures = self.drawn_creatures().into_iter().map(|creature| creature.name).collect();
         let terrains = self.drawn_terrains().into_iter().map(|(name, _)| name).collect();
-        Kept { creatures, terrains, creature_folder: self.creatures(), terrain_folder: self.runs.join(TERRAINS) }
+        let (creature_folder, terrain_folder) = (self.creatures(), self.runs.join(TERRAINS));
+        Kept { creatures, terrains, creature_folder, terrain_folder, runs: self.runs.clone() }
     }
 
     /// What there is to choose from.
@@ -256,13 +257,32 @@ impl Library {
         Ok(path)
     }
 
+    /// What a choice comes to, or what is wrong with it.
+    pub fn describe(&self, choice: &Choice) -> Described {
+        let (registry, kept) = (self.registry_with_drawn(), self.kept());
+        match self.source(choice) {
+            Ok(from) => choice.describe(&registry, from.as_deref(), &kept),
+            Err(error) => {
+                let (problem, command) = (Some(error.to_string()), choice.command(&kept));
+                Described { config: None, preset: None, problem, command }
+            }
+        }
+    }
+
+    /// The folder of the run that a choice goes on from, as the command line names it.
+    fn source(&self, choice: &Choice) -> Result<Option<PathBuf>, LibraryError> {
+        let Some(run) = &choice.from else { return Ok(None) };
+        self.folder(run).map(|folder| Some(folder.path().to_owned()))
+    }
+
     /// Begins a run in a new folder.
     ///
     /// # Errors
     /// If what was chosen cannot be trained, or there is no room for the folder.
     pub fn train(&self, choice: &Choice) -> Result<Arc<Session>, LibraryError> {
         let registry = self.registry_with_drawn();
-        let config = choice.resolve(&registry)?;
+        let from = self.source(choice)?;
+        let config = choice.resolve(&registry, from.as_deref())?;
         if let Some(drawn) = choice.drawn_creature()? {
             self.keep(&drawn)?;
         }
@@ -271,7 +291,7 @@ impl Library {
         let command = choice.command(&self.kept());
         let place = RunFolder::at(folder.path());
         let session = Session::new(name.clone(), place, config, command, self.registry.clone(), self.means.clone())?;
-        training::start(&session, Plan::Begin(folder))?;
+        training::start(&session, Plan::Begin { folder, from })?;
         self.sessions().insert(name, Arc::clone(&session));
         Ok(session)
     }

@@ -44,6 +44,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("../assets/editor_fields.js"),
     include_str!("../assets/editor_panel.js"),
     include_str!("../assets/editor_decoration_list.js"),
+    include_str!("../assets/editor_history.js"),
     include_str!("../assets/editor.js"),
     include_str!("../assets/editor_hand.js"),
     include_str!("../assets/editor_canvas.js"),

@@ -14,12 +14,16 @@ use gambol_runs::{
     training::{Answers, BatchEvaluator, Outcome, Resources, Step, TrainError},
 };
 use ne_core::{Generation, StopConditions, StopReason};
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 /// How a training begins.
 pub(crate) enum Plan {
-    /// In a new folder.
-    Begin(NewFolder),
+    /// In a new folder, perhaps from what another run has learned.
+    Begin {
+        folder: NewFolder,
+        /// The folder of that run.
+        from: Option<PathBuf>,
+    },
     /// Where it stopped, perhaps with other stop conditions.
     Resume(Option<StopConditions>),
 }
@@ -88,9 +92,12 @@ impl TrainingJob {
         };
         let path = session.folder().path();
         match plan {
-            Plan::Begin(folder) => {
+            Plan::Begin { folder, from } => {
                 self.folder = Some(folder);
-                Run::begin(session.config(), path, resources)
+                match from {
+                    Some(from) => Run::begin_from(session.config(), &from, path, &resources),
+                    None => Run::begin(session.config(), path, resources),
+                }
             }
             Plan::Resume(stop) => Run::resume(path, stop, resources),
         }

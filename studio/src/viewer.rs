@@ -130,11 +130,11 @@ impl Viewer {
         let library = Arc::clone(&self.library);
         let event = match request {
             Request::Look => Event::Catalogue(Box::new(library.catalogue())),
+            #[cfg(feature = "schema")]
             Request::Schema => Event::Schema { schema: gambol_runs::schema::json_schema(library.registry()) },
-            Request::Describe { choice } => {
-                let described = choice.describe(&library.registry_with_drawn(), &library.kept());
-                Event::Described(Box::new(described))
-            }
+            #[cfg(not(feature = "schema"))]
+            Request::Schema => return Err("the schema is a file beside the page".into()),
+            Request::Describe { choice } => Event::Described(Box::new(library.describe(&choice))),
             Request::Check { creature, number } => Event::Checked { number, problems: choice::check(&creature) },
             Request::Keep { creature } => {
                 let creature: Creature = serde_json::from_value(creature)?;

@@ -7,10 +7,11 @@ use super::{
     transfer::{PreparedTransfer, TransferError, TransferOptions},
 };
 use crate::{
+    Registry,
     champion::Champion,
     config::{Origin, RunConfig, Transferred},
     run_folder::{FolderError, RunFolder},
-    training::{Outcome, TrainError, TrainOptions, Training},
+    training::{Outcome, Resources, TrainError, TrainOptions, Training},
 };
 use ne_core::{Progress, StopConditions, StopReason};
 use std::path::Path;
@@ -60,19 +61,45 @@ pub fn train_from(
     folder: &Path,
     options: TrainOptions<'_>,
 ) -> Result<Outcome, ShapingError> {
-    let source = Source::open(source, &options.registry)?;
-    let departure =
-        PreparedTransfer::prepare(source, config, TransferOptions { transferred, allow_loss }, &options.registry)?;
-    let config = departure.config.clone();
-    if !config.stages.is_empty() {
-        return Err(ShapingError::Stages);
-    }
     let (resources, on_generation) = options.split();
+    Ok(begin_from(config, source, transferred, allow_loss, folder, &resources)?.run(on_generation)?)
+}
+
+/// As [`train_from`], before its first generation.
+///
+/// # Errors
+/// As [`train_from`].
+pub fn begin_from(
+    config: &RunConfig,
+    source: &Path,
+    transferred: Option<Transferred>,
+    allow_loss: bool,
+    folder: &Path,
+    resources: &Resources,
+) -> Result<Training, ShapingError> {
+    let departure = prepare(config, source, TransferOptions { transferred, allow_loss }, &resources.registry)?;
     let strategies = &resources.registry.strategies;
     let search = (departure.search(strategies)?, departure.champion(strategies)?);
-    let setup = departure.setup;
-    let training = Training::begin_stage_run(search, &config, setup, folder, config.stop, None, &resources)?;
-    Ok(training.run(on_generation)?)
+    let PreparedTransfer { config, setup, .. } = departure;
+    Ok(Training::begin_stage_run(search, &config, setup, folder, config.stop, None, resources)?)
+}
+
+/// What [`train_from`] would begin with, nothing being given up: its configuration. Nothing is written.
+///
+/// # Errors
+/// As [`train_from`], before anything is trained.
+pub fn configured_from(config: &RunConfig, source: &Path, registry: &Registry) -> Result<RunConfig, ShapingError> {
+    Ok(prepare(config, source, TransferOptions::default(), registry)?.config)
+}
+
+fn prepare(
+    config: &RunConfig,
+    source: &Path,
+    how: TransferOptions,
+    registry: &Registry,
+) -> Result<PreparedTransfer, ShapingError> {
+    let departure = PreparedTransfer::prepare(Source::open(source, registry)?, config, how, registry)?;
+    if departure.config.stages.is_empty() { Ok(departure) } else { Err(ShapingError::Stages) }
 }
 
 /// The configuration with the sensors and the controller of a run (of one with stages, of the last) or a champion: what a

@@ -4,11 +4,18 @@
 //! Firefox as well, if that is in the path, or the variable FIREFOX names it.
 
 mod browser;
+mod hands;
 mod home;
 mod kinds;
+mod likeness;
+mod newcomer;
+mod pictures;
 mod studio;
+mod studio_ground;
+mod studio_people;
+mod studio_runs;
 
-use browser::{Browser, Kind as BrowserKind, RIGHT, SPACE, TAB};
+use browser::{Browser, Kind as BrowserKind, Person, RIGHT, SPACE, TAB};
 use home::Home;
 use kinds::{KINDS, Kind};
 use libtest_mimic::{Arguments, Failed, Trial};
@@ -33,7 +40,7 @@ fn main() -> ExitCode {
         let run = move || -> Result<(), Failed> {
             let folder = tempfile::tempdir()?;
             let page = (kind.make)(folder.path());
-            check(&mut *BrowserKind::Chromium.start(&program), &page, kind);
+            check(&mut *BrowserKind::Chromium.start(&program, Person::default()), &page, kind);
             Ok(())
         };
         Trial::test(name, run).with_ignored_flag(ignored)
@@ -45,6 +52,18 @@ fn main() -> ExitCode {
         trial("a click on a point of a front plays it".into(), check_front, &FRONT),
         trial("names of a creature run no script".into(), check_hostile, &HOSTILE),
     ];
+    let looks = {
+        let program = program.clone();
+        let run = move || -> Result<(), Failed> {
+            pictures::look_as_they_did(&program);
+            Ok(())
+        };
+        Trial::test("the studio looks as it did", run).with_ignored_flag(ignored)
+    };
+    let told_apart = Trial::test("pictures of the studio are told apart", || {
+        pictures::are_told_apart();
+        Ok(())
+    });
     let built = Home::built();
     if built.is_none() && !ignored {
         println!("the studio as a static page is not opened: docs/studio.md says how it is built; then set");
@@ -59,30 +78,51 @@ fn main() -> ExitCode {
     let studio = studios.iter().flat_map(|(kind, program)| {
         homes.iter().flatten().flat_map(move |home| chapters(*kind, program.as_deref(), home))
     });
-    let all = every.chain(others).chain(studio).collect();
+    let all = every.chain(others).chain([looks, told_apart]).chain(studio).collect();
     libtest_mimic::run(&arguments, all).exit_code()
 }
 
-/// The chapters of the studio, in a browser and a home. Those that are about the program are tried in one browser.
+/// What is tried of the studio: a name, how, and by whom.
+type Chapter = (&'static str, fn(&mut Browser, &Path, &Home), Person);
+
+const ANYBODY: Person = Person { wants_rest: false, likes_dark: false, touches: false };
+
+const EVERYWHERE: [Chapter; 20] = [
+    ("begins with a biped that learns to run", studio::begins, ANYBODY),
+    ("trains what is chosen", studio::chooses, ANYBODY),
+    ("lets a champion be played with", studio::plays, ANYBODY),
+    ("trains what is drawn", studio::draws, ANYBODY),
+    ("keeps, verifies and exports", studio::keeps, ANYBODY),
+    ("fits a phone and a wall, and names its controls", studio::fits, ANYBODY),
+    ("trains what the command line trains", studio::repeats, ANYBODY),
+    ("is the same in two tabs", studio::is_shared, ANYBODY),
+    ("tells who was bred from whom", studio_runs::tells_parents, ANYBODY),
+    ("shows two champions side by side", studio_runs::shows_two, ANYBODY),
+    ("replays a champion in other worlds", studio_runs::replays_elsewhere, ANYBODY),
+    ("has a gallery that moves", studio_runs::moves_pictures, ANYBODY),
+    (
+        "has a gallery that rests for who wants rest",
+        studio_runs::keeps_pictures_still,
+        Person { wants_rest: true, ..ANYBODY },
+    ),
+    ("removes runs for good", studio_runs::removes, ANYBODY),
+    ("trains on a ground that is drawn", studio_ground::draws, ANYBODY),
+    ("gives a tour by keyboard", studio_people::tours, ANYBODY),
+    ("is played with by touch", studio_people::touches, Person { touches: true, ..ANYBODY }),
+    ("shows names of parts, paint and grounds as they are", studio_people::shows_names, ANYBODY),
+    ("lets a newcomer change the population", newcomer::changes_the_population, ANYBODY),
+    ("lets a newcomer draw a tripod, train it, push it and export a GIF", newcomer::draws_a_tripod, ANYBODY),
+];
+const SERVED: [Chapter; 2] = [
+    ("does nothing that a creature's name says", studio::hostile, ANYBODY),
+    ("follows a run that another process trains", studio_runs::follows, ANYBODY),
+];
+const STATIC: [Chapter; 1] = [("lets runs and champions travel", studio::travels, ANYBODY)];
+
+/// The chapters of the studio, in a browser and a home.
 fn chapters(kind: BrowserKind, program: Option<&Path>, home: &Home) -> Vec<Trial> {
-    type Check = fn(&mut Browser, &Path, &Home);
-    let mut chapters: Vec<(&str, Check)> = vec![
-        ("begins with a biped that learns to run", studio::begins),
-        ("trains what is chosen", studio::chooses),
-        ("lets a champion be played with", studio::plays),
-        ("trains what is drawn", studio::draws),
-        ("keeps, verifies and exports", studio::keeps),
-        ("fits a phone and a wall, and names its controls", studio::fits),
-        ("trains what the command line trains", studio::repeats),
-        ("is the same in two tabs", studio::is_shared),
-    ];
-    match home {
-        Home::Served if kind == BrowserKind::Chromium => {
-            chapters.push(("does nothing that a creature's name says", studio::hostile));
-        }
-        Home::Served => {}
-        Home::Static(_) => chapters.push(("lets runs and champions travel", studio::travels)),
-    }
+    let others: &[Chapter] = if *home == Home::Served { &SERVED } else { &STATIC };
+    let chapters = EVERYWHERE.iter().chain(others).copied();
     let place = match home {
         Home::Served => "the studio",
         Home::Static(_) => "the studio as a static page",
@@ -90,15 +130,15 @@ fn chapters(kind: BrowserKind, program: Option<&Path>, home: &Home) -> Vec<Trial
     let place = if kind == BrowserKind::Firefox { format!("{place}, in Firefox,") } else { place.to_owned() };
     let is_there = program.is_some();
     let program = program.unwrap_or(Path::new("")).to_owned();
-    let trial = |(name, check): (&str, Check)| {
+    let trial = |(name, check, person): Chapter| {
         let (program, home) = (program.clone(), home.clone());
         let run = move || -> Result<(), Failed> {
-            check(&mut *kind.start(&program), tempfile::tempdir()?.path(), &home);
+            check(&mut *kind.start(&program, person), tempfile::tempdir()?.path(), &home);
             Ok(())
         };
         Trial::test(format!("{place} {name}"), run).with_ignored_flag(!is_there)
     };
-    chapters.into_iter().map(trial).collect()
+    chapters.map(trial).collect()
 }
 
 /// What holds for every page.

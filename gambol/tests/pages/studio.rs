@@ -2,88 +2,14 @@
 
 use crate::{
     browser::{Browser, Key},
+    hands::{click, drop_file, generation, is_clean, set, text, train, wait},
     home::{Home, Studio},
 };
 use serde_json::Value;
-use std::{
-    fs,
-    path::Path,
-    process::Command,
-    thread,
-    time::{Duration, Instant},
-};
+use std::{fs, path::Path, process::Command, thread, time::Duration};
 
 const ONE: Key = Key("1", "Digit1", 49);
 const FOUR: Key = Key("4", "Digit4", 52);
-
-/// How long a chapter may take for anything.
-const PATIENCE: Duration = Duration::from_secs(90);
-
-/// Waits until an expression is true.
-#[track_caller]
-fn wait(browser: &mut Browser, what: &str, expression: &str) {
-    let since = Instant::now();
-    while browser.evaluate(expression) != true {
-        if since.elapsed() > PATIENCE {
-            let says = browser.evaluate("document.body.innerText");
-            panic!("{what} never came; the page says: {says}\n{:?}", browser.complaints());
-        }
-        thread::sleep(Duration::from_millis(50));
-    }
-}
-
-fn text(browser: &mut Browser, id: &str) -> String {
-    browser.evaluate(&format!("document.getElementById('{id}').textContent")).as_str().unwrap_or_default().to_owned()
-}
-
-/// Presses the middle of an element as a pointer would.
-#[track_caller]
-fn click(browser: &mut Browser, selector: &str) {
-    let middle = format!(
-        "(() => {{ const found = document.querySelector({selector:?}); found.scrollIntoView({{ block: 'center' }}); \
-         const box = found.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]; }})()"
-    );
-    let place = browser.evaluate(&middle);
-    let at = |index: usize| place[index].as_f64().expect("a place");
-    browser.click(at(0), at(1));
-}
-
-/// Sets a field, and tells the page.
-fn set(browser: &mut Browser, selector: &str, value: &str) {
-    browser.evaluate(&format!(
-        "(() => {{ const field = document.querySelector({selector:?}); field.value = {value:?}; \
-         for (const kind of ['input', 'change']) field.dispatchEvent(new Event(kind, {{ bubbles: true }})); }})()"
-    ));
-}
-
-/// Neither errors nor requests to anybody else.
-#[track_caller]
-fn is_clean(browser: &Browser, studio: &Studio) {
-    assert_eq!(browser.complaints(), [""; 0], "errors");
-    let elsewhere: Vec<String> = browser.requests(&studio.url);
-    let elsewhere =
-        elsewhere.iter().filter(|address| !address.starts_with(studio.origin()) && !address.starts_with("blob:"));
-    assert_eq!(elsewhere.count(), 0, "requests to others");
-}
-
-/// A short training, begun by pointing.
-fn train(browser: &mut Browser, creature: &str, movement: &str, generations: u32) {
-    click(browser, "[data-chapter=choose]");
-    wait(browser, "the creatures", "document.querySelectorAll('#choose-creature label').length > 6");
-    browser.evaluate(&format!("document.querySelector('#choose-creature input[value={creature:?}]').click()"));
-    browser.evaluate(&format!("document.querySelector('#choose-movement input[value={movement:?}]').click()"));
-    set(browser, "#choose-generations", &generations.to_string());
-    wait(
-        browser,
-        "the command",
-        &format!("document.getElementById('choose-command').textContent.includes('--generations {generations}')"),
-    );
-    click(browser, "#choose-train");
-    let ended = format!(
-        "/the generations were done · generation {generations} /.test(document.getElementById('run-state').textContent)"
-    );
-    wait(browser, "the end", &ended);
-}
 
 pub(crate) fn begins(browser: &mut Browser, folder: &Path, home: &Home) {
     let studio = Studio::start(home, folder, &[]);
@@ -100,12 +26,7 @@ pub(crate) fn begins(browser: &mut Browser, folder: &Path, home: &Home) {
     wait(browser, "a chart", "document.querySelectorAll('#fitness-chart path').length > 1");
     click(browser, "#run-pause");
     wait(browser, "the pause", "document.getElementById('run-state').textContent.includes('training waits')");
-    let generation = |text: String| -> u32 {
-        let digits: String =
-            text.split("generation ").nth(1).expect("a generation").chars().take_while(char::is_ascii_digit).collect();
-        digits.parse().expect("a number")
-    };
-    let before = generation(text(browser, "run-state"));
+    let before = generation(browser);
     click(browser, "#run-step");
     wait(
         browser,
@@ -236,13 +157,6 @@ pub(crate) fn keeps(browser: &mut Browser, folder: &Path, home: &Home) {
     }
     // A champion from a file, and one that is none.
     let champion = String::from_utf8(studio.file(browser, "runs/biped-1-running/champion.json")).expect("text");
-    let drop_file = |browser: &mut Browser, name: &str, text: &str| {
-        browser.evaluate(&format!(
-            "(() => {{ const data = new DataTransfer(); data.items.add(new File([{}], {name:?})); \
-             document.dispatchEvent(new DragEvent('drop', {{ dataTransfer: data, cancelable: true }})); }})()",
-            Value::from(text)
-        ))
-    };
     drop_file(browser, "champion.json", &champion);
     wait(
         browser,

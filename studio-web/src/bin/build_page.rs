@@ -7,6 +7,7 @@
 
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+use gambol_runs::Registry;
 use std::{
     env,
     error::Error,
@@ -60,6 +61,7 @@ fn build(folder: &Path) -> Result<(), Box<dyn Error>> {
     let policy = format!("{head}\n<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">");
     fs::write(folder.join("index.html"), studio::page::PAGE.replacen(head, &policy, 1))?;
     fs::write(folder.join("studio.css"), studio::page::styles())?;
+    fs::write(folder.join("schema.json"), gambol_runs::schema::json_schema(&Registry::default()).to_string())?;
     fs::write(folder.join("studio.js"), studio::page::scripts(&format!("{MODULE}\n{HOME}")))?;
     fs::write(folder.join("worker.js"), format!("\"use strict\";\n{}", WORKER.join("\n")))?;
     Ok(())
@@ -74,7 +76,16 @@ fn module() -> Result<PathBuf, Box<dyn Error>> {
         .current_dir(root)
         .env("CARGO_BUILD_TARGET", TARGET)
         .env("RUSTFLAGS", "-C target-feature=+simd128")
-        .args(["build", "--locked", "--profile", "web", "--lib", "--package", "gambol-studio-web"])
+        .args([
+            "build",
+            "--locked",
+            "--profile",
+            "web",
+            "--no-default-features",
+            "--lib",
+            "--package",
+            "gambol-studio-web",
+        ])
         .status()
         .map_err(|error| format!("{} cannot be run: {error}", Path::new(&cargo).display()))?;
     if !status.success() {

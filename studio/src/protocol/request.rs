@@ -192,6 +192,8 @@ pub struct Choice {
     pub terrain: Option<String>,
     /// The variation; by default the preset's.
     pub variation: Option<String>,
+    /// A run that is gone on from, by the name of its folder; by default none.
+    pub from: Option<String>,
     /// The seed; by default the preset's.
     pub seed: Option<u64>,
     /// When to end, in generations; by default as the preset has it.
