@@ -164,6 +164,21 @@ impl<const W: usize> Batch<W> {
         }
     }
 
+    /// What the creature in a lane is to do, decided elsewhere.
+    pub(crate) fn drive(&mut self, lane: usize, outputs: &[f32]) {
+        assert_eq!(outputs.len(), self.outputs.len(), "one action for each motor");
+        self.unusable[lane] = outputs.iter().position(|output| !output.is_finite());
+        for (lanes, &output) in self.outputs.iter_mut().zip(outputs) {
+            lanes.0[lane] = if self.unusable[lane].is_some() { 0.0 } else { output };
+        }
+    }
+
+    /// What the creature in a lane has last sensed.
+    pub(crate) fn read(&self, lane: usize, inputs: &mut [f32]) {
+        assert_eq!(inputs.len(), self.inputs.len(), "a place for each input");
+        inputs.iter_mut().zip(&self.inputs).for_each(|(input, lanes)| *input = lanes.0[lane]);
+    }
+
     /// One time step of all lanes.
     pub(crate) fn step(&mut self) {
         self.step_timed(None);

@@ -6,6 +6,7 @@
 //!
 //! - [`LaneEpisode`] is the [`Task`](ne_core::Task) for training: it plays batches.
 //! - [`play`] shows what controllers do, each in a world of its own.
+//! - [`DrivenLanes`] are creatures that somebody outside drives, step by step.
 //! - [`LaneEnvironment`] is a single creature, for callers that take a [`tasks::Environment`].
 //!
 //! Three decisions:
@@ -45,6 +46,7 @@
 
 mod batch;
 mod controllers;
+mod driven;
 mod engine;
 mod episode;
 mod evaluation;
@@ -59,6 +61,7 @@ mod solver;
 mod stopwatch;
 mod workload;
 
+pub use driven::{DrivenEnd, DrivenLanes, DrivenStep};
 pub use engine::{LaneEngine, LaneEnvironment};
 pub use episode::LaneEpisode;
 pub use instructions::Instructions;

@@ -9,6 +9,7 @@
 //! | `evaluations`, `batches`, `contract` | whole evaluations, in any batch, on any thread |
 //! | `physics` | worlds that differ in what engines differ in, and pushes, another in each lane |
 //! | `recordings` | controllers in worlds of their own, shown moment by moment |
+//! | `driven` | creatures that are driven from outside, step by step |
 //! | `failures`, `refusals` | what goes wrong, and what lanes cannot do |
 //! | `control` | rapier against rapier, started 0.2 µm higher: how large a difference of nothing becomes |
 //!
@@ -19,6 +20,7 @@ mod any_creature;
 mod batches;
 mod contract;
 mod control;
+mod driven;
 mod evaluations;
 mod failures;
 mod gauges;

@@ -1,0 +1,52 @@
+"""Gambol: neuroevolution for 2D creatures.
+
+- :func:`make_vec`: many environments of a creature and a movement at once, a ``gymnasium.vector.VectorEnv``.
+- ``gymnasium.make("gambol/Biped1Running-v0")``: one of them; registered for every shipped creature and movement.
+- :class:`CmaEs` and other strategies by ask and tell on NumPy arrays.
+- :func:`train`: a whole run, from a creature and a movement to a champion in a folder.
+"""
+
+from gambol._environment import CreatureEnv
+from gambol._gambol import creature_names, movement_names, strategy_names, terrain_names, variation_names
+from gambol._registration import environment_id, register_environments
+from gambol._runs import Champion, Run, train
+from gambol._strategies import (
+    Ars,
+    Best,
+    CmaEs,
+    Conventional,
+    Cosyne,
+    HillClimbing,
+    Nsga2,
+    OpenEs,
+    RandomSearch,
+    Strategy,
+)
+from gambol._vector import VectorEnv, make_vec
+
+__all__ = [
+    "Ars",
+    "Best",
+    "Champion",
+    "CmaEs",
+    "Conventional",
+    "Cosyne",
+    "CreatureEnv",
+    "HillClimbing",
+    "Nsga2",
+    "OpenEs",
+    "RandomSearch",
+    "Run",
+    "Strategy",
+    "VectorEnv",
+    "creature_names",
+    "environment_id",
+    "make_vec",
+    "movement_names",
+    "strategy_names",
+    "terrain_names",
+    "train",
+    "variation_names",
+]
+
+register_environments()

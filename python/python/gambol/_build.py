@@ -1,0 +1,56 @@
+"""The native environments of a caller's words."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+
+from gambol._gambol import Environments
+
+
+def build(
+    creature: str | os.PathLike[str],
+    movement: str,
+    num_envs: int,
+    *,
+    preset: str | None,
+    terrain: str | None,
+    variation: str | None,
+    engine: str | None,
+    max_episode_steps: int | None,
+    settings: Mapping[str, Any] | None,
+    autoreset: str,
+    threads: int,
+) -> Environments:
+    """Builds them; what is wrong is a ``ValueError`` in the library's own words."""
+    return Environments(
+        os.fspath(creature),
+        movement,
+        num_envs,
+        preset=preset,
+        terrain=terrain,
+        variation=variation,
+        engine=engine,
+        steps=max_episode_steps,
+        settings=assignments(settings),
+        autoreset=autoreset,
+        threads=threads,
+    )
+
+
+def assignments(settings: Mapping[str, Any] | None) -> list[str]:
+    """Settings as a configuration takes them: ``{"physics.gravity": 5}`` is ``physics.gravity=5``."""
+    return [f"{path}={json.dumps(value)}" for path, value in (settings or {}).items()]
+
+
+def single_spaces(native: Environments) -> tuple[spaces.Space[Any], spaces.Space[Any]]:
+    """What one environment shows, float32[inputs] within ± the input range; and takes, float32[motors] within ±1."""
+    inputs, motors = native.shape
+    limit = native.input_range
+    observation = spaces.Box(-limit, limit, (inputs,), np.float32)
+    return observation, spaces.Box(-1.0, 1.0, (motors,), np.float32)

@@ -1,0 +1,195 @@
+"""Whole runs: training, and what it leaves in a folder."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from gambol import _gambol
+from gambol._build import assignments
+
+Callback = Callable[[dict[str, Any]], bool | None]
+
+
+class Champion:
+    """The best that a run has found: a champion file.
+
+    Raises:
+        OSError: if the file cannot be read or is damaged.
+    """
+
+    def __init__(self, path: str | os.PathLike[str]) -> None:
+        """Reads the file."""
+        #: The file.
+        self.path = Path(path)
+        #: All that the file says, as docs/files.md has it.
+        self.data: dict[str, Any] = json.loads(_gambol.read_champion(self.path))
+
+    @property
+    def fitness(self) -> float:
+        """The fitness, in the movement's unit, of one episode in rapier."""
+        return float(self.data["fitness"])
+
+    @property
+    def generation(self) -> int:
+        """The generation it was found in, from 1."""
+        return int(self.data["generation"])
+
+    def verify(self) -> bool:
+        """Replays it in rapier: whether every step has the bits that the file records."""
+        return _gambol.verify(self.path)[0]
+
+    def gait(self) -> dict[str, Any]:
+        """Its gait, measured and judged: travel, stride, cheats, and the verdict. See docs/gaits.md.
+
+        Raises:
+            ValueError: if there is nothing to measure.
+        """
+        report: dict[str, Any] = json.loads(_gambol.judge_gait(self.path))
+        return report
+
+    def __repr__(self) -> str:
+        """Its fitness and where it is."""
+        return f"Champion(fitness={self.fitness:.6g}, path={str(self.path)!r})"
+
+
+class Run:
+    """A run folder, whether this program made it or the command line did."""
+
+    def __init__(self, folder: str | os.PathLike[str], reason: str | None = None) -> None:
+        """Nothing is read yet."""
+        #: The folder.
+        self.folder = Path(folder)
+        #: Why the run ended, if it was carried out here.
+        self.reason = reason
+
+    @property
+    def log(self) -> dict[str, npt.NDArray[Any]]:
+        """The log as columns, a row for each generation: ``pandas.DataFrame(run.log)`` is a table.
+
+        ``generation``, ``evaluations``, ``steps``, ``best_so_far``, ``failures``, ``population``; of the generation's
+        fitnesses ``best``, ``mean``, ``median``, ``worst`` and quantiles (``q10`` to ``q90``); and what the strategy says of
+        itself. NaN where there is nothing to tell.
+        """
+        rows = [_flat(json.loads(line)) for line in _gambol.read_log(self.folder)]
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        whole = {"generation", "evaluations", "steps", "failures", "population", "tier"}
+        return {
+            name: np.array([row.get(name, 0) for row in rows], np.int64)
+            if name in whole
+            else np.array([row.get(name, np.nan) for row in rows], np.float64)
+            for name in names
+        }
+
+    @property
+    def champion(self) -> Champion | None:
+        """The best so far; ``None`` if every evaluation failed."""
+        path = self.folder / "champion.json"
+        return Champion(path) if path.is_file() else None
+
+    @property
+    def config(self) -> dict[str, Any]:
+        """The configuration: everything that determines the run."""
+        config: dict[str, Any] = json.loads(_gambol.read_config(self.folder))
+        return config
+
+    def resume(
+        self, *, generations: int | None = None, threads: int = 0, callback: Callback | None = None
+    ) -> Run:
+        """Goes on from the last checkpoint, to the bytes of a run that was never stopped.
+
+        Args:
+            generations: the generation to go on to, in place of the planned one.
+            threads: as of :func:`train`.
+            callback: as of :func:`train`.
+        """
+        ended = _gambol.resume(self.folder, generations, threads, _told(callback))
+        return Run(self.folder, ended[0])
+
+    def __repr__(self) -> str:
+        """Where it is."""
+        return f"Run({str(self.folder)!r})"
+
+
+def train(
+    creature: str | os.PathLike[str] | None,
+    movement: str | None = None,
+    *,
+    out: str | os.PathLike[str],
+    seed: int | None = None,
+    generations: int | None = None,
+    population: int | None = None,
+    strategy: str | None = None,
+    preset: str | None = None,
+    terrain: str | None = None,
+    variation: str | None = None,
+    engine: str | None = None,
+    config: str | os.PathLike[str] | None = None,
+    settings: Mapping[str, Any] | None = None,
+    threads: int = 0,
+    callback: Callback | None = None,
+) -> Run:
+    """Trains a creature, as the program's command ``gambol train`` does, to the same bytes.
+
+    Args:
+        creature: the name of a shipped creature or the path of a creature file; ``None`` if ``config`` says it.
+        movement: the movement's name; ``None`` if ``config`` says it.
+        out: the run folder, which must be new or empty.
+        seed: from 0 to 2⁶⁴ − 1; 1 by default.
+        generations: how many; 300 by default.
+        population: individuals of a generation; by default the strategy's.
+        strategy: its name (:func:`gambol.strategy_names`); by default the preset's.
+        preset: where settings begin; by default what was found to work best.
+        terrain: ``"NAME"`` or ``"NAME:DIFFICULTY"``.
+        variation: how worlds differ from trial to trial.
+        engine: what steps the creatures, ``"lanes"`` or ``"rapier"``.
+        config: a configuration file, laid over the preset.
+        settings: single settings by their path, such as ``{"strategy.cma-es.step_size": 1.0}``; see docs/configuration.md.
+        threads: 0, the default: one for each core. No byte depends on it.
+        callback: called after each generation with its line of the log as a dictionary. The run ends if it returns
+            ``True``. What it raises ends the run too, once what there is has been saved.
+
+    Returns:
+        The run. Ctrl-C ends it after the generation under way and saves; ``reason`` is then ``"it was interrupted"``, and
+        :meth:`Run.resume` goes on.
+
+    Raises:
+        ValueError: if a name or a setting is wrong.
+        OSError: if the folder cannot be used.
+    """
+    ended = _gambol.train(
+        None if creature is None else os.fspath(creature),
+        movement,
+        Path(out),
+        preset=preset,
+        strategy=strategy,
+        terrain=terrain,
+        variation=variation,
+        engine=engine,
+        seed=seed,
+        generations=generations,
+        population=population,
+        config=None if config is None else Path(config),
+        settings=assignments(settings),
+        threads=threads,
+        callback=_told(callback),
+    )
+    return Run(out, ended[0])
+
+
+def _told(callback: Callback | None) -> Callable[[str], bool] | None:
+    return None if callback is None else lambda line: bool(callback(json.loads(line)))
+
+
+def _flat(line: dict[str, Any]) -> dict[str, float]:
+    """A line of the log as names and numbers."""
+    flat = {name: value for name, value in line.items() if isinstance(value, (int, float))}
+    flat |= line.get("fitness") or {}
+    flat |= {statistic["name"]: statistic["value"] for statistic in line.get("strategy", [])}
+    return flat

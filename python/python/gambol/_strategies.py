@@ -1,0 +1,178 @@
+"""Strategies by ask and tell on NumPy arrays."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar, Self
+
+import numpy as np
+import numpy.typing as npt
+
+from gambol._gambol import Search
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best individual a search has found: of equals the first."""
+
+    #: Its genome, ``float32[dimension]``.
+    weights: npt.NDArray[np.float32]
+    #: What it was told to be worth.
+    fitness: float
+    #: The generation it was asked in, from 1.
+    generation: int
+
+
+class Strategy:
+    """A search for numbers: :meth:`ask` for a generation, evaluate it, :meth:`tell` the results, again and again.
+
+    Fitness is to be **maximised**; NaN is an evaluation that failed, which ranks below every fitness. A search is a function
+    of its settings, its seed and what it is told: the same bits on every machine, and those that a run of the program with
+    this seed gets. It pickles, also between ask and tell, and goes on from there to the bit.
+
+    Args:
+        dimension: how many numbers are searched for, all alike.
+        layers: in place of the dimension the layers of a dense net, inputs first, such as ``(7, 10, 4)``: the genome is its
+            weights, neuron by neuron, each neuron's bias behind the weights of its inputs. Operators that know of neurons then
+            cross whole neurons.
+        seed: from 0 to 2⁶⁴ − 1.
+        **settings: those of the strategy, as in ``strategy.NAME`` of a configuration; what is left out has its default. See
+            docs/strategies.md.
+
+    Raises:
+        ValueError: if a setting is unknown or out of range; the message says which, and what is allowed.
+    """
+
+    #: The name in configurations.
+    name: ClassVar[str] = ""
+    _search: Search
+
+    def __init__(
+        self,
+        dimension: int | None = None,
+        *,
+        layers: Sequence[int] | None = None,
+        seed: int = 1,
+        **settings: Any,
+    ) -> None:
+        """Builds the search; nothing is asked yet."""
+        given = {field: value for field, value in settings.items() if value is not None}
+        sizes = None if layers is None else [int(width) for width in layers]
+        self._search = Search(self.name, dimension, sizes, seed, json.dumps(given))
+
+    def ask(self) -> npt.NDArray[np.float32]:
+        """The next generation, ``float32[population, dimension]``. Until it is told, the same again."""
+        return self._search.ask()
+
+    def tell(self, fitness: npt.ArrayLike, objectives: npt.ArrayLike | None = None) -> None:
+        """The results of the generation last asked, in its order.
+
+        Args:
+            fitness: ``float64[population]``, to be maximised; NaN for an evaluation that failed.
+            objectives: ``float64[population, objectives]``, to be maximised, for strategies that search for several.
+
+        Raises:
+            RuntimeError: if no generation waits for its results.
+            ValueError: if there is not one result for each individual.
+        """
+        values = np.ascontiguousarray(fitness, np.float64)
+        if values.ndim != 1:
+            raise ValueError(f"fitness must be of one dimension, found {values.ndim}")
+        several = None if objectives is None else np.ascontiguousarray(objectives, np.float64)
+        self._search.tell(values, several)
+
+    @property
+    def best(self) -> Best | None:
+        """The best individual so far; ``None`` while every evaluation has failed."""
+        best = self._search.best()
+        return None if best is None else Best(*best)
+
+    @property
+    def generation(self) -> int:
+        """How many generations have been told."""
+        return self._search.generations
+
+    @property
+    def dimension(self) -> int:
+        """How many numbers a genome has."""
+        return self._search.dimension
+
+    @property
+    def statistics(self) -> dict[str, float]:
+        """What the strategy says of its own state, such as its step size."""
+        return dict(self._search.statistics())
+
+    def __getstate__(self) -> bytes:
+        """The whole state."""
+        return self._search.save()
+
+    def __setstate__(self, state: bytes) -> None:
+        """Goes on from a state."""
+        self._search = Search.restore(self.name, state)
+
+    def __copy__(self) -> Self:
+        """An independent search in the same state."""
+        copy = object.__new__(type(self))
+        copy.__setstate__(self.__getstate__())
+        return copy
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        """An independent search in the same state."""
+        return self.__copy__()
+
+    def __repr__(self) -> str:
+        """Its kind, its dimension and how far it is."""
+        return f"{type(self).__name__}(dimension={self.dimension}, generation={self.generation})"
+
+
+class CmaEs(Strategy):
+    """The evolution strategy with covariance matrix adaptation.
+
+    Settings: ``population`` (4 + ⌊3 ln n⌋), ``step_size`` (0.5), ``covariance`` ("separable" or "full"), ``restart``, ….
+    """
+
+    name = "cma-es"
+
+
+class Conventional(Strategy):
+    """Conventional neuroevolution: a genetic algorithm over weights."""
+
+    name = "conventional"
+
+
+class OpenEs(Strategy):
+    """OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations."""
+
+    name = "open-es"
+
+
+class Cosyne(Strategy):
+    """Cooperative synapse neuroevolution: the weights of each place coevolve."""
+
+    name = "cosyne"
+
+
+class Nsga2(Strategy):
+    """NSGA-II: a front of compromises between several objectives, which :meth:`Strategy.tell` takes."""
+
+    name = "nsga2"
+
+
+class Ars(Strategy):
+    """Augmented random search, V1-t: steps along the best of random directions; a baseline."""
+
+    name = "ars"
+
+
+class HillClimbing(Strategy):
+    """Hill climbing: one parent and its noisy copies, the best goes on; a baseline."""
+
+    name = "hill-climbing"
+
+
+class RandomSearch(Strategy):
+    """Random search: every genome is drawn anew, nothing is learnt; a baseline."""
+
+    name = "random-search"

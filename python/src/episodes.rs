@@ -1,0 +1,100 @@
+//! What environments are made of: from a caller's words to episodes that are checked.
+
+use envs_lanes::{LANES, LaneEpisode};
+use envs_rapier::RapierEnvironment;
+use gambol_runs::{Registry, config::EngineChoice, request::Request};
+use std::{error::Error, sync::OnceLock};
+use tasks::{Environment, Episode};
+
+/// Everything that can be named. Built when it is first asked for: an import costs nothing.
+pub(crate) fn registry() -> &'static Registry {
+    static REGISTRY: OnceLock<Registry> = OnceLock::new();
+    REGISTRY.get_or_init(Registry::default)
+}
+
+/// The episodes of environments, in the engine that plays them.
+pub(crate) enum Episodes {
+    /// Sixteen at once.
+    Lanes(Box<LaneEpisode>),
+    /// One at a time: the reference, and what lanes cannot do.
+    Rapier(Box<Episode<RapierEnvironment>>),
+}
+
+/// Episodes, and what a caller wants to know of them.
+pub(crate) struct Described {
+    pub(crate) episodes: Episodes,
+    /// Sensors are scaled to ± this.
+    pub(crate) input_range: f32,
+    /// The unit of the fitness.
+    pub(crate) unit: String,
+    /// The whole configuration, as JSON.
+    pub(crate) config: String,
+}
+
+impl Described {
+    /// What a request asks for. The engine is that of the request, or that of training.
+    pub(crate) fn build(request: &Request) -> Result<Self, Box<dyn Error>> {
+        let registry = registry();
+        let config = request.resolve(registry)?;
+        let parts = config.episode_parts();
+        let episodes = match config.engine {
+            EngineChoice::Lanes => Episodes::Lanes(Box::new(parts.build_lanes(registry)?)),
+            EngineChoice::Rapier => Episodes::Rapier(Box::new(parts.build(registry)?)),
+        };
+        let unit = registry.movements.build(&config.movement)?.unit().to_owned();
+        let input_range = config.controller.input_range;
+        Ok(Self { episodes, input_range, unit, config: serde_json::to_string(&config)? })
+    }
+}
+
+impl Episodes {
+    /// How many environments are stepped together.
+    pub(crate) fn together(&self) -> usize {
+        match self {
+            Self::Lanes(_) => LANES,
+            Self::Rapier(_) => 1,
+        }
+    }
+
+    /// What steps them: `avx2`, `rapier` and the like.
+    pub(crate) fn stepped_by(&self) -> &'static str {
+        match self {
+            Self::Lanes(episode) => episode.instructions().name(),
+            Self::Rapier(_) => "rapier",
+        }
+    }
+
+    /// The longest an episode lasts, in steps.
+    pub(crate) fn steps(&self) -> u32 {
+        match self {
+            Self::Lanes(episode) => episode.steps(),
+            Self::Rapier(episode) => episode.steps(),
+        }
+    }
+
+    /// Seconds a step lasts, before variation.
+    pub(crate) fn time_step(&self) -> f32 {
+        match self {
+            Self::Lanes(episode) => episode.environment().settings().time_step,
+            Self::Rapier(episode) => episode.environment().settings().time_step,
+        }
+    }
+
+    /// How many numbers are sensed, and how many motors there are.
+    pub(crate) fn shape(&self) -> (usize, usize) {
+        match self {
+            Self::Lanes(episode) => (episode.environment().inputs(), episode.environment().outputs()),
+            Self::Rapier(episode) => (episode.environment().inputs(), episode.environment().outputs()),
+        }
+    }
+
+    /// The names of what is sensed and of the motors, each with its unit.
+    pub(crate) fn channels(&self) -> [Vec<(String, String)>; 2] {
+        let (senses, motors) = match self {
+            Self::Lanes(episode) => (episode.environment().senses(), episode.environment().motors()),
+            Self::Rapier(episode) => (episode.environment().senses(), episode.environment().motors()),
+        };
+        [senses.channels(), motors.channels()]
+            .map(|channels| channels.iter().map(|channel| (channel.name.clone(), channel.unit.to_string())).collect())
+    }
+}

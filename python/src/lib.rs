@@ -1,0 +1,28 @@
+//! The native part of the Python package `gambol`: vector environments on SIMD lanes, strategies by ask and tell, runs.
+//!
+//! Nothing is computed here that the libraries do not compute: a Python caller never changes a bit of a run. All that takes
+//! time is done without Python's global lock, and arrays are written in place.
+
+mod environments;
+mod episodes;
+mod errors;
+mod group;
+mod names;
+mod runs;
+mod searches;
+mod stage;
+
+use pyo3::prelude::*;
+
+/// The native part of the package.
+#[pymodule]
+mod _gambol {
+    #[pymodule_export]
+    use crate::environments::Environments;
+    #[pymodule_export]
+    use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
+    #[pymodule_export]
+    use crate::runs::{judge_gait, read_champion, read_config, read_log, resume, train, verify};
+    #[pymodule_export]
+    use crate::searches::Search;
+}

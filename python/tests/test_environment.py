@@ -1,0 +1,64 @@
+"""Single environments, by Gymnasium's own checks."""
+
+import warnings
+
+import gymnasium
+import numpy as np
+import pytest
+from gymnasium.utils.env_checker import check_env
+
+import gambol
+
+
+@pytest.mark.parametrize("movement", ["running", "jumping", "swimming", "playing"])
+def test_check_env(movement):
+    env = gambol.CreatureEnv("tetrapod-2", movement)
+    with warnings.catch_warnings():
+        # It has no spec unless it is made by its id, and draws nothing yet.
+        warnings.simplefilter("ignore")
+        check_env(env, skip_render_check=True)
+
+
+def test_every_shipped_creature_and_movement_is_registered_and_can_be_made():
+    ids = [gambol.environment_id(creature, movement) for creature in gambol.creature_names() for movement in gambol.movement_names()]
+    assert "gambol/Biped1Running-v0" in ids
+    assert set(ids) == {name for name in gymnasium.registry if name.startswith("gambol/")}
+    for name in ids:
+        env = gymnasium.make(name, disable_env_checker=True)
+        observation, _ = env.reset(seed=1)
+        assert observation in env.observation_space, name
+        env.action_space.seed(1)
+        observation, reward, terminated, truncated, infos = env.step(env.action_space.sample())
+        assert observation in env.observation_space and isinstance(reward, float), name
+
+
+def test_one_is_an_environment_of_the_vector():
+    env = gymnasium.make("gambol/Biped1Running-v0", variation="strong", max_episode_steps=50)
+    envs = gambol.make_vec("biped-1", num_envs=3, variation="strong", max_episode_steps=50)
+    one, _ = env.reset(seed=8)
+    many, _ = envs.reset(seed=[7, 8, 9])
+    assert one.tobytes() == many[1].tobytes()
+    total = 0.0
+    for _ in range(50):
+        action = np.full(2, 0.5, np.float32)
+        one, reward, terminated, truncated, infos = env.step(action)
+        many, rewards, *_ = envs.step(np.tile(action, (3, 1)))
+        total += reward
+        assert one.tobytes() == many[1].tobytes() and reward == rewards[1]
+    assert truncated and not terminated and env.unwrapped.value == pytest.approx(total, abs=1e-10)
+    assert env.unwrapped.value == envs.values[1]
+
+
+def test_the_length_is_that_of_the_registration_or_of_the_caller():
+    env = gymnasium.make("gambol/Biped1Jumping-v0", max_episode_steps=3)
+    env.reset(seed=1)
+    for step in range(3):
+        *_, truncated, _ = env.step(np.zeros(2, np.float32))
+        assert truncated == (step == 2)
+    env = gambol.CreatureEnv("biped-1", "jumping", max_episode_steps=3)
+    env.reset(seed=1)
+    for step in range(3):
+        *_, truncated, infos = env.step(np.zeros(2, np.float32))
+        assert truncated == (step == 2) == ("fitness" in infos)
+    with pytest.raises(ValueError, match="reset"):
+        env.step(np.zeros(2, np.float32))

@@ -1,0 +1,125 @@
+"""Strategies by ask and tell."""
+
+import copy
+import hashlib
+import pickle
+
+import numpy as np
+import pytest
+
+import gambol
+
+ALL = [
+    gambol.Ars,
+    gambol.CmaEs,
+    gambol.Conventional,
+    gambol.Cosyne,
+    gambol.HillClimbing,
+    gambol.Nsga2,
+    gambol.OpenEs,
+    gambol.RandomSearch,
+]
+
+
+def fitness(genomes):
+    """The higher the nearer to 0.3, with no two alike."""
+    return -np.sum((genomes.astype(np.float64) - 0.3) ** 2, axis=1)
+
+
+def run(search, generations):
+    digest = hashlib.sha256()
+    for _ in range(generations):
+        genomes = search.ask()
+        digest.update(genomes.tobytes())
+        search.tell(fitness(genomes))
+    return digest.hexdigest()
+
+
+@pytest.mark.parametrize("kind", ALL)
+@pytest.mark.parametrize("shape", [{"dimension": 12}, {"layers": (3, 4, 2)}])
+def test_a_search_goes_on_to_the_bit_wherever_it_was_pickled(kind, shape):
+    search, other = kind(seed=3, **shape), kind(seed=3, **shape)
+    genomes = search.ask()
+    assert genomes.dtype == np.float32 and genomes.shape == (len(genomes), search.dimension)
+    assert genomes.tobytes() == search.ask().tobytes() == other.ask().tobytes()
+    # Between ask and tell.
+    search = pickle.loads(pickle.dumps(search))
+    assert genomes.tobytes() == search.ask().tobytes()
+    assert run(search, 5) == run(other, 5)
+    # Between two generations.
+    search = copy.deepcopy(search)
+    assert run(search, 5) == run(other, 5)
+    assert search.generation == 10 and search.statistics == other.statistics
+    assert search.best.fitness == other.best.fitness
+    assert search.best.fitness == fitness(search.best.weights[None])[0]
+    assert kind(seed=4, **shape).ask().tobytes() != kind(seed=3, **shape).ask().tobytes()
+
+
+@pytest.mark.parametrize("kind", [gambol.CmaEs, gambol.OpenEs, gambol.Conventional, gambol.Ars])
+def test_they_find_what_they_search(kind):
+    search = kind(8, seed=1)
+    first = fitness(search.ask()).max()
+    run(search, 200)
+    assert search.best.fitness > 0.2 * first
+
+
+def test_cma_es_finds_it_exactly():
+    search = gambol.CmaEs(20, seed=1, population=20, step_size=0.5)
+    assert search.ask().shape == (20, 20)
+    run(search, 400)
+    assert search.best.fitness > -1e-6
+    assert search.statistics["population"] == 20.0
+
+
+def test_several_objectives():
+    search = gambol.Nsga2(4, seed=1)
+    for _ in range(5):
+        genomes = search.ask()
+        search.tell(fitness(genomes), np.stack([genomes[:, 0], -genomes[:, 0]], axis=1))
+    with pytest.raises(ValueError, match="rows"):
+        search.ask()
+        search.tell(fitness(genomes), np.zeros((1, 2)))
+
+
+def test_failures_rank_below_every_fitness():
+    search = gambol.CmaEs(3, seed=1)
+    count = len(search.ask())
+    search.tell(np.full(count, np.nan))
+    assert search.best is None
+    genomes = search.ask()
+    values = np.full(count, np.nan)
+    values[2] = -1e9
+    search.tell(values)
+    assert search.best.fitness == -1e9 and search.best.generation == 2
+    assert (search.best.weights == genomes[2]).all()
+
+
+def test_any_dimension():
+    for dimension in (1, 2, 4097):
+        assert gambol.CmaEs(dimension, seed=1).ask().shape[1] == dimension
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: gambol.CmaEs(3, population=1), "population = 1"),
+        (lambda: gambol.CmaEs(3, step_sise=1), "step_size"),
+        (lambda: gambol.CmaEs(0), "dimension = 0"),
+        (lambda: gambol.CmaEs(), "either"),
+        (lambda: gambol.CmaEs(layers=(3,)), "layers"),
+        (lambda: gambol.CmaEs(layers=(3, 0, 1)), r"layers.hidden\[0\] = 0"),
+        (lambda: gambol.CmaEs(5000, covariance="full"), "separable"),
+    ],
+)
+def test_what_is_wrong_is_said(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_ask_and_tell_take_turns():
+    search = gambol.CmaEs(3)
+    with pytest.raises(RuntimeError, match="ask before tell"):
+        search.tell([1.0])
+    search.ask()
+    with pytest.raises(ValueError, match="length"):
+        search.tell([1.0])
