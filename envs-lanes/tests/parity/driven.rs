@@ -28,9 +28,9 @@ fn compare(name: &str, variation: Variation) {
     let mut shown: Vec<Vec<Snapshot>> = vec![Vec::new(); nets.len()];
     let mut rewards = vec![0.0; nets.len()];
     let mut rounds = vec![0; nets.len()];
-    for lane in 0..nets.len() {
+    for (lane, net) in nets.iter_mut().enumerate() {
         driven.begin(lane, &episode.environment().settled(seed(lane, 0)).expect("it comes to rest"));
-        nets[lane].reset();
+        net.reset();
     }
     let (mut sensed, mut wanted) = (vec![0.0; inputs], vec![0.0; outputs]);
     while rounds.iter().any(|&round| round < 2) {
@@ -45,9 +45,9 @@ fn compare(name: &str, variation: Variation) {
             rewards[lane] += step.reward;
             ended.extend(step.end.map(|end| (lane, end)));
         });
-        for lane in 0..nets.len() {
+        for (lane, shown) in shown.iter_mut().enumerate() {
             if driven.plays(lane) || ended.iter().any(|(ended, _)| *ended == lane) {
-                shown[lane].push(driven.snapshot(lane).clone());
+                shown.push(driven.snapshot(lane).clone());
             }
         }
         for (lane, end) in ended {
