@@ -3,7 +3,7 @@
 use super::{BodySizes, ObstacleKind, TerrainError, check};
 use crate::bounds::{
     Bounds, DRAWN_HEIGHT, DRAWN_PLACE, DRAWN_RISE, DRAWN_WIDTH, GAP_WIDTH, MOST_DRAWN_OBSTACLES, SLOPE_DEGREES,
-    SLOPE_WIDTH, TERRAIN_LENGTH,
+    SLOPE_WIDTH,
 };
 use serde::{Deserialize, Serialize};
 
@@ -116,11 +116,6 @@ pub(super) fn problems(drawn: &[DrawnObstacle]) -> Vec<TerrainError> {
             problems.push(TerrainError::new(&path("from"), from, allowed));
         }
         end = from + width;
-        if end > TERRAIN_LENGTH.max {
-            let allowed =
-                format!("at most {}, so that it ends within {} m", TERRAIN_LENGTH.max - from, TERRAIN_LENGTH.max);
-            problems.push(TerrainError::new(&path("width"), width, allowed));
-        }
         if let DrawnObstacle::Slope { rise, .. } = *obstacle {
             let steepest = width * libm::tanf(SLOPE_DEGREES.max.to_radians());
             if rise.abs() > steepest * 1.000_01 {
