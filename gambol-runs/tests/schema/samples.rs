@@ -170,6 +170,15 @@ fn everyday() -> Vec<(String, Value)> {
             })),
         ),
         (
+            "drawn box".into(),
+            changed(json!({ "terrain": { "drawn": [{ "box": { "from": 2, "width": 1, "height": 0.2 } }] } })),
+        ),
+        ("drawn gap".into(), changed(json!({ "terrain": { "drawn": [{ "gap": { "from": 2, "width": 0.5 } }] } }))),
+        (
+            "drawn slope".into(),
+            changed(json!({ "terrain": { "drawn": [{ "slope": { "from": 2, "width": 50, "rise": -0.5 } }] } })),
+        ),
+        (
             "drawn terrain".into(),
             changed(json!({ "terrain": { "drawn": [
             { "box": { "from": 2, "width": 1, "height": 0.2 } }, { "gap": { "from": 4, "width": 0.5 } },
