@@ -9,7 +9,7 @@ use envs_core::Settled;
 use ne_core::Failure;
 use tasks::{Environment, Movement, Snapshot, Verdict};
 
-/// [`LANES`] creatures that somebody outside drives, one step at a time, each in an episode of its own: for callers whose
+/// [`LANES`] creatures whose actions come from outside, one step at a time, each in an episode of its own: for callers whose
 /// controllers are no nets of `ne-net`, such as reinforcement learning.
 ///
 /// A lane is empty until [`begin`](Self::begin) puts a creature into it. From then on, again and again: [`act`](Self::act) for
@@ -181,25 +181,35 @@ impl DrivenLanes {
     }
 }
 
+impl DrivenStep {
+    /// A step that failed.
+    pub fn failed(failure: Failure) -> Self {
+        Self { reward: 0.0, end: Some(DrivenEnd::Failed(failure)) }
+    }
+
+    /// What a step has brought by a movement, for an environment of any kind. `value`: the movement's before the step, and after it
+    /// that after it. `is_last`: whether episodes last no longer.
+    pub fn judged(movement: &mut dyn Movement, snapshot: &Snapshot, value: &mut f64, is_last: bool) -> Self {
+        let end = match movement.observe(snapshot) {
+            Verdict::Fail(reason) => return Self::failed(Failure::Unstable { what: reason.into() }),
+            Verdict::End => Some(DrivenEnd::Ended),
+            Verdict::GoOn => is_last.then_some(DrivenEnd::OutOfTime),
+        };
+        let now = movement.value();
+        if !now.is_finite() {
+            return Self::failed(Failure::NonFinite { what: "fitness".into() });
+        }
+        let reward = now - std::mem::replace(value, now);
+        Self { reward, end }
+    }
+}
+
 impl Lane {
     /// Looks at the creature after a step, as [`LaneEpisode`] does.
     fn observe(&mut self, batch: &Batch<LANES>, lane: usize, steps: u32) -> DrivenStep {
-        let failed = |failure| DrivenStep { reward: 0.0, end: Some(DrivenEnd::Failed(failure)) };
         if let Err(failure) = batch.show(lane, &mut self.snapshot) {
-            return failed(failure);
+            return DrivenStep::failed(failure);
         }
-        let end = match self.movement.observe(&self.snapshot) {
-            Verdict::Fail(reason) => return failed(Failure::Unstable { what: reason.into() }),
-            Verdict::End => Some(DrivenEnd::Ended),
-            Verdict::GoOn if batch.steps(lane) >= steps => Some(DrivenEnd::OutOfTime),
-            Verdict::GoOn => None,
-        };
-        let value = self.movement.value();
-        if !value.is_finite() {
-            return failed(Failure::NonFinite { what: "fitness".into() });
-        }
-        let reward = value - self.value;
-        self.value = value;
-        DrivenStep { reward, end }
+        DrivenStep::judged(&mut *self.movement, &self.snapshot, &mut self.value, batch.steps(lane) >= steps)
     }
 }

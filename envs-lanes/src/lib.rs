@@ -6,7 +6,7 @@
 //!
 //! - [`LaneEpisode`] is the [`Task`](ne_core::Task) for training: it plays batches.
 //! - [`play`] shows what controllers do, each in a world of its own.
-//! - [`DrivenLanes`] are creatures that somebody outside drives, step by step.
+//! - [`DrivenLanes`] are creatures whose actions come from outside, step by step.
 //! - [`LaneEnvironment`] is a single creature, for callers that take a [`tasks::Environment`].
 //!
 //! Three decisions:

@@ -2,10 +2,10 @@
 
 use crate::episodes::Episodes;
 use envs_core::Settled;
-use envs_lanes::{DrivenEnd, DrivenLanes, DrivenStep, LaneEngine, LaneEnvironment};
+use envs_lanes::{DrivenLanes, DrivenStep, LaneEngine, LaneEnvironment};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Failure, Seed};
-use tasks::{Environment, Episode, Movement, PartState, Verdict};
+use tasks::{Environment, Episode, Movement, PartState};
 
 /// A few environments, each in an episode of its own.
 pub(crate) trait Stage: Send + Sync {
@@ -121,27 +121,15 @@ impl Alone {
     }
 
     fn observe(&mut self) -> DrivenStep {
-        let failed = |failure| DrivenStep { reward: 0.0, end: Some(DrivenEnd::Failed(failure)) };
         if let Some(index) = self.unusable.take() {
-            return failed(Failure::NonFinite { what: format!("output {index}") });
+            return DrivenStep::failed(Failure::NonFinite { what: format!("output {index}") });
         }
         if let Err(failure) = self.environment.step() {
-            return failed(failure);
+            return DrivenStep::failed(failure);
         }
         self.done += 1;
-        let end = match self.movement.observe(self.environment.snapshot()) {
-            Verdict::Fail(reason) => return failed(Failure::Unstable { what: reason.into() }),
-            Verdict::End => Some(DrivenEnd::Ended),
-            Verdict::GoOn if self.done >= self.steps => Some(DrivenEnd::OutOfTime),
-            Verdict::GoOn => None,
-        };
-        let value = self.movement.value();
-        if !value.is_finite() {
-            return failed(Failure::NonFinite { what: "fitness".into() });
-        }
-        let reward = value - self.value;
-        self.value = value;
-        DrivenStep { reward, end }
+        let snapshot = self.environment.snapshot();
+        DrivenStep::judged(&mut *self.movement, snapshot, &mut self.value, self.done >= self.steps)
     }
 }
 

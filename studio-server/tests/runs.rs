@@ -11,7 +11,7 @@ use studio::{
     protocol::{Event, RunState},
 };
 
-/// Who is in the arena that was shown last, and what is known of them.
+/// The arena that was shown last: its place, what it shows, and its members.
 fn shown(page: &Page) -> (usize, Shown, Vec<Member>) {
     let arena = |event: &Event| match event {
         Event::Arena { arena, who, members, .. } => Some((*arena, *who, members.clone())),
@@ -98,6 +98,12 @@ fn two_champions_move_beside_each_other() -> Outcome {
         "the verdict on the other",
         |event| matches!(event, Event::Beside { run, verdict: Some(_), .. } if run == "biped-1-running"),
     );
+    // What was meant for something that is shown no more is not done.
+    page.frames.clear();
+    page.ask(json!({ "do": "advance", "steps": 5, "arena": 0, "number": numbers[1] }));
+    assert_eq!(page.frames.len(), 0);
+    page.ask(json!({ "do": "advance", "steps": 5, "arena": 0, "number": numbers[0] }));
+    assert_eq!(page.frames.len(), 1);
     page.ask(json!({ "do": "leave", "arena": 1 }));
     page.ask(json!({ "do": "advance", "steps": 5, "arena": 1 }));
     page.ask(json!({ "do": "show", "who": "population", "run": "biped-1-running", "arena": 1 }));
@@ -231,6 +237,8 @@ fn a_run_that_another_process_trains_is_followed() -> Outcome {
     watcher.wait("the last generation", last);
     watcher.wait("a verdict", |event| matches!(event, Event::Verdict(_)));
     trainer.wait_for("ended");
+    let is_told = |event: &Event| matches!(event, Event::State(RunState::Ended { reason }) if reason == "saved, after 30 generations");
+    watcher.wait("how far it is", is_told);
     assert_eq!(watcher.generations(), (1..=30).collect::<Vec<_>>());
     assert_eq!(watcher.refusals(), [""; 0]);
     Ok(())

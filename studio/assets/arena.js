@@ -45,7 +45,7 @@ class Arena {
     this.followed = 0;
     this.origin = null;
     this.pending = true;
-    this.connection.ask({ do: "advance", steps: 0, arena: this.place });
+    this.connection.ask({ do: "advance", steps: 0, arena: this.place, number: event.number });
     this.onEnter(event);
   }
 
@@ -86,7 +86,7 @@ class Arena {
     // What cannot be kept up with is let go.
     this.time = Math.min(this.time, this.asked * this.event.time_step);
     this.pending = true;
-    this.connection.ask({ do: "advance", steps, arena: this.place });
+    this.connection.ask({ do: "advance", steps, arena: this.place, number: this.event.number });
   }
 
   // The pose of a creature between the last two frames.

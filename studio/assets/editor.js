@@ -14,29 +14,14 @@ class Editor extends EditorHistory {
     this.toolbar = new EditorToolbar(this);
     this.panel = new EditorPanel(this);
     this.list = new EditorProblems(this);
-    this.buildFrame();
+    buildFrame(this, "The creature. Tab goes from part to part, arrows move it, Enter goes to its fields "
+      + "and Escape back.");
     readTheme();
     this.canvas = new EditorCanvas(this, this.surface);
     this.hand = new EditorHand(this, this.canvas);
     document.addEventListener("keydown", event => this.keyDown(event));
     document.addEventListener("keyup", event => { if (event.key === " ") this.hand.isPanning = false; });
     this.load(emptyCreature());
-  }
-
-  buildFrame() {
-    this.surface = editorElement("canvas", "editor-canvas");
-    this.surface.tabIndex = 0;
-    this.surface.setAttribute("role", "application");
-    this.surface.setAttribute("aria-label", "The creature. Tab goes from part to part, arrows move it, Enter goes to its fields "
-      + "and Escape back.");
-    this.hint = editorElement("p", "editor-hint");
-    this.hint.setAttribute("role", "status");
-    const scene = editorElement("div", "editor-scene");
-    scene.append(this.surface, this.hint, this.toolbar.zooms.root);
-    const frame = editorElement("div", "editor-frame");
-    frame.append(this.toolbar.root, scene, this.list.root, this.panel.root);
-    this.root.classList.add("editor");
-    this.root.replaceChildren(frame);
   }
 
   get creature() { return structuredClone(this.present); }

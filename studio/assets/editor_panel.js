@@ -62,18 +62,11 @@ function editorButton([, key, word, icon], press) {
   return button;
 }
 
-class EditorToolbar {
+// Groups of buttons, for the toolbar of an editor.
+class ButtonGroups {
   constructor(editor) {
     this.editor = editor;
     this.root = editorElement("div", "editor-toolbar");
-    this.tools = this.group("Tools", EDITOR_TOOLS, name => editor.setTool(name));
-    this.shapes = this.group("Shape of new parts", EDITOR_SHAPES, name => editor.setShape(name));
-    this.actions = this.group("Actions", EDITOR_ACTIONS, name => editor.act(name));
-    const play = editorButton(["play", "K", "Train it", "M7 4.5v15l12.5-7.5z"], () => editor.act("play"));
-    play.classList.add("editor-play");
-    this.root.append(play);
-    this.zooms = this.group("View", EDITOR_ZOOMS, name => editor.act(name));
-    this.zooms.root.classList.add("editor-zooms");
   }
 
   group(label, entries, press) {
@@ -84,6 +77,37 @@ class EditorToolbar {
     root.append(...buttons.values());
     this.root.append(root);
     return { root, buttons };
+  }
+}
+
+// Puts the pieces of an editor into its root: toolbar, canvas with hint and zoom, list, panel.
+function buildFrame(editor, label, ...classes) {
+  const { root, toolbar, list, panel } = editor;
+  editor.surface = editorElement("canvas", "editor-canvas");
+  editor.surface.tabIndex = 0;
+  editor.surface.setAttribute("role", "application");
+  editor.surface.setAttribute("aria-label", label);
+  editor.hint = editorElement("p", "editor-hint");
+  editor.hint.setAttribute("role", "status");
+  const scene = editorElement("div", "editor-scene");
+  scene.append(editor.surface, editor.hint, toolbar.zooms.root);
+  const frame = editorElement("div", "editor-frame");
+  frame.append(toolbar.root, scene, list.root, panel.root);
+  root.classList.add("editor", ...classes);
+  root.replaceChildren(frame);
+}
+
+class EditorToolbar extends ButtonGroups {
+  constructor(editor) {
+    super(editor);
+    this.tools = this.group("Tools", EDITOR_TOOLS, name => editor.setTool(name));
+    this.shapes = this.group("Shape of new parts", EDITOR_SHAPES, name => editor.setShape(name));
+    this.actions = this.group("Actions", EDITOR_ACTIONS, name => editor.act(name));
+    const play = editorButton(["play", "K", "Train it", "M7 4.5v15l12.5-7.5z"], () => editor.act("play"));
+    play.classList.add("editor-play");
+    this.root.append(play);
+    this.zooms = this.group("View", EDITOR_ZOOMS, name => editor.act(name));
+    this.zooms.root.classList.add("editor-zooms");
   }
 
   refresh() {

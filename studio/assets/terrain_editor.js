@@ -17,7 +17,8 @@ class TerrainEditor extends EditorHistory {
     this.toolbar = new TerrainToolbar(this);
     this.panel = new TerrainPanel(this);
     this.list = new TerrainProblems(this);
-    this.buildFrame();
+    buildFrame(this, "The ground. Tab goes from obstacle to obstacle, arrows move one, with Shift they "
+      + "make it wider or higher. With a tool, Enter makes an obstacle; else it goes to the numbers, and Escape back.", "terrain-editor");
     readTheme();
     this.canvas = new TerrainCanvas(this, this.surface);
     this.hand = new TerrainHand(this, this.canvas);
@@ -26,22 +27,6 @@ class TerrainEditor extends EditorHistory {
     this.setTool("box");
     this.canvas.fit();
     this.checkSoon();
-  }
-
-  buildFrame() {
-    this.surface = editorElement("canvas", "editor-canvas");
-    this.surface.tabIndex = 0;
-    this.surface.setAttribute("role", "application");
-    this.surface.setAttribute("aria-label", "The ground. Tab goes from obstacle to obstacle, arrows move one, with Shift they "
-      + "make it wider or higher. With a tool, Enter makes an obstacle; else it goes to the numbers, and Escape back.");
-    this.hint = editorElement("p", "editor-hint");
-    this.hint.setAttribute("role", "status");
-    const scene = editorElement("div", "editor-scene");
-    scene.append(this.surface, this.hint, this.toolbar.zooms.root);
-    const frame = editorElement("div", "editor-frame");
-    frame.append(this.toolbar.root, scene, this.list.root, this.panel.root);
-    this.root.classList.add("editor", "terrain-editor");
-    this.root.replaceChildren(frame);
   }
 
   get toCheck() { return { drawn: this.present.drawn }; }

@@ -19,10 +19,9 @@ const TERRAIN_STARTS = [
   ["train", "K", "Train on it", "M7 4.5v15l12.5-7.5z"],
 ];
 
-class TerrainToolbar {
+class TerrainToolbar extends ButtonGroups {
   constructor(editor) {
-    this.editor = editor;
-    this.root = editorElement("div", "editor-toolbar");
+    super(editor);
     this.tools = this.group("Tools", TERRAIN_TOOLS, name => editor.setTool(name));
     this.actions = this.group("Actions", TERRAIN_ACTIONS, name => editor.act(name));
     this.starts = this.group("What to do on this ground", TERRAIN_STARTS, name => editor.act(name));
@@ -31,16 +30,6 @@ class TerrainToolbar {
     this.starts.buttons.get("play").classList.add("terrain-second");
     this.zooms = this.group("View", EDITOR_ZOOMS, name => editor.act(name));
     this.zooms.root.classList.add("editor-zooms");
-  }
-
-  group(label, entries, press) {
-    const root = editorElement("div", "editor-group");
-    root.setAttribute("role", "group");
-    root.setAttribute("aria-label", label);
-    const buttons = new Map(entries.map(entry => [entry[0], editorButton(entry, () => press(entry[0]))]));
-    root.append(...buttons.values());
-    this.root.append(root);
-    return { root, buttons };
   }
 
   refresh() {

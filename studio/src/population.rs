@@ -12,7 +12,7 @@ use gambol_runs::{
 use ne_core::{Evaluation, Fitness, Generation, Genome, Origin, Seed, Strategy};
 use std::sync::Arc;
 
-/// The generation before one that has more than so many is not kept: nobody looks for a parent among them.
+/// A larger generation is dropped once the next is there: its parents cannot be shown.
 const MOST_WITH_PARENTS: usize = 10_000;
 
 /// A generation as it was told to the strategy.

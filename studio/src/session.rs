@@ -118,7 +118,7 @@ impl Session {
         let movement = registry.movements.build(&config.movement);
         let unit = movement.map_err(|error| SessionError::Setup(error.to_string()))?.unit().to_owned();
         let inner = Inner {
-            state: RunState::Ended { reason: String::new() },
+            state: saved(0),
             signal: StopSignal::default(),
             pace: Pace::Free,
             rows: Vec::new(),
@@ -280,12 +280,14 @@ impl Session {
         }
         let latest = self.latest_stage();
         let mut inner = self.inner();
+        // What ended here says why; of what another process trains it is said how far it is.
+        let is_from_elsewhere = inner.state == saved(inner.rows.len());
         (inner.rows, inner.stages, inner.read) = (rows, stages, read);
         if let Some((_, config)) = latest {
             inner.stage_config = config;
         }
-        if inner.state == (RunState::Ended { reason: String::new() }) {
-            inner.state = RunState::Ended { reason: format!("saved, after {} generations", inner.rows.len()) };
+        if is_from_elsewhere {
+            inner.state = saved(inner.rows.len());
         }
         Ok(())
     }
@@ -381,4 +383,9 @@ impl Session {
     pub(crate) fn set_robustness(&self, state: RobustnessState) {
         self.inner().robustness = Some(state);
     }
+}
+
+/// A run that is not trained here.
+fn saved(generations: usize) -> RunState {
+    RunState::Ended { reason: format!("saved, after {generations} generations") }
 }

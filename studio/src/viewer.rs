@@ -187,8 +187,11 @@ impl Viewer {
                 self.leave(arena);
                 return Ok(Vec::new());
             }
-            Request::Advance { steps, arena } => {
+            Request::Advance { steps, arena, number: meant } => {
                 let (number, arena) = self.arena(arena)?;
+                if meant.is_some_and(|meant| meant != number) {
+                    return Ok(Vec::new());
+                }
                 arena.advance(steps);
                 return Ok(vec![Reply::Frame(arena.frame(number))]);
             }

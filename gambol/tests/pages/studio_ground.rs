@@ -84,7 +84,7 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
     assert_eq!(obstacles(browser), [""; 0]);
     click(browser, "#draw-ground button[aria-label='Open my hurdles']");
     assert_eq!(obstacles(browser), ["Box", "Gap", "Slope"]);
-    // Without a run there is nobody to play on it.
+    // Without a run there is no champion to play on it.
     let run = "[data-run='biped-1-running-2']";
     click(browser, "[data-chapter=keep]");
     wait(browser, "the run", &format!("document.querySelector(\"{run}\") !== null"));

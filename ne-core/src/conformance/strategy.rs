@@ -24,7 +24,7 @@ pub const STATISTICS: Promise = Promise::new(
     "strategy",
     "statistics are finite and have the same names, once each, in the same order each generation",
 );
-/// Who is from where.
+/// Parents and species.
 pub const DESCENT: Promise = Promise::new(
     "strategy",
     "origins and memberships are one for each genome or none; parents are of the generation before, copies like them; \

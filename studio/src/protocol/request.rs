@@ -119,6 +119,9 @@ pub enum Request {
         /// In which of the two arenas, 0 or 1.
         #[serde(default)]
         arena: usize,
+        /// The number of what is shown there: if something else is by now, nothing happens.
+        #[serde(default)]
+        number: Option<u32>,
     },
     /// Show nothing in an arena any more.
     Leave {
