@@ -7,9 +7,11 @@
 //! | [`reproduce`] | the experiments of the thesis Gambol starts from, beside what it reports |
 //! | [`gaits`] | how many gaits are usable, how soon and how robust; what each piece of the default preset is worth |
 //! | [`benchmarks`] | the strategies on classic tasks, beside published numbers |
+//! | [`distributed`] | the runs of these experiments on machines that share no files |
 
 pub mod benchmarks;
 pub mod compare;
+pub mod distributed;
 pub mod gaits;
 pub mod reproduce;
 pub mod tune;

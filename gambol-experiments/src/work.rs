@@ -68,6 +68,11 @@ impl Part {
     /// The whole.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
+    /// The part with one run alone, the one with this place among `runs`, from 0.
+    pub(crate) fn single(index: usize, runs: usize) -> Self {
+        Self { number: index + 1, of: runs }
+    }
+
     /// Whether it has the run with this place among all, from 0.
     pub fn has(self, index: usize) -> bool {
         index % self.of == self.number - 1

@@ -6,6 +6,7 @@
 mod environments;
 mod episodes;
 mod errors;
+mod experiments;
 mod group;
 mod names;
 mod runs;
@@ -19,6 +20,8 @@ use pyo3::prelude::*;
 mod _gambol {
     #[pymodule_export]
     use crate::environments::Environments;
+    #[pymodule_export]
+    use crate::experiments::Experiment;
     #[pymodule_export]
     use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
     #[pymodule_export]

@@ -174,12 +174,29 @@ impl ComparisonFolder {
         if !path.is_file() {
             return Ok(None);
         }
-        let result: RunResult = archive::read(&path, RESULT_FORMAT, VERSION)?;
+        Ok(Some(Self::check(job, &path, archive::read(&path, RESULT_FORMAT, VERSION)?)?))
+    }
+
+    /// The result of a run in the text of its file.
+    ///
+    /// # Errors
+    /// If it is damaged, or of another run.
+    pub(crate) fn parse_result(&self, job: &Job<'_>, text: &str) -> Result<RunResult, CompareError> {
+        let path = self.result_file(job);
+        Self::check(job, &path, Self::parse(&path, text)?)
+    }
+
+    /// A result in the text of a file, of whichever run.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<RunResult, CompareError> {
+        Ok(archive::parse(path, text.as_bytes(), RESULT_FORMAT, VERSION)?)
+    }
+
+    fn check(job: &Job<'_>, path: &Path, result: RunResult) -> Result<RunResult, CompareError> {
         if (&result.method, &result.scenario, result.seed) == (&job.cell.method, &job.cell.scenario, job.seed) {
-            Ok(Some(result))
+            Ok(result)
         } else {
             let found = format!("{}, {}, seed {}", result.method, result.scenario, result.seed);
-            Err(CompareError::Misplaced { path, found, expected: job.name() })
+            Err(CompareError::Misplaced { path: path.into(), found, expected: job.name() })
         }
     }
 
@@ -220,7 +237,7 @@ impl ComparisonFolder {
         self.place("runs", job).join(format!("seed-{}", job.seed))
     }
 
-    fn result_file(&self, job: &Job<'_>) -> PathBuf {
+    pub(crate) fn result_file(&self, job: &Job<'_>) -> PathBuf {
         self.place("results", job).join(format!("seed-{}.json", job.seed))
     }
 

@@ -52,8 +52,18 @@ impl Kept {
     }
 
     fn path(&self, digest: Digest) -> Option<PathBuf> {
-        Some(self.folder.as_ref()?.join(format!("{digest}.json")))
+        Some(file(self.folder.as_ref()?, digest))
     }
+}
+
+/// Where a result is kept.
+pub(super) fn file(folder: &Path, digest: Digest) -> PathBuf {
+    folder.join(format!("{digest}.json"))
+}
+
+/// A result in the text of a file.
+pub(super) fn parse(path: &Path, text: &str) -> Result<GaitRun, ArchiveError> {
+    archive::parse(path, text.as_bytes(), FORMAT, VERSION)
 }
 
 /// The digest of what decides what comes of a run: the configuration, whether it is perturbed, and the versions of Gambol and

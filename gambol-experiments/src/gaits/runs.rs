@@ -2,7 +2,7 @@
 
 use super::{
     GaitRun,
-    kept::{Kept, digest},
+    kept::{self, Kept, digest},
 };
 use crate::work::{Ended, Part, Work, WorkOptions};
 use creatures::CreatureError;
@@ -13,7 +13,7 @@ use ne_core::{archive::ArchiveError, digest::Digest};
 use std::{
     collections::BTreeSet,
     io,
-    path::Path,
+    path::{Path, PathBuf},
     sync::{Mutex, PoisonError},
 };
 
@@ -72,6 +72,16 @@ impl GaitRuns {
     /// If the folder cannot be made.
     pub fn kept_in(self, folder: &Path) -> Result<Self, GaitsError> {
         Ok(Self { kept: Kept::open(folder)?, ..self })
+    }
+
+    /// The file in which a folder keeps what came of a configuration.
+    pub(crate) fn file_of(folder: &Path, config: &RunConfig, robust: bool) -> Result<PathBuf, GaitsError> {
+        Ok(kept::file(folder, digest(config, robust)?))
+    }
+
+    /// What came of a configuration, in the text of its file.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<GaitRun, GaitsError> {
+        Ok(kept::parse(path, text)?)
     }
 
     /// What came of each configuration, in their order.

@@ -193,9 +193,19 @@ impl ReproductionFolder {
             return Ok(None);
         }
         let result: RunResult = archive::read(&path, RUN_FORMAT, VERSION)?;
-        let found = format!("{}, {} {}, seed {}", result.preset, result.creature, result.movement, result.seed);
-        self.check_result(&job, path, found, &result.settings)?;
+        self.check_run(&job, path, &result)?;
         Ok(Some(result))
+    }
+
+    /// Checks that a result is of this run, and of today's settings.
+    pub(crate) fn check_run(&self, job: &Job, path: PathBuf, result: &RunResult) -> Result<(), ReproduceError> {
+        let found = format!("{}, {} {}, seed {}", result.preset, result.creature, result.movement, result.seed);
+        self.check_result(job, path, found, &result.settings)
+    }
+
+    /// The result of a run in the text of a file.
+    pub(crate) fn parse(path: &Path, text: &str) -> Result<RunResult, ReproduceError> {
+        Ok(archive::parse(path, text.as_bytes(), RUN_FORMAT, VERSION)?)
     }
 
     /// The result of a timed run, if it has ended.
@@ -218,7 +228,7 @@ impl ReproductionFolder {
     ///
     /// # Errors
     /// If its result cannot be read.
-    pub(super) fn has(&self, job: &Job) -> Result<bool, ReproduceError> {
+    pub(crate) fn has(&self, job: &Job) -> Result<bool, ReproduceError> {
         Ok(match job {
             Job::Run { cell, seed } => self.run_result(cell, *seed)?.is_some(),
             Job::Clock { cell } => self.clock_result(cell)?.is_some(),
@@ -256,7 +266,7 @@ impl ReproductionFolder {
         self.place("runs", &job.cell()).join(leaf(job))
     }
 
-    fn result_file(&self, job: &Job) -> PathBuf {
+    pub(crate) fn result_file(&self, job: &Job) -> PathBuf {
         self.place("results", &job.cell()).join(format!("{}.json", leaf(job)))
     }
 

@@ -172,6 +172,11 @@ impl Cell {
         format!("{}, {}", self.preset.name, self.scenario.name())
     }
 
+    /// The digest of the settings of its runs.
+    pub(crate) fn settings(&self, registry: &Registry) -> Result<String, creatures::UnknownCreature> {
+        Ok(settings_digest(&self.config(0, StopConditions::default(), registry)?))
+    }
+
     /// The configuration of a run.
     pub(super) fn config(
         &self,

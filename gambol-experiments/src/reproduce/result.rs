@@ -34,6 +34,14 @@ pub struct RunResult {
     pub seconds: f64,
 }
 
+impl RunResult {
+    /// Whether two results are of the same run: all but the threads and the seconds.
+    pub(crate) fn agrees_with(&self, other: &Self) -> bool {
+        let timeless = |result: &Self| Self { threads: 0, seconds: 0.0, ..result.clone() };
+        timeless(self) == timeless(other)
+    }
+}
+
 /// What is kept of a timed run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -1,0 +1,67 @@
+use super::{Experiment, Failed, digest, nth, read, temporary, write};
+use crate::{
+    compare::{ComparisonFolder, Plan, WorkOptions, work, write_outcome},
+    work::Part,
+};
+use gambol_runs::Registry;
+use ne_core::digest::Digest;
+use std::path::{Path, PathBuf};
+
+impl Experiment for Plan {
+    fn runs(&self) -> usize {
+        self.jobs().count()
+    }
+
+    fn name(&self, run: usize) -> String {
+        self.jobs().nth(run).map(|job| job.name()).unwrap_or_default()
+    }
+
+    fn digest(&self) -> Result<Digest, Failed> {
+        digest(self)
+    }
+
+    fn begin(&self, folder: &Path) -> Result<(), Failed> {
+        ComparisonFolder::create(folder, self)?;
+        Ok(())
+    }
+
+    fn is_done(&self, folder: &Path, run: usize) -> Result<bool, Failed> {
+        Ok(ComparisonFolder::open(folder)?.result(&nth(self.jobs(), run)?)?.is_some())
+    }
+
+    fn carry_out(&self, run: usize, registry: &Registry) -> Result<String, Failed> {
+        let job = nth(self.jobs(), run)?;
+        let place = temporary()?;
+        let folder = ComparisonFolder::create(place.path(), self)?;
+        let options = WorkOptions {
+            part: Part::single(run, Experiment::runs(self)),
+            at_once: 1,
+            threads: 1,
+            registry: registry.clone(),
+            signal: Default::default(),
+            on_run: &|_| {},
+        };
+        work(&folder, self, &options)?;
+        read(&folder.result_file(&job))
+    }
+
+    fn place(&self, folder: &Path, run: usize, result: &str) -> Result<PathBuf, Failed> {
+        let job = nth(self.jobs(), run)?;
+        let folder = ComparisonFolder::open(folder)?;
+        let path = folder.result_file(&job);
+        folder.parse_result(&job, result)?;
+        write(&path, result)
+    }
+
+    fn agree(&self, one: &str, other: &str) -> Result<bool, Failed> {
+        Ok(ComparisonFolder::parse(Path::new("one"), one)?
+            .agrees_with(&ComparisonFolder::parse(Path::new("other"), other)?))
+    }
+
+    fn conclude(&self, folder: &Path, _: &Registry) -> Result<Vec<PathBuf>, Failed> {
+        let folder = ComparisonFolder::open(folder)?;
+        write_outcome(&folder)?;
+        let data = ["medians.csv", "scores.csv", "curves.csv", "settings.csv"].map(|name| folder.path().join(name));
+        Ok([folder.page()].into_iter().chain(data).collect())
+    }
+}

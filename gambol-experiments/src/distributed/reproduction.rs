@@ -1,0 +1,76 @@
+use super::{Experiment, Failed, digest, nth, read, temporary, write};
+use crate::{
+    reproduce::{Job, Plan, ReproductionFolder, WorkOptions, work, write_outcome},
+    work::Part,
+};
+use gambol_runs::Registry;
+use ne_core::digest::Digest;
+use std::path::{Path, PathBuf};
+
+/// The runs that count generations: what timed runs find depends on the machine.
+fn untimed(plan: &Plan) -> impl Iterator<Item = Job> {
+    plan.jobs().filter(|job| matches!(job, Job::Run { .. }))
+}
+
+impl Experiment for Plan {
+    fn runs(&self) -> usize {
+        untimed(self).count()
+    }
+
+    fn name(&self, run: usize) -> String {
+        untimed(self).nth(run).map(|job| job.name()).unwrap_or_default()
+    }
+
+    fn digest(&self) -> Result<Digest, Failed> {
+        let mut configs = Vec::new();
+        for job in untimed(self) {
+            configs.push((job.name(), self.generations, job.cell().settings(&self.registry)?));
+        }
+        digest(&configs)
+    }
+
+    fn begin(&self, folder: &Path) -> Result<(), Failed> {
+        ReproductionFolder::create(folder, self)?;
+        Ok(())
+    }
+
+    fn is_done(&self, folder: &Path, run: usize) -> Result<bool, Failed> {
+        Ok(ReproductionFolder::create(folder, self)?.has(&nth(untimed(self), run)?)?)
+    }
+
+    fn carry_out(&self, run: usize, registry: &Registry) -> Result<String, Failed> {
+        let job = nth(untimed(self), run)?;
+        let place = temporary()?;
+        let folder = ReproductionFolder::create(place.path(), self)?;
+        let options = WorkOptions {
+            part: Part::single(run, self.jobs().count()),
+            at_once: 1,
+            threads: 1,
+            registry: registry.clone(),
+            signal: Default::default(),
+            on_run: &|_| {},
+        };
+        work(&folder, self, &options)?;
+        read(&folder.result_file(&job))
+    }
+
+    fn place(&self, folder: &Path, run: usize, result: &str) -> Result<PathBuf, Failed> {
+        let job = nth(untimed(self), run)?;
+        let folder = ReproductionFolder::create(folder, self)?;
+        let path = folder.result_file(&job);
+        folder.check_run(&job, path.clone(), &ReproductionFolder::parse(&path, result)?)?;
+        write(&path, result)
+    }
+
+    fn agree(&self, one: &str, other: &str) -> Result<bool, Failed> {
+        let one = ReproductionFolder::parse(Path::new("one"), one)?;
+        Ok(one.agrees_with(&ReproductionFolder::parse(Path::new("other"), other)?))
+    }
+
+    fn conclude(&self, folder: &Path, _: &Registry) -> Result<Vec<PathBuf>, Failed> {
+        let folder = ReproductionFolder::create(folder, self)?;
+        write_outcome(&folder, self)?;
+        let data = ["results.csv", "times.csv"].map(|name| folder.path().join(name));
+        Ok([folder.page()].into_iter().chain(data).collect())
+    }
+}

@@ -1,0 +1,165 @@
+"""Experiments on a Ray cluster: each run is a task, and what comes of it is the same wherever it is done.
+
+Files of runs are not sent, only results: the folder is then what ``gambol merge`` makes of parts. A call that was broken
+off goes on when it is made again.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from gambol._build import assignments
+from gambol.cluster._dispatch import DifferentBits, Lost, dispatch
+from gambol.cluster._experiments import Recipe, experiment, recipe
+from gambol.cluster._ray import RayWorkers
+
+__all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce"]
+
+OnRun = Callable[[str, int, int], None]
+Names = Sequence[str | os.PathLike[str]]
+
+
+def _names(names: Names | str | None) -> list[str]:
+    if isinstance(names, str):
+        return [names]
+    return [os.fspath(name) for name in names or ()]
+
+
+def _do(of: Recipe, out: str | os.PathLike[str], cluster: Any, check: float, on_run: OnRun | None) -> list[Path]:
+    made, folder = experiment(of), Path(out)
+    if cluster is None:
+        import ray as cluster
+    workers = RayWorkers(cluster, of, made.digest)
+    try:
+        dispatch(made, folder, workers, check=check, on_run=on_run or (lambda name, done, runs: None))
+    finally:
+        workers.cancel()
+    return made.conclude(folder)
+
+
+def compare(
+    strategies: Sequence[str],
+    creatures: Names,
+    movements: Sequence[str] = ("running",),
+    *,
+    out: str | os.PathLike[str],
+    seeds: Sequence[int] = range(1, 11),
+    evaluations: int | None = None,
+    steps: int | None = None,
+    preset: str | None = None,
+    engine: str | None = None,
+    variation: str | None = None,
+    settings: Mapping[str, Any] | None = None,
+    cluster: Any = None,
+    check: float = 0.01,
+    on_run: OnRun | None = None,
+) -> list[Path]:
+    """Compares strategies, as the program's command ``gambol compare`` does: same plan, same results, same page.
+
+    Args:
+        strategies: their names, presets, or ``NAME=CONFIG-FILE``.
+        creatures: names, or files that are on every machine at this path.
+        movements: their names.
+        out: the folder of the comparison, new or one in which the same was begun.
+        seeds: of each strategy on each creature and movement.
+        evaluations: what a run may use up.
+        steps: what a run may use up, in physics steps.
+        preset: one for all strategies, by name.
+        engine: ``"lanes"`` or ``"rapier"``.
+        variation: how worlds vary, by name.
+        settings: single settings for all runs, as of :func:`gambol.train`.
+        cluster: the module ``ray``, initialised as you like; by default it is imported, and this machine is the cluster.
+        check: the share of runs that is done on two machines and compared, from 0.001 to 1; of every machine the first is.
+        on_run: called when a result is there, with the name of the run, how many are there, and how many there are.
+
+    Returns:
+        The files that say what came of it.
+
+    Raises:
+        ValueError: if a name or a setting is wrong.
+        DifferentBits: if a machine computes other bits than others; what it found was not kept.
+        RuntimeError: if a run cannot be done, or the folder holds something else.
+    """
+    of = recipe(
+        "compare",
+        strategies=_names(strategies),
+        creatures=_names(creatures),
+        movements=_names(movements),
+        seeds=list(seeds),
+        evaluations=evaluations,
+        steps=steps,
+        preset=preset,
+        engine=engine,
+        variation=variation,
+        settings=assignments(settings),
+    )
+    return _do(of, out, cluster, check, on_run)
+
+
+def reproduce(
+    *,
+    out: str | os.PathLike[str],
+    creatures: Sequence[str] | None = None,
+    movements: Sequence[str] | None = None,
+    presets: Sequence[str] | None = None,
+    runs: int = 10,
+    generations: int = 300,
+    cluster: Any = None,
+    check: float = 0.01,
+    on_run: OnRun | None = None,
+) -> list[Path]:
+    """Does the experiments of the thesis again, as ``gambol reproduce thesis`` does, without timed runs.
+
+    ``None`` stands for all creatures and movements, and for the presets ``thesis`` and ``default``; the other arguments are
+    those of :func:`compare`.
+    """
+    of = recipe(
+        "reproduce",
+        creatures=_names(creatures),
+        movements=_names(movements),
+        presets=_names(presets),
+        runs=runs,
+        generations=generations,
+    )
+    return _do(of, out, cluster, check, on_run)
+
+
+def gaits(
+    creatures: Names,
+    movements: Sequence[str] = ("running", "jumping"),
+    *,
+    out: str | os.PathLike[str],
+    steps: int,
+    seeds: Sequence[int] = range(1, 11),
+    preset: str | None = None,
+    strategy: str | None = None,
+    variation: str | None = None,
+    settings: Mapping[str, Any] | None = None,
+    whole: bool = False,
+    robust: bool = False,
+    cluster: Any = None,
+    check: float = 0.01,
+    on_run: OnRun | None = None,
+) -> list[Path]:
+    """How many gaits are usable, and how soon, as ``gambol bench gaits --steps`` measures it.
+
+    ``steps``: what a run may use up; ``whole``: whether it goes on when its gait is usable; ``robust``: whether champions are
+    replayed in 100 perturbed worlds. The other arguments are those of :func:`compare`.
+    """
+    of = recipe(
+        "gaits",
+        creatures=_names(creatures),
+        movements=_names(movements),
+        seeds=list(seeds),
+        steps=steps,
+        preset=preset,
+        strategy=strategy,
+        variation=variation,
+        settings=assignments(settings),
+        whole=whole,
+        robust=robust,
+    )
+    return _do(of, out, cluster, check, on_run)
