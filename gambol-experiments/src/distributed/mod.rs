@@ -8,6 +8,8 @@
 mod comparison;
 mod gait_study;
 mod reproduction;
+#[cfg(test)]
+mod tests;
 
 pub use gait_study::GaitStudy;
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Mapping, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -30,9 +31,7 @@ def _names(names: Names | str | None) -> list[str]:
 
 def _do(of: Recipe, out: str | os.PathLike[str], cluster: Any, check: float, on_run: OnRun | None) -> list[Path]:
     made, folder = experiment(of), Path(out)
-    if cluster is None:
-        import ray as cluster
-    workers = RayWorkers(cluster, of, made.digest)
+    workers = RayWorkers(cluster or import_module("ray"), of, made.digest)
     try:
         dispatch(made, folder, workers, check=check, on_run=on_run or (lambda name, done, runs: None))
     finally:

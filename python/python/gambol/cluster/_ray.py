@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import Any
 
 from gambol.cluster._dispatch import Done
@@ -10,8 +11,7 @@ from gambol.cluster._experiments import Recipe, carry_out
 
 def _on_node(of: Recipe, digest: str, run: int) -> tuple[str, str]:
     """A run, and the machine it was done on."""
-    import ray
-
+    ray = import_module("ray")
     return carry_out(of, digest, run), ray.get_runtime_context().get_node_id()
 
 
@@ -37,10 +37,9 @@ class RayWorkers:
         chosen: Any = "SPREAD"
         others = [node for node in self._alive() if node != avoid] if avoid else []
         if others:
-            from ray.util.scheduling_strategies import NodeAffinitySchedulingStrategy
-
+            strategies = import_module("ray.util.scheduling_strategies")
             # Soft: the node may be gone by then.
-            chosen = NodeAffinitySchedulingStrategy(others[run % len(others)], soft=True)
+            chosen = strategies.NodeAffinitySchedulingStrategy(others[run % len(others)], soft=True)
         self._numbers += 1
         task = self._task.options(scheduling_strategy=chosen)
         self._flying[task.remote(self._of, self._digest, run)] = self._numbers
@@ -48,16 +47,15 @@ class RayWorkers:
 
     def wait(self) -> tuple[int, Done]:
         """Waits for a run."""
-        from ray.exceptions import RayError, RayTaskError
-
+        errors = import_module("ray.exceptions")
         [ready], _ = self._ray.wait(list(self._flying), num_returns=1)
         number = self._flying.pop(ready)
         try:
             text, node = self._ray.get(ready)
-        except RayTaskError as error:
+        except errors.RayTaskError as error:
             # What the run itself raises, in its own type.
             raise error.as_instanceof_cause() from None
-        except RayError as error:
+        except errors.RayError as error:
             return number, Done(None, type(error).__name__)
         return number, Done(text, node)
 
