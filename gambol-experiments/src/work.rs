@@ -68,11 +68,6 @@ impl Part {
     /// The whole.
     pub const ALL: Self = Self { number: 1, of: 1 };
 
-    /// The part with one run alone, the one with this place among `runs`, from 0.
-    pub(crate) fn single(index: usize, runs: usize) -> Self {
-        Self { number: index + 1, of: runs }
-    }
-
     /// Whether it has the run with this place among all, from 0.
     pub fn has(self, index: usize) -> bool {
         index % self.of == self.number - 1
@@ -84,7 +79,18 @@ impl Part {
     }
 }
 
-impl<R> WorkOptions<'_, R> {
+impl<'a, R> WorkOptions<'a, R> {
+    /// One run alone, the one with this place among `runs`, from 0, on one thread.
+    pub(crate) fn of_one(
+        index: usize,
+        runs: usize,
+        registry: &Registry,
+        on_run: &'a (dyn Fn(&Progress<R>) + Sync),
+    ) -> Self {
+        let part = Part { number: index + 1, of: runs };
+        Self { part, at_once: 1, threads: 1, registry: registry.clone(), signal: StopSignal::default(), on_run }
+    }
+
     /// How a run is trained.
     pub(crate) fn training<'b>(&self, unseen: &'b mut dyn FnMut(&Generation<'_, AnyStrategy>)) -> TrainOptions<'b> {
         TrainOptions {

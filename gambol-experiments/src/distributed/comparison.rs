@@ -1,8 +1,5 @@
 use super::{Experiment, Failed, digest, nth, read, temporary, write};
-use crate::{
-    compare::{ComparisonFolder, Plan, WorkOptions, work, write_outcome},
-    work::Part,
-};
+use crate::compare::{ComparisonFolder, Plan, WorkOptions, work, write_outcome};
 use gambol_runs::Registry;
 use ne_core::digest::Digest;
 use std::path::{Path, PathBuf};
@@ -33,15 +30,7 @@ impl Experiment for Plan {
         let job = nth(self.jobs(), run)?;
         let place = temporary()?;
         let folder = ComparisonFolder::create(place.path(), self)?;
-        let options = WorkOptions {
-            part: Part::single(run, Experiment::runs(self)),
-            at_once: 1,
-            threads: 1,
-            registry: registry.clone(),
-            signal: Default::default(),
-            on_run: &|_| {},
-        };
-        work(&folder, self, &options)?;
+        work(&folder, self, &WorkOptions::of_one(run, self.jobs().count(), registry, &|_| {}))?;
         read(&folder.result_file(&job))
     }
 

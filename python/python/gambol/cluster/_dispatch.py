@@ -89,6 +89,9 @@ class _Dispatch:
             if self.tries[run] == MOST_TRIES:
                 raise Lost(f"{self.experiment.name(run)}: its worker was lost {MOST_TRIES} times ({done.node})")
             self.submit(run, first)
+        elif first is not None and first.node == done.node and self.workers.nodes() > 1:
+            # A machine is no witness of itself, where there is another.
+            self.submit(run, first)
         elif first is not None:
             self.compare(run, first, done)
             for node in (first.node, done.node):
