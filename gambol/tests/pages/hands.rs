@@ -27,14 +27,26 @@ pub(crate) fn text(browser: &mut Browser, id: &str) -> String {
     browser.evaluate(&format!("document.getElementById('{id}').textContent")).as_str().unwrap_or_default().to_owned()
 }
 
-/// Presses the middle of an element as a pointer would.
+/// Presses the middle of an element as a pointer would, once the element rests and nothing lies over it.
 #[track_caller]
 pub(crate) fn click(browser: &mut Browser, selector: &str) {
     let middle = format!(
         "(() => {{ const found = document.querySelector({selector:?}); found.scrollIntoView({{ block: 'center' }}); \
-         const box = found.getBoundingClientRect(); return [box.left + box.width / 2, box.top + box.height / 2]; }})()"
+         const box = found.getBoundingClientRect(); \
+         const at = [box.left + box.width / 2, box.top + box.height / 2]; \
+         return [...at, found.contains(document.elementFromPoint(...at))]; }})()"
     );
-    let place = browser.evaluate(&middle);
+    let since = Instant::now();
+    let mut before = browser.evaluate(&middle);
+    let place = loop {
+        thread::sleep(Duration::from_millis(30));
+        let place = browser.evaluate(&middle);
+        if place == before && place[2] == true {
+            break place;
+        }
+        assert!(since.elapsed() < PATIENCE, "{selector} cannot be pressed: {place}");
+        before = place;
+    };
     let at = |index: usize| place[index].as_f64().expect("a place");
     browser.click(at(0), at(1));
 }
