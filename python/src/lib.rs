@@ -3,6 +3,7 @@
 //! Nothing is computed here that the libraries do not compute: a Python caller never changes a bit of a run. All that takes
 //! time is done without Python's global lock, and arrays are written in place.
 
+mod elsewhere;
 mod environments;
 mod episodes;
 mod errors;
@@ -18,6 +19,8 @@ use pyo3::prelude::*;
 /// The native part of the package.
 #[pymodule]
 mod _gambol {
+    #[pymodule_export]
+    use crate::elsewhere::{Batch, BatchEvaluator};
     #[pymodule_export]
     use crate::environments::Environments;
     #[pymodule_export]

@@ -1,6 +1,6 @@
 //! Whole runs: what Python's `gambol.train` does, and what it reads of a run folder.
 
-use crate::{episodes::registry, errors::wrong};
+use crate::{elsewhere, episodes::registry, errors::wrong};
 use gambol_runs::{
     champion::Champion,
     gait,
@@ -8,9 +8,10 @@ use gambol_runs::{
     run::Run,
     run_folder::{FolderError, RunFolder},
     shaping::{ShapingError, StageProgress},
-    training::{Outcome, Resources, TrainError},
+    strategies::AnyStrategy,
+    training::{Answers, Outcome, Resources, Step, TrainError},
 };
-use ne_core::StopReason;
+use ne_core::{Generation, StopReason};
 use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError},
     prelude::*,
@@ -21,9 +22,10 @@ use std::path::{Path, PathBuf};
 type Ended = (String, u64, u64, u64);
 
 /// Begins a run in a new folder, and goes on until it ends. `callback`: called after each generation with its log line as
-/// JSON; the run ends if it returns true.
+/// JSON; the run ends if it returns true. `elsewhere`: see
+/// [`elsewhere::ask`].
 #[pyfunction]
-#[pyo3(signature = (creature, movement, folder, *, preset, strategy, terrain, variation, engine, seed, generations, population, config, settings, threads, callback))]
+#[pyo3(signature = (creature, movement, folder, *, preset, strategy, terrain, variation, engine, seed, generations, population, config, settings, threads, callback, elsewhere))]
 #[expect(clippy::too_many_arguments, reason = "Python calls it by keyword")]
 pub(crate) fn train(
     py: Python<'_>,
@@ -42,6 +44,7 @@ pub(crate) fn train(
     settings: Vec<String>,
     threads: usize,
     callback: Option<Py<PyAny>>,
+    elsewhere: Option<Py<PyAny>>,
 ) -> PyResult<Ended> {
     let request = Request {
         creature,
@@ -63,7 +66,7 @@ pub(crate) fn train(
             config.strategy.set_population(population);
         }
         let run = Run::begin(&config, &folder, resources(threads)).map_err(broken)?;
-        until_it_ends(run, callback.as_ref())
+        until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })
 }
 
@@ -75,6 +78,7 @@ pub(crate) fn resume(
     generations: Option<u64>,
     threads: usize,
     callback: Option<Py<PyAny>>,
+    elsewhere: Option<Py<PyAny>>,
 ) -> PyResult<Ended> {
     py.detach(|| {
         let stop = match generations {
@@ -85,7 +89,7 @@ pub(crate) fn resume(
             }
         };
         let run = Run::resume(&folder, stop, resources(threads)).map_err(broken)?;
-        until_it_ends(run, callback.as_ref())
+        until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })
 }
 
@@ -93,28 +97,36 @@ fn resources(threads: usize) -> Resources {
     Resources { threads, registry: registry().clone(), signal: ne_core::StopSignal::default() }
 }
 
-/// One generation after the other. Between two of them Python is asked whether somebody pressed Ctrl-C; whatever ends the run,
-/// what it has found is saved.
-fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>) -> PyResult<Ended> {
+/// One generation after the other. Between two of them Python is asked whether Ctrl-C was pressed; whatever ends the run, what it has
+/// found is saved.
+fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&Py<PyAny>>) -> PyResult<Ended> {
+    let mut answers = Answers::default();
+    let mut here = elsewhere.is_none();
     loop {
         let mut line = None;
-        let mut on_generation = |generation: &ne_core::Generation<'_, gambol_runs::strategies::AnyStrategy>| {
+        let step = step(&mut run, (!here).then_some(&mut answers), &mut |generation| {
             line = callback.and_then(|_| serde_json::to_string(generation.report).ok());
-        };
-        let mut on_stage_run = |_: &_, _: Option<&_>| {};
-        let mut stages = StageProgress { on_stage_run: &mut on_stage_run };
-        if let Some(reason) = run.generation(&mut stages, &mut on_generation).map_err(broken)? {
-            return Ok(ended(&run.finish(reason).map_err(broken)?));
-        }
-        let asked = Python::attach(|py| {
-            py.check_signals()?;
-            match callback.zip(line) {
-                Some((callback, line)) => callback.bind(py).call1((line,))?.is_truthy(),
-                None => Ok(false),
+        })?;
+        let stops = match (step, elsewhere) {
+            (Step::Over(reason), _) => return Ok(ended(&run.finish(reason).map_err(broken)?)),
+            (Step::Wants(batch), Some(elsewhere)) => match elsewhere::ask(elsewhere, run.stage_config(), batch) {
+                Ok(Some(evaluations)) => {
+                    answers.give(evaluations);
+                    continue;
+                }
+                Ok(None) => {
+                    (answers, here) = (Answers::default(), true);
+                    continue;
+                }
+                Err(error) => Err(error),
+            },
+            _ => {
+                here = elsewhere.is_none();
+                asked(callback, line)
             }
-        });
+        };
         let interrupted = |error: &PyErr| Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py));
-        match asked {
+        match stops {
             Ok(false) => {}
             Err(error) if !interrupted(&error) => {
                 run.finish(StopReason::Interrupted).map_err(broken)?;
@@ -123,6 +135,34 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>) -> PyResult<Ended> 
             Ok(true) | Err(_) => return Ok(ended(&run.finish(StopReason::Interrupted).map_err(broken)?)),
         }
     }
+}
+
+/// A generation here, or as much of it as there are answers for.
+fn step(
+    run: &mut Run,
+    answers: Option<&mut Answers>,
+    on_generation: &mut dyn FnMut(&Generation<'_, AnyStrategy>),
+) -> PyResult<Step> {
+    let mut on_stage_run = |_: &_, _: Option<&_>| {};
+    let mut stages = StageProgress { on_stage_run: &mut on_stage_run };
+    match answers {
+        Some(answers) => run.generation_by(answers, &mut stages, on_generation).map_err(broken),
+        None => {
+            let over = run.generation(&mut stages, on_generation).map_err(broken)?;
+            Ok(over.map_or(Step::Done, Step::Over))
+        }
+    }
+}
+
+/// Whether the run is to end now, after the generation with this line.
+fn asked(callback: Option<&Py<PyAny>>, line: Option<String>) -> PyResult<bool> {
+    Python::attach(|py| {
+        py.check_signals()?;
+        match callback.zip(line) {
+            Some((callback, line)) => callback.bind(py).call1((line,))?.is_truthy(),
+            None => Ok(false),
+        }
+    })
 }
 
 fn ended(Outcome { reason, progress, .. }: &Outcome) -> Ended {

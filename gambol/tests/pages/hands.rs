@@ -27,6 +27,9 @@ pub(crate) fn text(browser: &mut Browser, id: &str) -> String {
     browser.evaluate(&format!("document.getElementById('{id}').textContent")).as_str().unwrap_or_default().to_owned()
 }
 
+/// How often in a row an element must be found at the same place before it is pressed: a page that still loads moves what it has.
+const RESTS: usize = 6;
+
 /// Presses the middle of an element as a pointer would, once the element rests and nothing lies over it.
 #[track_caller]
 pub(crate) fn click(browser: &mut Browser, selector: &str) {
@@ -37,18 +40,23 @@ pub(crate) fn click(browser: &mut Browser, selector: &str) {
          return [...at, found.contains(document.elementFromPoint(...at))]; }})()"
     );
     let since = Instant::now();
-    let mut before = browser.evaluate(&middle);
-    let place = loop {
-        thread::sleep(Duration::from_millis(30));
-        let place = browser.evaluate(&middle);
-        if place == before && place[2] == true {
-            break place;
-        }
+    let (mut place, mut rests) = (Value::Null, 0);
+    while rests < RESTS {
         assert!(since.elapsed() < PATIENCE, "{selector} cannot be pressed: {place}");
-        before = place;
-    };
+        thread::sleep(Duration::from_millis(40));
+        let now = browser.evaluate(&middle);
+        rests = if now == place && now[2] == true { rests + 1 } else { 0 };
+        place = now;
+    }
+    // A press that misses is told at once, not by what never comes.
+    browser.evaluate(&format!(
+        "(() => {{ window.pressed = null; \
+         window.addEventListener('pointerdown', \
+             event => {{ window.pressed = !!event.target.closest({selector:?}); }}, {{ capture: true, once: true }}); }})()"
+    ));
     let at = |index: usize| place[index].as_f64().expect("a place");
     browser.click(at(0), at(1));
+    assert_ne!(browser.evaluate("window.pressed"), false, "the press of {selector} missed");
 }
 
 /// Sets a field, and tells the page.

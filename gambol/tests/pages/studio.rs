@@ -42,6 +42,11 @@ pub(crate) fn begins(browser: &mut Browser, folder: &Path, home: &Home) {
         "the run",
         &format!("document.getElementById('run-state').textContent.includes('generation {}')", before + 1),
     );
+    wait(
+        browser,
+        "its generation",
+        "/generation \\d+, 64 creatures/.test(document.getElementById('arena-caption').textContent)",
+    );
     set(browser, "#run-more", "50");
     click(browser, "#run-go-on");
     wait(

@@ -219,8 +219,10 @@ pub(crate) fn removes(browser: &mut Browser, folder: &Path, home: &Home) {
                 thread::sleep(Duration::from_millis(50));
             }
         }
-        if *home == Home::Served {
-            assert!(!folder.join("runs").join(run).exists(), "the folder is still there");
+        // The folder goes after its files.
+        while *home == Home::Served && folder.join("runs").join(run).exists() {
+            assert!(since.elapsed() < PATIENCE, "the folder of {run} is still there");
+            thread::sleep(Duration::from_millis(50));
         }
     };
     remove(browser, "tetrapod-1-running");

@@ -82,6 +82,16 @@ class Search:
     @property
     def name(self) -> str: ...
 
+class Batch:
+    def __len__(self) -> int: ...
+    def piece(self, start: int, stop: int) -> bytes: ...
+
+class BatchEvaluator:
+    def __new__(cls, config: str) -> BatchEvaluator: ...
+    def evaluate(self, piece: bytes) -> bytes: ...
+
+Elsewhere = Callable[[str, Batch], list[bytes] | None]
+
 def train(
     creature: str | None,
     movement: str | None,
@@ -99,9 +109,14 @@ def train(
     settings: list[str],
     threads: int,
     callback: Callable[[str], bool] | None,
+    elsewhere: Elsewhere | None,
 ) -> tuple[str, int, int, int]: ...
 def resume(
-    folder: Path, generations: int | None, threads: int, callback: Callable[[str], bool] | None
+    folder: Path,
+    generations: int | None,
+    threads: int,
+    callback: Callable[[str], bool] | None,
+    elsewhere: Elsewhere | None,
 ) -> tuple[str, int, int, int]: ...
 def read_log(folder: Path) -> list[str]: ...
 def read_config(folder: Path) -> str: ...

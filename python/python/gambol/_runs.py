@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from pathlib import Path
 from typing import Any
 
@@ -100,7 +101,12 @@ class Run:
         return config
 
     def resume(
-        self, *, generations: int | None = None, threads: int = 0, callback: Callback | None = None
+        self,
+        *,
+        generations: int | None = None,
+        threads: int = 0,
+        callback: Callback | None = None,
+        cluster: Any = None,
     ) -> Run:
         """Goes on from the last checkpoint, to the bytes of a run that was never stopped.
 
@@ -108,8 +114,10 @@ class Run:
             generations: the generation to go on to, in place of the planned one.
             threads: as of :func:`train`.
             callback: as of :func:`train`.
+            cluster: as of :func:`train`.
         """
-        ended = _gambol.resume(self.folder, generations, threads, _told(callback))
+        with _evaluating_on(cluster) as elsewhere:
+            ended = _gambol.resume(self.folder, generations, threads, _told(callback), elsewhere)
         return Run(self.folder, ended[0])
 
     def __repr__(self) -> str:
@@ -134,6 +142,7 @@ def train(
     settings: Mapping[str, Any] | None = None,
     threads: int = 0,
     callback: Callback | None = None,
+    cluster: Any = None,
 ) -> Run:
     """Trains a creature, as the program's command ``gambol train`` does, to the same bytes.
 
@@ -154,6 +163,8 @@ def train(
         threads: 0, the default: one for each core. No byte depends on it.
         callback: called after each generation with its line of the log as a dictionary. The run ends if it returns
             ``True``. What it raises ends the run too, once what there is has been saved.
+        cluster: the module ``ray``, whose cluster evaluates each generation that is worth it, to the same bytes; the logger
+            ``gambol.cluster`` says what is worth it and why. See docs/scale.md.
 
     Returns:
         The run. Ctrl-C ends it after the generation under way and saves; ``reason`` is then ``"it was interrupted"``, and
@@ -162,25 +173,39 @@ def train(
     Raises:
         ValueError: if a name or a setting is wrong.
         OSError: if the folder cannot be used.
+        gambol.cluster.DifferentBits: if a machine of the cluster computes other bits than others.
+        gambol.cluster.Lost: if the cluster loses an evaluation again and again. What there was is saved.
     """
-    ended = _gambol.train(
-        None if creature is None else os.fspath(creature),
-        movement,
-        Path(out),
-        preset=preset,
-        strategy=strategy,
-        terrain=terrain,
-        variation=variation,
-        engine=engine,
-        seed=seed,
-        generations=generations,
-        population=population,
-        config=None if config is None else Path(config),
-        settings=assignments(settings),
-        threads=threads,
-        callback=_told(callback),
-    )
+    with _evaluating_on(cluster) as elsewhere:
+        ended = _gambol.train(
+            None if creature is None else os.fspath(creature),
+            movement,
+            Path(out),
+            preset=preset,
+            strategy=strategy,
+            terrain=terrain,
+            variation=variation,
+            engine=engine,
+            seed=seed,
+            generations=generations,
+            population=population,
+            config=None if config is None else Path(config),
+            settings=assignments(settings),
+            threads=threads,
+            callback=_told(callback),
+            elsewhere=elsewhere,
+        )
     return Run(out, ended[0])
+
+
+def _evaluating_on(cluster: Any) -> AbstractContextManager[_gambol.Elsewhere | None]:
+    if cluster is None:
+        return nullcontext()
+    # Without a cluster nothing of it is imported.
+    from gambol.cluster._populations import Populations, evaluate
+    from gambol.cluster._ray import RayWorkers
+
+    return Populations(RayWorkers(cluster, evaluate))
 
 
 def _told(callback: Callback | None) -> Callable[[str], bool] | None:

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from gambol._build import assignments
-from gambol.cluster._dispatch import DifferentBits, Lost, dispatch
-from gambol.cluster._experiments import Recipe, experiment, recipe
+from gambol.cluster._dispatch import DifferentBits, Dispatcher, Lost
+from gambol.cluster._experiments import Recipe, Runs, carry_out, recipe
 from gambol.cluster._ray import RayWorkers
 
 __all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce"]
@@ -30,13 +30,18 @@ def _names(names: Names | str | None) -> list[str]:
 
 
 def _do(of: Recipe, out: str | os.PathLike[str], cluster: Any, check: float, on_run: OnRun | None) -> list[Path]:
-    made, folder = experiment(of), Path(out)
-    workers = RayWorkers(cluster or import_module("ray"), of, made.digest)
+    folder = Path(out)
+    workers: RayWorkers[str] = RayWorkers(cluster or import_module("ray"), carry_out)
+    dispatcher = Dispatcher(workers, check)
+    work = Runs(of, folder)
+    missing, runs = work.experiment.missing(folder), work.experiment.runs
     try:
-        dispatch(made, folder, workers, check=check, on_run=on_run or (lambda name, done, runs: None))
+        for there, run in enumerate(dispatcher.do(work, missing), runs - len(missing) + 1):
+            if on_run is not None:
+                on_run(work.name(run), there, runs)
     finally:
         workers.cancel()
-    return made.conclude(folder)
+    return work.experiment.conclude(folder)
 
 
 def compare(

@@ -1,9 +1,10 @@
-"""Experiments as recipes: what a node needs to know to do a run."""
+"""Experiments as recipes: what a node needs to know to do a run, and where its result is kept."""
 
 from __future__ import annotations
 
 import functools
 import json
+from pathlib import Path
 from typing import Any
 
 from gambol._gambol import Experiment
@@ -38,3 +39,38 @@ def carry_out(of: Recipe, digest: str, run: int) -> str:
             "it has another version of gambol, or other creature or configuration files"
         )
     return mine.carry_out(run)
+
+
+class Runs:
+    """The runs of an experiment as work, of which each result is a file of a folder."""
+
+    def __init__(self, of: Recipe, folder: Path) -> None:
+        """Begins or goes on in the folder."""
+        self.experiment = experiment(of)
+        self._of, self._folder = of, folder
+        self._files: dict[int, Path] = {}
+        self.experiment.begin(folder)
+
+    def name(self, task: int) -> str:
+        """What a run is called."""
+        return self.experiment.name(task)
+
+    def arguments(self, task: int) -> tuple[Any, ...]:
+        """Those of :func:`carry_out`."""
+        return self._of, self.experiment.digest, task
+
+    def carry_out(self, task: int) -> str:
+        """Does a run here."""
+        return self.experiment.carry_out(task)
+
+    def agree(self, one: str, other: str) -> bool:
+        """Whether they are the same but for seconds."""
+        return self.experiment.agree(one, other)
+
+    def place(self, task: int, result: str) -> None:
+        """Writes the file."""
+        self._files[task] = self.experiment.place(self._folder, task, result)
+
+    def remove(self, task: int) -> None:
+        """Removes the file."""
+        self._files[task].unlink(missing_ok=True)

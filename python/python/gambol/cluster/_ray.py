@@ -2,70 +2,84 @@
 
 from __future__ import annotations
 
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
 from importlib import import_module
-from typing import Any
+from typing import Any, Generic, TypeVar
 
 from gambol.cluster._dispatch import Done
-from gambol.cluster._experiments import Recipe, carry_out
+
+Result = TypeVar("Result")
 
 
-def _on_node(of: Recipe, digest: str, run: int) -> tuple[str, str]:
-    """A run, and the machine it was done on."""
+def _on_node(function: Callable[..., Result], *arguments: Any) -> tuple[Result, str]:
+    """A task, and the machine it was done on."""
     ray = import_module("ray")
-    return carry_out(of, digest, run), ray.get_runtime_context().get_node_id()
+    return function(*arguments), ray.get_runtime_context().get_node_id()
 
 
-class RayWorkers:
+class RayWorkers(Generic[Result]):
     """The nodes of a Ray cluster; ``ray`` is the module, which is initialised if it is not yet."""
 
-    def __init__(self, ray: Any, of: Recipe, digest: str) -> None:
-        """Connects to the cluster."""
+    def __init__(self, ray: Any, function: Callable[..., Result]) -> None:
+        """Connects to the cluster. ``function``: what a task does; a worker imports it by its name."""
         self._ray = ray
         if not ray.is_initialized():
             ray.init()
-        # A task that is repeated does no harm: Ray does so itself when a worker or a node dies.
-        self._task = ray.remote(num_cpus=1, max_retries=-1)(_on_node)
-        self._of, self._digest = of, digest
+        self._errors = import_module("ray.exceptions")
+        # What is lost is handed out again by the dispatcher, which counts how often.
+        self._task = ray.remote(num_cpus=1, max_retries=0)(_on_node)
+        self._function = function
+        self._tasks: dict[str, Any] = {}
         self._flying: dict[Any, int] = {}
+        self._ready: deque[Any] = deque()
         self._numbers = 0
 
-    def _alive(self) -> list[str]:
-        return [node["NodeID"] for node in self._ray.nodes() if node["Alive"] and node["Resources"].get("CPU", 0) >= 1]
+    def nodes(self) -> Mapping[str, int]:
+        """The nodes with processors."""
+        found = ((node["NodeID"], int(node["Resources"].get("CPU", 0))) for node in self._ray.nodes() if node["Alive"])
+        return {node: processors for node, processors in found if processors >= 1}
 
-    def submit(self, run: int, avoid: str | None) -> int:
-        """Begins a run."""
-        chosen: Any = "SPREAD"
-        others = [node for node in self._alive() if node != avoid] if avoid else []
-        if others:
+    def submit(self, arguments: tuple[Any, ...], node: str) -> int:
+        """Begins a task."""
+        if node not in self._tasks:
             strategies = import_module("ray.util.scheduling_strategies")
             # Soft: the node may be gone by then.
-            chosen = strategies.NodeAffinitySchedulingStrategy(others[run % len(others)], soft=True)
+            chosen = strategies.NodeAffinitySchedulingStrategy(node, soft=True)
+            self._tasks[node] = self._task.options(scheduling_strategy=chosen)
         self._numbers += 1
-        task = self._task.options(scheduling_strategy=chosen)
-        self._flying[task.remote(self._of, self._digest, run)] = self._numbers
+        self._flying[self._tasks[node].remote(self._function, *arguments)] = self._numbers
         return self._numbers
 
-    def wait(self) -> tuple[int, Done]:
-        """Waits for a run."""
-        errors = import_module("ray.exceptions")
-        [ready], _ = self._ray.wait(list(self._flying), num_returns=1)
+    def wait(self, seconds: float) -> tuple[int, Done[Result]] | None:
+        """Waits for a task."""
+        if not self._ready:
+            if not self._flying:
+                time.sleep(seconds)
+                return None
+            flying = list(self._flying)
+            found, _ = self._ray.wait(flying, num_returns=1, timeout=seconds)
+            if found:
+                # What else has ended, in one question.
+                found, _ = self._ray.wait(flying, num_returns=len(flying), timeout=0)
+            self._ready.extend(found)
+        if not self._ready:
+            return None
+        ready = self._ready.popleft()
         number = self._flying.pop(ready)
         try:
-            text, node = self._ray.get(ready)
-        except errors.RayTaskError as error:
-            # What the run itself raises, in its own type.
+            result, node = self._ray.get(ready)
+        except self._errors.RayTaskError as error:
+            # What the task itself raises, in its own type.
             raise error.as_instanceof_cause() from None
-        except errors.RayError as error:
+        except self._errors.RayError as error:
             return number, Done(None, type(error).__name__)
-        return number, Done(text, node)
+        return number, Done(result, node)
 
-    def count(self) -> int:
-        """The processors of the cluster."""
-        return int(self._ray.cluster_resources().get("CPU", 1))
-
-    def nodes(self) -> int:
-        """The machines of the cluster."""
-        return len(self._alive())
+    def now(self) -> float:
+        """The monotonic clock."""
+        return time.monotonic()
 
     def cancel(self) -> None:
         """Ends what is under way."""
