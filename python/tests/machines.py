@@ -4,7 +4,7 @@ import heapq
 import random
 from collections import Counter
 
-from gambol.cluster import _dispatch
+from gambol.cluster import _work
 
 
 class Machines:
@@ -48,13 +48,16 @@ class Machines:
             return None
         self.clock, number, arguments, node = heapq.heappop(self.flying)
         if self.random.random() < self.lose:
-            return number, _dispatch.Done(None, "lost")
+            return number, _work.Done(None, "lost")
         result = self.function(*arguments)
         if node == self.wrong:
             self.done += 1
             if self.done > self.wrong_from:
                 result = self.spoil(result)
-        return number, _dispatch.Done(result, node)
+        return number, _work.Done(result, node)
+
+    def withdraw(self, number):
+        """All that was handed out is done."""
 
     def cancel(self):
         """Nothing is under way any more."""

@@ -7,7 +7,7 @@ from machines import Machines
 from trained import RUNS, files, train_on
 
 import gambol
-from gambol.cluster import DifferentBits, Lost, _populations
+from gambol.cluster import DifferentBits, Lost, _populations, _training
 from gambol.cluster._plan import Plan
 
 
@@ -55,6 +55,33 @@ def test_a_run_whose_machines_are_lost_goes_on_later(tmp_path):
     run.resume()
     gambol.train(movement="running", out=tmp_path / "here", **RUNS["cma-es"])
     assert files(tmp_path / "here") == files(run.folder)
+
+
+def test_several_runs_share_machines(tmp_path):
+    """Each has the bytes that it has alone, though a third of all is lost."""
+    machines = Machines(_populations.evaluate, lose=0.3)
+    runs = [{"movement": "running", "out": tmp_path / f"{name}-there", **arguments} for name, arguments in RUNS.items()]
+    # Handing out costs nothing, and the cluster seems large: all is worth it.
+    machines.nodes = lambda: dict.fromkeys("abc", 1000)
+    with _populations.Cluster(machines, overhead=1e-9) as shared:
+        done = _training.train_on(shared, runs)
+    assert [run.folder for run in done] == [run["out"] for run in runs]
+    assert machines.submitted > 12
+    for name, arguments in RUNS.items():
+        gambol.train(movement="running", out=tmp_path / f"{name}-here", **arguments)
+        assert files(tmp_path / f"{name}-here") == files(tmp_path / f"{name}-there")
+
+
+def test_an_error_of_one_run_ends_the_others(tmp_path):
+    """After the generation under way; what there is stays."""
+    machines = Machines(_populations.evaluate)
+    good = {"movement": "running", "out": tmp_path / "good", **RUNS["cma-es"], "generations": 1_000_000}
+    with _populations.Cluster(machines) as shared:
+        with pytest.raises(ValueError, match="slowly"):
+            _training.train_on(shared, [good, {"creature": "biped-1", "movement": "slowly", "out": tmp_path / "bad"}])
+        with pytest.raises(ValueError, match="out: two runs have the same folder"):
+            _training.train_on(shared, [good, good])
+    assert gambol.Run(tmp_path / "good").log["generation"].size >= 1
 
 
 def test_what_is_not_worth_it_is_done_here(tmp_path, caplog):

@@ -14,7 +14,7 @@ from experiments import COMPARISON, same
 from trained import RUNS, files, train_on
 
 import gambol
-from gambol.cluster import _experiments, _populations
+from gambol.cluster import _experiments, _populations, _training
 from gambol.cluster._ray import RayWorkers
 
 @pytest.fixture(scope="module")
@@ -137,6 +137,18 @@ def test_a_run_on_a_cluster_has_the_bytes_of_one_machine(ray, tmp_path, name):
         over.set()
         killer.join()
     assert files(tmp_path / "here") == files(tmp_path / "there")
+
+
+@pytest.mark.filterwarnings("ignore")
+def test_runs_at_the_same_time_have_the_bytes_of_each_alone(ray, tmp_path):
+    """Whether the cluster is worth it or not."""
+    runs = [{"movement": "running", "out": tmp_path / f"{name}-there", **RUNS[name]} for name in RUNS]
+    with _populations.on_ray(ray) as shared:
+        shared._overhead = 1e-9
+        _training.train_on(shared, runs)
+    for name, arguments in RUNS.items():
+        gambol.train(movement="running", out=tmp_path / f"{name}-here", **arguments)
+        assert files(tmp_path / f"{name}-here") == files(tmp_path / f"{name}-there")
 
 
 @pytest.mark.filterwarnings("ignore")

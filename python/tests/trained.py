@@ -29,7 +29,7 @@ def files(folder):
 def train_on(workers, out, *, plan=SMALL_PIECES, on_generation=None, **arguments):
     """As ``gambol.train(..., cluster=...)`` does, on other workers than Ray's."""
     told = []
-    with _populations.Populations(workers, plan) as populations:
+    with _populations.Cluster(workers) as cluster:
         creature = arguments.pop("creature")
         defaults = dict.fromkeys(("preset", "strategy", "terrain", "variation", "engine", "seed", "population", "config"))
         settings = gambol._build.assignments(arguments.pop("settings", None))
@@ -41,6 +41,6 @@ def train_on(workers, out, *, plan=SMALL_PIECES, on_generation=None, **arguments
             settings=settings,
             threads=1,
             callback=lambda line: (on_generation or told.append)(line) is not None,
-            elsewhere=populations,
+            elsewhere=_populations.Populations(cluster, plan),
         )
     return told

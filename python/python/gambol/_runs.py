@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Mapping
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -198,14 +198,20 @@ def train(
     return Run(out, ended[0])
 
 
-def _evaluating_on(cluster: Any) -> AbstractContextManager[_gambol.Elsewhere | None]:
+@contextmanager
+def _evaluating_on(cluster: Any) -> Iterator[_gambol.Elsewhere | None]:
     if cluster is None:
-        return nullcontext()
+        yield None
+        return
     # Without a cluster nothing of it is imported.
-    from gambol.cluster._populations import Populations, evaluate
-    from gambol.cluster._ray import RayWorkers
+    from gambol.cluster import _populations
 
-    return Populations(RayWorkers(cluster, evaluate))
+    if isinstance(cluster, _populations.Cluster):
+        # It is shared with other runs.
+        yield _populations.Populations(cluster)
+        return
+    with _populations.on_ray(cluster) as alone:
+        yield _populations.Populations(alone)
 
 
 def _told(callback: Callback | None) -> Callable[[str], bool] | None:

@@ -13,11 +13,13 @@ from pathlib import Path
 from typing import Any
 
 from gambol._build import assignments
-from gambol.cluster._dispatch import DifferentBits, Dispatcher, Lost
+from gambol.cluster._dispatch import Dispatcher
 from gambol.cluster._experiments import Recipe, Runs, carry_out, recipe
 from gambol.cluster._ray import RayWorkers
+from gambol.cluster._training import train
+from gambol.cluster._work import DifferentBits, Lost
 
-__all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce"]
+__all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce", "train"]
 
 OnRun = Callable[[str, int, int], None]
 Names = Sequence[str | os.PathLike[str]]

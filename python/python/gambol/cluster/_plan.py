@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-#: Pieces that each processor has of a generation, if they are not too small: then none waits long for the last.
-PIECES_EACH = 4
-
 #: A piece takes so many times as long as handing it out.
 LEAST = 10
+
+#: Handing out is done in this share of the time that all processors need for what was handed out.
+HANDING = 0.8
 
 #: Creatures that the lanes step at the same time.
 LANES = 16
@@ -41,10 +41,12 @@ class Plan:
 
     @property
     def piece(self) -> int:
-        """Individuals of a task: a multiple of the lanes, unless there are fewer."""
-        least = max(LEAST, self.processors) * self.overhead / self.each
-        wanted = self.individuals / (self.processors * PIECES_EACH)
-        piece = min(max(least, wanted), self.individuals / self.processors)
+        """Individuals of a task: as few as handing out allows, a multiple of the lanes unless there are fewer.
+
+        The smaller the pieces, the sooner the last of them is done.
+        """
+        least = max(LEAST, self.processors / HANDING) * self.overhead / self.each
+        piece = min(least, self.individuals / self.processors)
         return min(self.individuals, math.ceil(piece / LANES) * LANES)
 
     @property

@@ -6,15 +6,17 @@ import functools
 import logging
 import math
 import os
+import threading
 import time
-from collections.abc import Mapping
 from dataclasses import replace
 from types import TracebackType
 from typing import Any
 
 from gambol._gambol import Batch, BatchEvaluator
-from gambol.cluster._dispatch import Dispatcher, Workers
+from gambol.cluster._dispatch import Dispatcher
 from gambol.cluster._plan import LANES, Plan
+from gambol.cluster._ray import RayWorkers
+from gambol.cluster._work import Workers
 
 _log = logging.getLogger("gambol.cluster")
 
@@ -73,19 +75,17 @@ class Pieces:
         self.results[task] = b""
 
 
-class Populations:
-    """Evaluates batches on a cluster, if that is worth it."""
+class Cluster:
+    """Workers that several runs share. Leaving its context ends what is under way."""
 
-    def __init__(self, workers: Dispatcher, plan: Plan | None = None) -> None:
-        """``workers``: do :func:`evaluate`; ``plan``: what is known before, else it is measured."""
-        self._workers = workers
-        self._dispatcher = Dispatcher(self._workers, CHECK)
-        self._plan = plan
-        self._measures = plan is None
-        self._said: bool | None = None
-        self._batches = 0
+    def __init__(self, workers: Workers[bytes], overhead: float | None = None) -> None:
+        """``workers``: do :func:`evaluate`; ``overhead``: seconds that handing out a task takes, else it is measured."""
+        self.workers = workers
+        self.dispatcher = Dispatcher(workers, CHECK)
+        self._overhead = overhead
+        self._measuring = threading.Lock()
 
-    def __enter__(self) -> Populations:
+    def __enter__(self) -> Cluster:
         """Itself."""
         return self
 
@@ -93,7 +93,40 @@ class Populations:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         """Ends what is under way."""
-        self._workers.cancel()
+        self.workers.cancel()
+
+    def processors(self) -> int:
+        """How many there are, from 1."""
+        return max(1, sum(self.workers.nodes().values()))
+
+    def overhead(self, config: str, batch: Batch) -> float:
+        """Seconds that handing out a task takes. Nothing is handed out before it is known."""
+        with self._measuring:
+            if self._overhead is None:
+                # The second time every worker has begun.
+                self._overhead = min(self._handing_out((config, batch.piece(0, 0))) for _ in range(2))
+            return self._overhead
+
+    def _handing_out(self, nothing: tuple[str, bytes]) -> float:
+        start = self.workers.now()
+        nodes = self.workers.nodes()
+        tasks = [self.workers.submit(nothing, node) for node, processors in nodes.items() for _ in range(2 * processors)]
+        for _ in tasks:
+            while self.workers.wait(1.0) is None:
+                pass
+        return (self.workers.now() - start) / max(1, len(tasks))
+
+
+class Populations:
+    """Evaluates the batches of a run on a cluster, if that is worth it."""
+
+    def __init__(self, cluster: Cluster, plan: Plan | None = None) -> None:
+        """``plan``: what is known before, else it is measured."""
+        self._cluster = cluster
+        self._plan = plan
+        self._measures = plan is None
+        self._said: bool | None = None
+        self._batches = 0
 
     def __call__(self, config: str, batch: Batch) -> list[bytes] | None:
         """The evaluations of the batch, piece by piece; ``None`` if the cluster is not worth it."""
@@ -104,7 +137,7 @@ class Populations:
         if not plan.worth:
             return None
         pieces = Pieces(config, batch, plan.piece)
-        for _ in self._dispatcher.do(pieces, range(len(pieces.results))):
+        for _ in self._cluster.dispatcher.do(pieces, range(len(pieces.results))):
             pass
         return pieces.results
 
@@ -115,27 +148,19 @@ class Populations:
         return replace(self._plan, individuals=len(batch))
 
     def _measured(self, config: str, batch: Batch) -> Plan:
+        overhead = self._cluster.overhead(config, batch)
         sample = min(SAMPLE, len(batch))
-        start = time.perf_counter()
-        piece = batch.piece(0, sample)
-        sending = (time.perf_counter() - start) / sample
         _evaluator(config)
         start = time.perf_counter()
+        piece = batch.piece(0, sample)
+        sent = time.perf_counter()
         evaluate(config, piece)
-        each = (time.perf_counter() - start) / sample
-        nodes = self._workers.nodes()
-        overhead = self._handing_out(config, batch, nodes) if self._plan is None else self._plan.overhead
-        return Plan(len(batch), each, max(1, sum(nodes.values())), os.cpu_count() or 1, overhead, sending)
+        each = (time.perf_counter() - sent) / sample
+        sending = (sent - start) / sample
+        return Plan(len(batch), each, self._cluster.processors(), os.cpu_count() or 1, overhead, sending)
 
-    def _handing_out(self, config: str, batch: Batch, nodes: Mapping[str, int]) -> float:
-        """Seconds that handing out a task takes, once every worker has begun."""
-        nothing = config, batch.piece(0, 0)
-        spent = 0.0
-        for _ in range(2):
-            start = time.perf_counter()
-            tasks = [self._workers.submit(nothing, node) for node, processors in nodes.items() for _ in range(2 * processors)]
-            there = 0
-            while there < len(tasks):
-                there += self._workers.wait(1.0) is not None
-            spent = (time.perf_counter() - start) / max(1, len(tasks))
-        return spent
+
+def on_ray(ray: Any) -> Cluster:
+    """A Ray cluster; ``ray`` is the module, which is initialised if it is not yet."""
+    workers: RayWorkers[bytes] = RayWorkers(ray, evaluate)
+    return Cluster(workers)

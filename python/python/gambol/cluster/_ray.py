@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 from importlib import import_module
 from typing import Any, Generic, TypeVar
 
-from gambol.cluster._dispatch import Done
+from gambol.cluster._work import Done
 
 Result = TypeVar("Result")
 
@@ -33,6 +33,7 @@ class RayWorkers(Generic[Result]):
         self._function = function
         self._tasks: dict[str, Any] = {}
         self._flying: dict[Any, int] = {}
+        self._of_number: dict[int, Any] = {}
         self._ready: deque[Any] = deque()
         self._numbers = 0
 
@@ -49,7 +50,9 @@ class RayWorkers(Generic[Result]):
             chosen = strategies.NodeAffinitySchedulingStrategy(node, soft=True)
             self._tasks[node] = self._task.options(scheduling_strategy=chosen)
         self._numbers += 1
-        self._flying[self._tasks[node].remote(self._function, *arguments)] = self._numbers
+        task = self._tasks[node].remote(self._function, *arguments)
+        self._flying[task] = self._numbers
+        self._of_number[self._numbers] = task
         return self._numbers
 
     def wait(self, seconds: float) -> tuple[int, Done[Result]] | None:
@@ -68,14 +71,21 @@ class RayWorkers(Generic[Result]):
             return None
         ready = self._ready.popleft()
         number = self._flying.pop(ready)
+        del self._of_number[number]
         try:
             result, node = self._ray.get(ready)
         except self._errors.RayTaskError as error:
-            # What the task itself raises, in its own type.
-            raise error.as_instanceof_cause() from None
+            # In its own type.
+            return number, Done(None, "", error.as_instanceof_cause())
         except self._errors.RayError as error:
             return number, Done(None, type(error).__name__)
         return number, Done(result, node)
+
+    def withdraw(self, number: int) -> None:
+        """Cancels a task; one that is under way is done to its end."""
+        task = self._of_number.get(number)
+        if task is not None:
+            self._ray.cancel(task, force=False)
 
     def now(self) -> float:
         """The monotonic clock."""
