@@ -3,6 +3,7 @@
 //! Nothing is computed here that the libraries do not compute: a Python caller never changes a bit of a run. All that takes
 //! time is done without Python's global lock, and arrays are written in place.
 
+mod champions;
 mod elsewhere;
 mod environments;
 mod episodes;
@@ -20,6 +21,10 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _gambol {
     #[pymodule_export]
+    use crate::champions::{
+        Net, champion_robustness, export_champion, export_endings, judge_gait, read_champion, verify, write_replay,
+    };
+    #[pymodule_export]
     use crate::elsewhere::{Batch, BatchEvaluator};
     #[pymodule_export]
     use crate::environments::Environments;
@@ -28,7 +33,7 @@ mod _gambol {
     #[pymodule_export]
     use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
     #[pymodule_export]
-    use crate::runs::{judge_gait, read_champion, read_config, read_log, resume, train, verify};
+    use crate::runs::{read_config, read_log, resume, train};
     #[pymodule_export]
     use crate::searches::Search;
 }

@@ -2,8 +2,6 @@
 
 use crate::{elsewhere, episodes::registry, errors::wrong};
 use gambol_runs::{
-    champion::Champion,
-    gait,
     request::Request,
     run::Run,
     run_folder::{FolderError, RunFolder},
@@ -16,7 +14,7 @@ use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError},
     prelude::*,
 };
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// What is said of a run that has ended: why, and the generations, the evaluations and the steps it used.
 type Ended = (String, u64, u64, u64);
@@ -198,33 +196,4 @@ pub(crate) fn read_config(py: Python<'_>, folder: PathBuf) -> PyResult<String> {
         let config = RunFolder::open(&folder).and_then(|folder| folder.read_config()).map_err(unreadable)?;
         serde_json::to_string(&config).map_err(wrong)
     })
-}
-
-/// A champion file, as JSON, once it has been checked.
-#[pyfunction]
-pub(crate) fn read_champion(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    py.detach(|| serde_json::to_string(&champion(&path)?).map_err(wrong))
-}
-
-/// Replays a champion in rapier: whether it repeats itself to the bit, its fitness now, and the first step that differs.
-#[pyfunction]
-pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f64>, Option<u32>)> {
-    py.detach(|| {
-        let verification = champion(&path)?.verify(registry()).map_err(wrong)?;
-        let fitness = verification.evaluation.fitness().map(ne_core::Fitness::get);
-        Ok((verification.is_identical(), fitness, verification.diverges_at))
-    })
-}
-
-/// The gait of a champion, measured and judged, as JSON.
-#[pyfunction]
-pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
-    py.detach(|| {
-        let report = gait::judge(&champion(&path)?, registry()).map_err(wrong)?;
-        serde_json::to_string(&report).map_err(wrong)
-    })
-}
-
-fn champion(path: &Path) -> PyResult<Champion> {
-    Champion::read(path).map_err(|error| PyOSError::new_err(error.to_string()))
 }

@@ -6,10 +6,11 @@
 - :func:`train`: a whole run, from a creature and a movement to a champion in a folder.
 """
 
+from gambol._champion import Champion, Controller
 from gambol._environment import CreatureEnv
 from gambol._gambol import creature_names, movement_names, strategy_names, terrain_names, variation_names
 from gambol._registration import environment_id, register_environments
-from gambol._runs import Champion, Run, train
+from gambol._runs import Run, train
 from gambol._strategies import (
     Ars,
     Best,
@@ -29,6 +30,7 @@ __all__ = [
     "Best",
     "Champion",
     "CmaEs",
+    "Controller",
     "Conventional",
     "Cosyne",
     "CreatureEnv",

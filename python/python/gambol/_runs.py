@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping
@@ -14,50 +15,9 @@ import numpy.typing as npt
 
 from gambol import _gambol
 from gambol._build import assignments
+from gambol._champion import Champion
 
 Callback = Callable[[dict[str, Any]], bool | None]
-
-
-class Champion:
-    """The best that a run has found: a champion file.
-
-    Raises:
-        OSError: if the file cannot be read or is damaged.
-    """
-
-    def __init__(self, path: str | os.PathLike[str]) -> None:
-        """Reads the file."""
-        #: The file.
-        self.path = Path(path)
-        #: All that the file says, as docs/files.md has it.
-        self.data: dict[str, Any] = json.loads(_gambol.read_champion(self.path))
-
-    @property
-    def fitness(self) -> float:
-        """The fitness, in the movement's unit, of one episode in rapier."""
-        return float(self.data["fitness"])
-
-    @property
-    def generation(self) -> int:
-        """The generation it was found in, from 1."""
-        return int(self.data["generation"])
-
-    def verify(self) -> bool:
-        """Replays it in rapier: whether every step has the bits that the file records."""
-        return _gambol.verify(self.path)[0]
-
-    def gait(self) -> dict[str, Any]:
-        """Its gait, measured and judged: travel, stride, cheats, and the verdict. See docs/gaits.md.
-
-        Raises:
-            ValueError: if there is nothing to measure.
-        """
-        report: dict[str, Any] = json.loads(_gambol.judge_gait(self.path))
-        return report
-
-    def __repr__(self) -> str:
-        """Its fitness and where it is."""
-        return f"Champion(fitness={self.fitness:.6g}, path={str(self.path)!r})"
 
 
 class Run:
@@ -123,6 +83,12 @@ class Run:
     def __repr__(self) -> str:
         """Where it is."""
         return f"Run({str(self.folder)!r})"
+
+    def _repr_html_(self) -> str:
+        """Where it is, how far it came, and its champion's replay: for notebooks."""
+        champion, done = self.champion, len(_gambol.read_log(self.folder))
+        line = f"<p>{html.escape(str(self.folder))}, {done} generations</p>"
+        return line + (champion._repr_html_() if champion is not None else "")
 
 
 def train(

@@ -1,0 +1,175 @@
+//! Champion files: what Python's `gambol.Champion` is made of.
+
+use crate::{episodes::registry, errors::wrong};
+use gambol_exports::{Format, Options, Picture, export};
+use gambol_reports::report;
+use gambol_runs::{
+    champion::Champion,
+    gait,
+    robust::{Perturbations, robustness},
+};
+use ne_core::Phenotype as _;
+use ne_net::Network;
+use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
+use pyo3::{exceptions::PyOSError, prelude::*, types::PyBytes};
+use std::path::{Path, PathBuf};
+
+/// A champion file, as JSON, once it has been checked.
+#[pyfunction]
+pub(crate) fn read_champion(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    py.detach(|| serde_json::to_string(&champion(&path)?).map_err(wrong))
+}
+
+/// Replays a champion in rapier: whether it repeats itself to the bit, its fitness now, and the first step that differs.
+#[pyfunction]
+pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f64>, Option<u32>)> {
+    py.detach(|| {
+        let verification = champion(&path)?.verify(registry()).map_err(wrong)?;
+        let fitness = verification.evaluation.fitness().map(ne_core::Fitness::get);
+        Ok((verification.is_identical(), fitness, verification.diverges_at))
+    })
+}
+
+/// The gait of a champion, measured and judged, as JSON.
+#[pyfunction]
+pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
+    py.detach(|| {
+        let report = gait::judge(&champion(&path)?, registry()).map_err(wrong)?;
+        serde_json::to_string(&report).map_err(wrong)
+    })
+}
+
+/// What is left of a champion's gait in perturbed worlds, as JSON.
+#[pyfunction]
+pub(crate) fn champion_robustness(
+    py: Python<'_>,
+    path: PathBuf,
+    worlds: u32,
+    seed: u64,
+    variation: Option<String>,
+) -> PyResult<String> {
+    py.detach(|| {
+        let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
+        let perturbations = Perturbations { count: worlds, seed, variation };
+        let robustness = robustness(&champion(&path)?, registry(), &perturbations).map_err(wrong)?;
+        serde_json::to_string(&robustness).map_err(wrong)
+    })
+}
+
+/// A champion in another format: files, by what comes after their name.
+#[pyfunction]
+#[pyo3(signature = (path, format, name, *, seconds, size, rate, ground))]
+#[expect(clippy::too_many_arguments, reason = "Python calls it by keyword")]
+pub(crate) fn export_champion<'py>(
+    py: Python<'py>,
+    path: PathBuf,
+    format: &str,
+    name: String,
+    seconds: Option<f64>,
+    size: Option<u32>,
+    rate: Option<f64>,
+    ground: bool,
+) -> PyResult<Vec<(&'static str, Bound<'py, PyBytes>)>> {
+    let format = self::format(format)?;
+    let files = py.detach(|| {
+        let champion = champion(&path)?;
+        let steps = seconds.map(|seconds| steps(seconds, &champion)).transpose()?;
+        let usual = Picture::default();
+        let picture = Picture { size: size.unwrap_or(usual.size), rate: rate.unwrap_or(usual.rate), ground };
+        export(&champion, registry(), format, &Options { name, steps, picture }).map_err(wrong)
+    })?;
+    Ok(files.into_iter().map(|file| (file.ending, PyBytes::new(py, &file.bytes))).collect())
+}
+
+/// How the names of a format's files end; the first is the file that is asked for.
+#[pyfunction]
+pub(crate) fn export_endings(format: &str) -> PyResult<Vec<&'static str>> {
+    Ok(self::format(format)?.endings().to_vec())
+}
+
+/// Writes a page that replays a champion.
+#[pyfunction]
+pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds: Option<f64>) -> PyResult<()> {
+    py.detach(|| {
+        let champion = champion(&path)?;
+        let steps = seconds.map(|seconds| steps(seconds, &champion)).transpose()?;
+        report::write_replay(&champion, registry(), steps, &page).map_err(|error| PyOSError::new_err(error.to_string()))
+    })
+}
+
+/// A champion's net.
+#[pyclass(module = "gambol._gambol")]
+pub(crate) struct Net(Network);
+
+#[pymethods]
+impl Net {
+    /// Of a champion file.
+    #[staticmethod]
+    fn of_champion(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
+        py.detach(|| Ok(Self(champion(&path)?.network)))
+    }
+
+    /// Of the JSON of a net.
+    #[staticmethod]
+    fn of_text(text: &str) -> PyResult<Self> {
+        serde_json::from_str(text).map(Self).map_err(wrong)
+    }
+
+    /// Its JSON.
+    fn text(&self) -> PyResult<String> {
+        serde_json::to_string(&self.0).map_err(wrong)
+    }
+
+    /// How many inputs and outputs it has.
+    #[getter]
+    fn shape(&self) -> (usize, usize) {
+        (self.0.inputs(), self.0.outputs())
+    }
+
+    /// The outputs for each row of inputs, one row after the other; a recurrent net remembers the rows before.
+    fn activate<'py>(
+        &mut self,
+        py: Python<'py>,
+        inputs: PyReadonlyArray2<'py, f32>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let (wide, outputs) = self.shape();
+        let inputs = inputs.as_array();
+        if inputs.ncols() != wide {
+            return Err(wrong(format!("inputs must have {wide} columns, found {}", inputs.ncols())));
+        }
+        let rows = inputs.nrows();
+        let inputs: Vec<f32> = inputs.iter().copied().collect();
+        let found = py.detach(|| {
+            let mut found = vec![0.0; rows * outputs];
+            for (inputs, outputs) in inputs.chunks(wide.max(1)).zip(found.chunks_mut(outputs.max(1))) {
+                self.0.activate(inputs, outputs);
+            }
+            found
+        });
+        PyArray1::from_vec(py, found).reshape([rows, outputs])
+    }
+
+    /// Forgets all inputs before.
+    fn reset(&mut self) {
+        self.0.reset();
+    }
+}
+
+fn champion(path: &Path) -> PyResult<Champion> {
+    Champion::read(path).map_err(|error| PyOSError::new_err(error.to_string()))
+}
+
+fn format(name: &str) -> PyResult<Format> {
+    Format::ALL.into_iter().find(|format| format.name() == name).ok_or_else(|| {
+        let known = Format::ALL.map(Format::name).join(", ");
+        wrong(format!("there is no format \"{name}\" (there are: {known})"))
+    })
+}
+
+fn steps(seconds: f64, champion: &Champion) -> PyResult<u32> {
+    let steps = seconds / f64::from(champion.physics.time_step);
+    match (1.0..=1e6).contains(&steps) {
+        true => Ok(steps.round() as u32),
+        false => Err(wrong(format!("seconds = {seconds}: must give from 1 to 1000000 steps"))),
+    }
+}
