@@ -101,6 +101,12 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
 #[pyclass(module = "gambol._gambol")]
 pub(crate) struct Net(Network);
 
+impl From<Network> for Net {
+    fn from(network: Network) -> Self {
+        Self(network)
+    }
+}
+
 #[pymethods]
 impl Net {
     /// Of a champion file.

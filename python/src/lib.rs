@@ -11,6 +11,7 @@ mod errors;
 mod experiments;
 mod group;
 mod names;
+mod neat;
 mod runs;
 mod searches;
 mod stage;
@@ -32,6 +33,8 @@ mod _gambol {
     use crate::experiments::Experiment;
     #[pymodule_export]
     use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
+    #[pymodule_export]
+    use crate::neat::{Genes, NeatSearch};
     #[pymodule_export]
     use crate::runs::{read_config, read_log, resume, train};
     #[pymodule_export]

@@ -63,6 +63,9 @@ trait Weights: Send + Sync {
 
     fn statistics(&self) -> Vec<(String, f64)>;
 
+    /// Weights and objectives of those that no other is better than in all, if the strategy searches for several.
+    fn front(&self) -> Option<Vec<(Vec<f32>, Vec<f64>)>>;
+
     /// The state, as text.
     fn save(&self, progress: &Progress) -> serde_json::Result<Vec<u8>>;
 }
@@ -91,6 +94,17 @@ impl<S: NetStrategy<Genome = WeightVector> + Sync> Weights for Held<S> {
 
     fn statistics(&self) -> Vec<(String, f64)> {
         self.strategy.statistics().into_iter().map(|statistic| (statistic.name, statistic.value)).collect()
+    }
+
+    fn front(&self) -> Option<Vec<(Vec<f32>, Vec<f64>)>> {
+        let points = self.strategy.front()?.into_iter();
+        Some(
+            points
+                .map(|point| {
+                    (point.genome.weights().to_vec(), point.objectives.iter().map(|value| value.get()).collect())
+                })
+                .collect(),
+        )
     }
 
     fn save(&self, progress: &Progress) -> serde_json::Result<Vec<u8>> {
@@ -235,6 +249,11 @@ impl Search {
         Some((PyArray1::from_slice(py, &best.weights), best.fitness.get(), best.generation))
     }
 
+    /// Weights and objectives of those that no other is better than in all; `None` if the strategy does not search for several.
+    fn front(&self) -> Option<Vec<(Vec<f32>, Vec<f64>)>> {
+        self.search.front()
+    }
+
     /// What the strategy says of itself.
     fn statistics(&self) -> Vec<(String, f64)> {
         self.search.statistics()
@@ -273,7 +292,7 @@ impl Search {
 }
 
 /// The best of a generation, of equals the first.
-fn best_of(evaluations: &[Evaluation]) -> Option<(usize, Fitness)> {
+pub(crate) fn best_of(evaluations: &[Evaluation]) -> Option<(usize, Fitness)> {
     let fitnesses = evaluations.iter().enumerate().filter_map(|(index, it)| Some((index, it.fitness()?)));
     fitnesses.reduce(|best, next| if next.1 > best.1 { next } else { best })
 }

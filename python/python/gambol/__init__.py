@@ -9,6 +9,7 @@
 from gambol._champion import Champion, Controller
 from gambol._environment import CreatureEnv
 from gambol._gambol import creature_names, movement_names, strategy_names, terrain_names, variation_names
+from gambol._neat import BestGenome, ConnectionGene, Neat, NeatGenome, NodeGene, Species
 from gambol._registration import environment_id, register_environments
 from gambol._runs import Run, train
 from gambol._strategies import (
@@ -17,6 +18,7 @@ from gambol._strategies import (
     CmaEs,
     Conventional,
     Cosyne,
+    Front,
     HillClimbing,
     Nsga2,
     OpenEs,
@@ -28,17 +30,24 @@ from gambol._vector import VectorEnv, make_vec
 __all__ = [
     "Ars",
     "Best",
+    "BestGenome",
     "Champion",
     "CmaEs",
+    "ConnectionGene",
     "Controller",
     "Conventional",
     "Cosyne",
     "CreatureEnv",
+    "Front",
     "HillClimbing",
+    "Neat",
+    "NeatGenome",
+    "NodeGene",
     "Nsga2",
     "OpenEs",
     "RandomSearch",
     "Run",
+    "Species",
     "Strategy",
     "VectorEnv",
     "creature_names",

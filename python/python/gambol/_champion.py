@@ -140,8 +140,10 @@ class Champion:
         """Its replay, for notebooks."""
         with tempfile.TemporaryDirectory() as folder:
             page = self.replay(Path(folder) / "replay.html").read_text(encoding="utf-8")
+        # The page knows its own script by its bytes, whatever a notebook is saved as.
+        source = html.escape(page).encode("ascii", "xmlcharrefreplace").decode("ascii")
         return (
-            f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts" title="{html.escape(repr(self))}" '
+            f'<iframe srcdoc="{source}" sandbox="allow-scripts" title="{html.escape(repr(self))}" '
             'style="width: 100%; height: 640px; border: 0"></iframe>'
         )
 

@@ -154,10 +154,27 @@ class Cosyne(Strategy):
     name = "cosyne"
 
 
+@dataclass(frozen=True)
+class Front:
+    """Compromises: none is worse than another in every objective."""
+
+    #: Their genomes, ``float32[points, dimension]``.
+    weights: npt.NDArray[np.float32]
+    #: What each came to, ``float64[points, objectives]``, all to be maximised.
+    objectives: npt.NDArray[np.float64]
+
+
 class Nsga2(Strategy):
     """NSGA-II: a front of compromises between several objectives, which :meth:`Strategy.tell` takes."""
 
     name = "nsga2"
+
+    @property
+    def front(self) -> Front:
+        """The front of the individuals that are kept; of no points before the first generation is told."""
+        points = self._search.front() or []
+        weights = np.array([weights for weights, _ in points], np.float32).reshape(len(points), self.dimension)
+        return Front(weights, np.array([objectives for _, objectives in points], np.float64).reshape(len(points), -1))
 
 
 class Ars(Strategy):
