@@ -4,13 +4,17 @@ use super::{
     DrawingError,
     canvas::{Canvas, GROUND, GROUND_LINE, SKY},
     creature::{Model, View},
+    scene,
 };
 use creatures::Blueprint;
+use envs_core::Ground;
 use tasks::Snapshot;
 
 /// Paints the poses of a creature.
 pub struct Painter {
     model: Model,
+    /// The longer side of its bounding box in the start pose, m.
+    body_length: f64,
 }
 
 /// What of the world an image shows.
@@ -35,13 +39,34 @@ pub struct MarkedGround {
     pub mark: f64,
 }
 
+/// How much of the world a camera that follows a creature shows, width and height in body lengths.
+const SURROUNDINGS: [f64; 2] = [4.0, 2.2];
+/// Ground shown below y = 0, as a share of the height of the image.
+const BELOW: f64 = 0.2;
+/// Kept free above and below the creature, as a share of the height of the image.
+const FREE: f64 = 0.08;
 /// A mark on the ground, px.
 const MARK: [f32; 2] = [2.0, 7.0];
 
 impl Painter {
     /// A painter of a creature, by the looks in its file.
     pub fn new(blueprint: &Blueprint) -> Self {
-        Self { model: Model::new(blueprint) }
+        Self { model: Model::new(blueprint), body_length: f64::from(blueprint.body_length()) }
+    }
+
+    /// What a camera shows that follows the creature, width and height in px. It keeps its height as long as it sees the
+    /// whole creature, so that a jump on level ground looks like one. It remembers nothing: equal poses are framed alike.
+    pub fn follow(&self, pose: &Snapshot, [width, height]: [u32; 2]) -> Framing {
+        let (wide, high) = (f64::from(width), f64::from(height));
+        let scale = (wide / SURROUNDINGS[0]).min(high / SURROUNDINGS[1]) / self.body_length;
+        let [_, bottom, _, top] = self.model.bounds(pose).map(f64::from);
+        // px from the top, if the camera kept its height.
+        let level = (1.0 - BELOW) * high;
+        let (highest, lowest) = (level - scale * top, level - scale * bottom);
+        let raised = (FREE * high - highest).max(0.0);
+        let lowered = (lowest - (1.0 - FREE) * high).max(0.0);
+        let origin = [0.5 * wide - scale * self.model.middle(pose), level + raised - lowered];
+        Framing { width, height, scale, origin }
     }
 
     /// The box around a pose with all that is painted, m: left, bottom, right, top.
@@ -82,16 +107,29 @@ impl Painter {
             None => Canvas::transparent(width, height)?,
             Some(ground) => {
                 let mut canvas = Canvas::new(width, height, SKY)?;
-                draw_ground(&mut canvas, &view, ground);
+                draw_marked_ground(&mut canvas, &view, ground);
                 canvas
             }
         };
         self.model.draw(&mut canvas, &view, pose);
         Ok(canvas.into_rgba())
     }
+
+    /// A pose in its world, as red, green and blue of each pixel, row by row: with its ground, or in water where there is none, and
+    /// with marks that stay where they are.
+    ///
+    /// # Errors
+    /// If the image would be empty or too large.
+    pub fn paint_in_world(&self, pose: &Snapshot, framing: &Framing, ground: &Ground) -> Result<Vec<u8>, DrawingError> {
+        let Framing { width, height, scale, origin } = *framing;
+        let view = View { scale, origin };
+        let mut canvas = scene::backdrop([width, height], &view, ground)?;
+        self.model.draw(&mut canvas, &view, pose);
+        Ok(canvas.pixels().into_flattened())
+    }
 }
 
-fn draw_ground(canvas: &mut Canvas, view: &View, ground: MarkedGround) {
+fn draw_marked_ground(canvas: &mut Canvas, view: &View, ground: MarkedGround) {
     let (width, height, top) = (canvas.width(), canvas.height(), view.origin[1] as f32);
     canvas.rectangle([0.0, top, width, (height - top).max(1.0)], GROUND);
     canvas.rectangle([0.0, top, width, 1.5], GROUND_LINE);
