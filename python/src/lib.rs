@@ -8,6 +8,7 @@ mod episodes;
 mod errors;
 mod experiments;
 mod group;
+mod layout;
 mod names;
 mod runs;
 mod searches;
@@ -23,7 +24,10 @@ mod _gambol {
     #[pymodule_export]
     use crate::experiments::Experiment;
     #[pymodule_export]
-    use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
+    use crate::names::{
+        creature_names, default_time_step, episode_facts, movement_names, strategy_names, terrain_names,
+        variation_names,
+    };
     #[pymodule_export]
     use crate::runs::{judge_gait, read_champion, read_config, read_log, resume, train, verify};
     #[pymodule_export]
