@@ -293,7 +293,10 @@ impl Environments {
     #[getter]
     fn channels(&self) -> [Vec<(String, String)>; 2] {
         let [senses, motors] = self.described.episodes.channels();
-        [self.layout.as_ref().map_or_else(|| senses.clone(), |layout| layout.pick(&senses)), motors]
+        match &self.layout {
+            None => [senses, motors],
+            Some(layout) => [layout.pick(&senses), motors],
+        }
     }
 }
 

@@ -10,10 +10,13 @@ pub(crate) fn creature_names() -> Vec<&'static str> {
     creatures::shipped().iter().map(|creature| creature.name).collect()
 }
 
+/// A movement, the steps of an episode, and how many seconds a step lasts.
+pub(crate) type Length = (String, u32, f32);
+
 /// The longer side of a creature's bounding box in its start pose, m; and of each movement how many steps an episode has with the
 /// preset `plain`, and how many seconds a step lasts. `creature`: the name of a shipped one, or the path of a file.
 #[pyfunction]
-pub(crate) fn episode_facts(creature: &str) -> PyResult<(f32, Vec<(String, u32, f32)>)> {
+pub(crate) fn episode_facts(creature: &str) -> PyResult<(f32, Vec<Length>)> {
     let creature = gambol_runs::source::creature(creature, registry()).map_err(wrong)?;
     let facts = |movement: String| {
         let config = registry().config("plain", creature.clone(), &movement).map_err(wrong)?;

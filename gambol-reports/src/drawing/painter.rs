@@ -43,8 +43,8 @@ pub struct MarkedGround {
 const SURROUNDINGS: [f64; 2] = [4.0, 2.2];
 /// Ground shown below y = 0, as a share of the height of the image.
 const BELOW: f64 = 0.2;
-/// Kept free above and below the creature, as a share of the height of the image.
-const FREE: f64 = 0.08;
+/// Kept free above and below the creature, as a share of the height of the image: what comes next is below, where it goes down.
+const FREE: [f64; 2] = [0.08, 0.16];
 /// A mark on the ground, px.
 const MARK: [f32; 2] = [2.0, 7.0];
 
@@ -63,8 +63,8 @@ impl Painter {
         // px from the top, if the camera kept its height.
         let level = (1.0 - BELOW) * high;
         let (highest, lowest) = (level - scale * top, level - scale * bottom);
-        let raised = (FREE * high - highest).max(0.0);
-        let lowered = (lowest - (1.0 - FREE) * high).max(0.0);
+        let raised = (FREE[0] * high - highest).max(0.0);
+        let lowered = (lowest - (1.0 - FREE[1]) * high).max(0.0);
         let origin = [0.5 * wide - scale * self.model.middle(pose), level + raised - lowered];
         Framing { width, height, scale, origin }
     }
@@ -140,5 +140,59 @@ fn draw_marked_ground(canvas: &mut Canvas, view: &View, ground: MarkedGround) {
         let [at, _] = view.point([x as f32, 0.0]);
         canvas.rectangle([at - 0.5 * MARK[0], top, MARK[0], MARK[1]], GROUND_LINE);
         x += ground.spacing;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::canvas::{GROUND, WATER};
+    use tasks::PartState;
+
+    const SIZE: [u32; 2] = [300, 200];
+
+    /// A biped as its file draws it, so far from there.
+    fn biped(dx: f32, dy: f32) -> (Painter, Snapshot) {
+        let blueprint = Blueprint::new(creatures::find("biped-1").expect("shipped")).expect("valid");
+        let [x, y] = [dx, dy];
+        let part = |part: &creatures::Part| PartState {
+            x: part.position[0] + x,
+            y: part.position[1] + y,
+            cos: 1.0,
+            ..PartState::default()
+        };
+        let pose = Snapshot { parts: blueprint.parts().iter().map(part).collect(), ..Snapshot::default() };
+        (Painter::new(&blueprint), pose)
+    }
+
+    #[test]
+    fn the_camera_follows_along_and_keeps_its_height_while_it_sees_all() {
+        let frame = |dx, dy| {
+            let (painter, pose) = biped(dx, dy);
+            let framing = painter.follow(&pose, SIZE);
+            let [_, bottom, _, top] = painter.bounds(&pose).map(f64::from);
+            let [low, high] = [bottom, top].map(|y| framing.origin[1] - framing.scale * y);
+            assert!(high >= 0.0 && low <= f64::from(SIZE[1]), "{dx} {dy}: {high} to {low}");
+            framing
+        };
+        let start = frame(0.0, 0.0);
+        let [along, up, away, down] = [frame(3.0, 0.0), frame(0.0, 0.1), frame(0.0, 5.0), frame(0.0, -5.0)];
+        assert!((start.origin[0] - along.origin[0] - 3.0 * start.scale).abs() < 1e-3);
+        assert_eq!((start.origin[1], start), (along.origin[1], up));
+        assert!(away.origin[1] > start.origin[1] && down.origin[1] < start.origin[1]);
+        assert_eq!((start.scale, start.scale), (away.scale, down.scale));
+    }
+
+    #[test]
+    fn the_world_is_behind_the_creature() {
+        let (painter, pose) = biped(0.0, 0.0);
+        let framing = painter.follow(&pose, SIZE);
+        let corner = |ground: &Ground| {
+            let pixels = painter.paint_in_world(&pose, &framing, ground).expect("it can be painted");
+            assert_eq!(pixels.len(), 3 * 300 * 200);
+            [pixels[pixels.len() - 3], pixels[pixels.len() - 2], pixels[pixels.len() - 1]]
+        };
+        assert_eq!(corner(&Ground::flat()), GROUND);
+        assert_eq!(corner(&Ground::none()), WATER);
     }
 }
