@@ -152,16 +152,15 @@ mod tests {
     const SIZE: [u32; 2] = [300, 200];
 
     /// A biped as its file draws it, so far from there.
-    fn biped(dx: f32, dy: f32) -> (Painter, Snapshot) {
+    fn biped(x: f32, y: f32) -> (Painter, Snapshot) {
         let blueprint = Blueprint::new(creatures::find("biped-1").expect("shipped")).expect("valid");
-        let [x, y] = [dx, dy];
         let part = |part: &creatures::Part| PartState {
             x: part.position[0] + x,
             y: part.position[1] + y,
             cos: 1.0,
             ..PartState::default()
         };
-        let pose = Snapshot { parts: blueprint.parts().iter().map(part).collect(), ..Snapshot::default() };
+        let pose = Snapshot { parts: blueprint.creature().parts.iter().map(part).collect(), ..Snapshot::default() };
         (Painter::new(&blueprint), pose)
     }
 
