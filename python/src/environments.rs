@@ -4,13 +4,19 @@ use crate::{
     episodes::Described,
     errors::wrong,
     group::{Autoreset, Finished, Group, Rows},
+    layout::{Layout, Wanted},
     stage::stage,
 };
+use gambol_reports::drawing::Painter;
 use gambol_runs::request::Request;
 use ne_core::Failure;
-use numpy::{PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1, PyReadwriteArray2};
+use numpy::{
+    PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyReadwriteArray1,
+    PyReadwriteArray2,
+};
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
+use std::sync::{Arc, OnceLock};
 
 /// The most environments: their arrays are then gigabytes.
 const MOST_ENVIRONMENTS: usize = 1 << 24;
@@ -25,6 +31,9 @@ pub(crate) struct Environments {
     /// None: everything is done on the caller's thread.
     pool: Option<ThreadPool>,
     described: Described,
+    layout: Option<Arc<Layout>>,
+    /// Made for the first frame.
+    painter: OnceLock<Painter>,
 }
 
 /// An episode that has ended: the number of the environment, the fitness (NaN if it failed), and why it failed.
@@ -33,9 +42,9 @@ type Ended = (usize, f64, Option<String>);
 #[pymethods]
 impl Environments {
     /// `steps`: the longest an episode lasts, `None` for the movement's own length; `settings`: `key=value`; `threads`: 0 for
-    /// one for each core.
+    /// one for each core; `layout`: what is shown of the senses, `None` for all as they are.
     #[new]
-    #[pyo3(signature = (creature, movement, count, *, preset, terrain, variation, engine, steps, settings, autoreset, threads))]
+    #[pyo3(signature = (creature, movement, count, *, preset, terrain, variation, engine, steps, settings, autoreset, threads, layout))]
     #[expect(clippy::too_many_arguments, reason = "Python calls it by keyword")]
     fn new(
         py: Python<'_>,
@@ -50,6 +59,7 @@ impl Environments {
         settings: Vec<String>,
         autoreset: &str,
         threads: usize,
+        layout: Option<Vec<Wanted>>,
     ) -> PyResult<Self> {
         let autoreset = match autoreset {
             "NextStep" => Autoreset::NextStep,
@@ -73,8 +83,15 @@ impl Environments {
         };
         py.detach(|| {
             let described = Described::build(&request).map_err(wrong)?;
+            let channels = described.episodes.senses().channels();
+            let layout = layout.map(|wanted| Layout::new(&wanted, channels, described.input_range));
+            let layout = layout.transpose().map_err(wrong)?.map(Arc::new);
             let together = described.episodes.together();
-            let group = |first| Group::new(stage(&described.episodes), first, together.min(count - first));
+            let (inputs, _) = described.episodes.shape();
+            let group = |first| {
+                let places = together.min(count - first);
+                Group::new(stage(&described.episodes), first, places, layout.clone(), inputs)
+            };
             let groups: Vec<Group> = (0..count).step_by(together).map(group).collect();
             let threads = match threads {
                 0 => std::thread::available_parallelism().map_or(1, usize::from),
@@ -84,7 +101,7 @@ impl Environments {
                 0 | 1 => None,
                 threads => Some(ThreadPoolBuilder::new().num_threads(threads).build().map_err(failed)?),
             };
-            Ok(Self { groups, together, count, autoreset, pool, described })
+            Ok(Self { groups, together, count, autoreset, pool, described, layout, painter: OnceLock::new() })
         })
     }
 
@@ -100,7 +117,7 @@ impl Environments {
         let mask = mask.as_ref().map(|mask| mask.as_slice()).transpose()?;
         self.check("seeds", seeds.len())?;
         mask.map_or(Ok(()), |mask| self.check("reset_mask", mask.len()))?;
-        let (inputs, _) = self.described.episodes.shape();
+        let (inputs, _) = self.shape();
         let observations = self.rows("observations", observations.as_slice_mut()?, inputs)?;
         let Self { groups, together, pool, .. } = self;
         let reset = |(index, (group, rows)): (usize, (&mut Group, &mut [f32]))| {
@@ -135,7 +152,7 @@ impl Environments {
         mut terminated: PyReadwriteArray1<'_, bool>,
         mut truncated: PyReadwriteArray1<'_, bool>,
     ) -> PyResult<Vec<Ended>> {
-        let (inputs, outputs) = self.described.episodes.shape();
+        let (inputs, outputs) = self.shape();
         if self.autoreset == Autoreset::Disabled
             && let Some(environment) = self.groups.iter().flat_map(Group::over).next()
         {
@@ -201,10 +218,33 @@ impl Environments {
         Ok(PyArray2::from_vec2(py, &rows)?)
     }
 
-    /// How many numbers a creature senses, and how many motors it has.
+    /// A picture of a creature where it is, of this many pixels: `uint8[height, width, 3]`.
+    fn frame<'py>(
+        &self,
+        py: Python<'py>,
+        environment: usize,
+        width: u32,
+        height: u32,
+    ) -> PyResult<Bound<'py, PyArray3<u8>>> {
+        let (group, place) = self.place(environment)?;
+        let (pose, episodes) = (group.snapshot(place), &self.described.episodes);
+        if pose.parts.is_empty() {
+            return Err(wrong(format!("environment {environment}: there is nothing to draw before its first reset")));
+        }
+        let pixels = py.detach(|| {
+            let painter = self.painter.get_or_init(|| Painter::new(episodes.blueprint()));
+            let framing = painter.follow(pose, [width, height]);
+            painter.paint_in_world(pose, &framing, &episodes.landscape(group.seed(place)).ground)
+        });
+        let pixels = PyArray1::from_vec(py, pixels.map_err(wrong)?);
+        pixels.reshape([height as usize, width as usize, 3])
+    }
+
+    /// How many numbers an environment shows of what its creature senses, and how many motors it has.
     #[getter]
     fn shape(&self) -> (usize, usize) {
-        self.described.episodes.shape()
+        let (inputs, outputs) = self.described.episodes.shape();
+        (self.layout.as_ref().map_or(inputs, |layout| layout.len()), outputs)
     }
 
     /// Sensors are scaled to ± this.
@@ -249,10 +289,14 @@ impl Environments {
         &self.described.config
     }
 
-    /// The names and the units of what is sensed, and those of the motors.
+    /// The names and the units of the senses that are shown, and those of the motors.
     #[getter]
     fn channels(&self) -> [Vec<(String, String)>; 2] {
-        self.described.episodes.channels()
+        let [senses, motors] = self.described.episodes.channels();
+        match &self.layout {
+            None => [senses, motors],
+            Some(layout) => [layout.pick(&senses), motors],
+        }
     }
 }
 

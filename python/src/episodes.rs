@@ -1,9 +1,12 @@
 //! What environments are made of: from a caller's words to episodes that are checked.
 
+use creatures::{Blueprint, Senses};
+use envs_core::Landscape;
 use envs_lanes::{LANES, LaneEpisode};
 use envs_rapier::RapierEnvironment;
 use gambol_runs::{Registry, config::EngineChoice, request::Request};
-use std::{error::Error, sync::OnceLock};
+use ne_core::Seed;
+use std::{borrow::Cow, error::Error, sync::OnceLock};
 use tasks::{Environment, Episode};
 
 /// Everything that can be named. Built when it is first asked for: an import costs nothing.
@@ -88,13 +91,37 @@ impl Episodes {
         }
     }
 
+    /// The creature.
+    pub(crate) fn blueprint(&self) -> &Blueprint {
+        match self {
+            Self::Lanes(episode) => episode.environment().blueprint(),
+            Self::Rapier(episode) => episode.environment().blueprint(),
+        }
+    }
+
+    /// What the creature moves on in the episode of this seed.
+    pub(crate) fn landscape(&self, seed: Seed) -> Cow<'_, Landscape> {
+        match self {
+            Self::Lanes(episode) => episode.environment().landscape_of(seed),
+            Self::Rapier(episode) => episode.environment().landscape_of(seed),
+        }
+    }
+
+    /// What is sensed.
+    pub(crate) fn senses(&self) -> &Senses {
+        match self {
+            Self::Lanes(episode) => episode.environment().senses(),
+            Self::Rapier(episode) => episode.environment().senses(),
+        }
+    }
+
     /// The names of what is sensed and of the motors, each with its unit.
     pub(crate) fn channels(&self) -> [Vec<(String, String)>; 2] {
-        let (senses, motors) = match self {
-            Self::Lanes(episode) => (episode.environment().senses(), episode.environment().motors()),
-            Self::Rapier(episode) => (episode.environment().senses(), episode.environment().motors()),
+        let motors = match self {
+            Self::Lanes(episode) => episode.environment().motors(),
+            Self::Rapier(episode) => episode.environment().motors(),
         };
-        [senses.channels(), motors.channels()]
+        [self.senses().channels(), motors.channels()]
             .map(|channels| channels.iter().map(|channel| (channel.name.clone(), channel.unit.to_string())).collect())
     }
 }

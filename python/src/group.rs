@@ -1,8 +1,10 @@
 //! The environments of a stage, with their seeds, their ends and their new beginnings.
 
-use crate::stage::Stage;
+use crate::{layout::Layout, stage::Stage};
 use envs_lanes::DrivenEnd;
 use ne_core::{Failure, Seed};
+use std::sync::Arc;
+use tasks::Snapshot;
 
 /// When an environment whose episode has ended begins the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,6 +26,10 @@ pub(crate) struct Group {
     places: Vec<Place>,
     /// The number of its first environment.
     first: usize,
+    /// What is shown of what is sensed; `None`: all of it, as it is.
+    layout: Option<Arc<Layout>>,
+    /// What one creature senses.
+    senses: Vec<f32>,
 }
 
 /// An environment.
@@ -53,9 +59,16 @@ pub(crate) struct Finished {
 }
 
 impl Group {
-    pub(crate) fn new(stage: Box<dyn Stage>, first: usize, count: usize) -> Self {
+    /// `inputs`: how many numbers a creature senses.
+    pub(crate) fn new(
+        stage: Box<dyn Stage>,
+        first: usize,
+        count: usize,
+        layout: Option<Arc<Layout>>,
+        inputs: usize,
+    ) -> Self {
         let place = Place { over: true, ..Place::default() };
-        Self { stage, places: vec![place; count], first }
+        Self { stage, places: vec![place; count], first, layout, senses: vec![0.0; inputs] }
     }
 
     /// How many environments it has.
@@ -82,7 +95,7 @@ impl Group {
     fn begin(&mut self, index: usize) -> Result<(), Failure> {
         let place = &mut self.places[index];
         let mut tries = 1;
-        while let Err(failure) = self.stage.begin(index, Seed::of_run(place.seed).trial(place.episode)) {
+        while let Err(failure) = self.stage.begin(index, place.world()) {
             if tries == MOST_TRIES {
                 return Err(failure);
             }
@@ -101,9 +114,15 @@ impl Group {
     /// What all sense now.
     pub(crate) fn observe(&mut self, observations: &mut [f32]) {
         self.stage.sense();
-        let inputs = observations.len() / self.places.len();
-        for (place, row) in observations.chunks_exact_mut(inputs).enumerate() {
-            self.stage.read(place, row);
+        let shown = observations.len() / self.places.len();
+        for (place, row) in observations.chunks_exact_mut(shown).enumerate() {
+            match &self.layout {
+                None => self.stage.read(place, row),
+                Some(layout) => {
+                    self.stage.read(place, &mut self.senses);
+                    layout.arrange(&self.senses, row);
+                }
+            }
             // After a failure.
             row.iter_mut().filter(|input| !input.is_finite()).for_each(|input| *input = 0.0);
         }
@@ -116,7 +135,7 @@ impl Group {
         rows: &mut Rows<'_>,
         autoreset: Autoreset,
     ) -> Result<Vec<Finished>, Failure> {
-        let Self { stage, places, first } = self;
+        let Self { stage, places, first, .. } = self;
         for (place, actions) in actions.chunks_exact(actions.len() / places.len()).enumerate() {
             stage.act(place, actions);
         }
@@ -163,6 +182,23 @@ impl Group {
 
     /// The parts of a creature: x and y of the centre, m, and the angle, rad.
     pub(crate) fn parts(&self, place: usize) -> impl Iterator<Item = [f32; 3]> + '_ {
-        self.stage.parts(place).iter().map(|part| [part.x, part.y, part.angle()])
+        self.snapshot(place).parts.iter().map(|part| [part.x, part.y, part.angle()])
+    }
+
+    /// Where a creature is; without parts before the first reset.
+    pub(crate) fn snapshot(&self, place: usize) -> &Snapshot {
+        self.stage.snapshot(place)
+    }
+
+    /// The seed of the world a creature is in.
+    pub(crate) fn seed(&self, place: usize) -> Seed {
+        self.places[place].world()
+    }
+}
+
+impl Place {
+    /// The seed of the present episode's world.
+    fn world(&self) -> Seed {
+        Seed::of_run(self.seed).trial(self.episode)
     }
 }

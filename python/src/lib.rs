@@ -10,6 +10,7 @@ mod episodes;
 mod errors;
 mod experiments;
 mod group;
+mod layout;
 mod names;
 mod neat;
 mod runs;
@@ -32,7 +33,10 @@ mod _gambol {
     #[pymodule_export]
     use crate::experiments::Experiment;
     #[pymodule_export]
-    use crate::names::{creature_names, movement_names, strategy_names, terrain_names, variation_names};
+    use crate::names::{
+        creature_names, default_time_step, episode_facts, movement_names, strategy_names, terrain_names,
+        variation_names,
+    };
     #[pymodule_export]
     use crate::neat::{Genes, NeatSearch};
     #[pymodule_export]

@@ -5,7 +5,7 @@ use envs_core::Settled;
 use envs_lanes::{DrivenLanes, DrivenStep, LaneEngine, LaneEnvironment};
 use envs_rapier::RapierEnvironment;
 use ne_core::{Failure, Seed};
-use tasks::{Environment, Episode, Movement, PartState};
+use tasks::{Environment, Episode, Movement, Snapshot};
 
 /// A few environments, each in an episode of its own.
 pub(crate) trait Stage: Send + Sync {
@@ -31,7 +31,7 @@ pub(crate) trait Stage: Send + Sync {
     fn value(&self, place: usize) -> f64;
 
     /// Where the parts of a creature are.
-    fn parts(&self, place: usize) -> &[PartState];
+    fn snapshot(&self, place: usize) -> &Snapshot;
 }
 
 /// An empty stage for these episodes.
@@ -90,8 +90,8 @@ impl Stage for Lanes {
         self.driven.value(place)
     }
 
-    fn parts(&self, place: usize) -> &[PartState] {
-        &self.driven.snapshot(place).parts
+    fn snapshot(&self, place: usize) -> &Snapshot {
+        self.driven.snapshot(place)
     }
 }
 
@@ -166,7 +166,7 @@ impl Stage for Alone {
         self.value
     }
 
-    fn parts(&self, _: usize) -> &[PartState] {
-        &self.environment.snapshot().parts
+    fn snapshot(&self, _: usize) -> &Snapshot {
+        self.environment.snapshot()
     }
 }

@@ -1,6 +1,7 @@
 """Single environments, by Gymnasium's own checks."""
 
 import warnings
+from pathlib import Path
 
 import gymnasium
 import numpy as np
@@ -8,20 +9,32 @@ import pytest
 from gymnasium.utils.env_checker import check_env
 
 import gambol
+from gambol._gambol import episode_facts
+from gambol._registration import USABLE_SPEED
 
 
 @pytest.mark.parametrize("movement", ["running", "jumping", "swimming", "playing"])
 def test_check_env(movement):
     env = gambol.CreatureEnv("tetrapod-2", movement)
     with warnings.catch_warnings():
-        # It has no spec unless it is made by its id, and draws nothing yet.
+        # It has no spec unless it is made by its id.
         warnings.simplefilter("ignore")
         check_env(env, skip_render_check=True)
+
+
+@pytest.mark.parametrize("name", ["gambol/Tetrapod2Running-v0", "gambol/ApodSwimming-v0", "gambol/BipedalWalker-v0"])
+def test_check_env_with_every_render_mode(name, monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        pytest.importorskip("pygame")
+        check_env(gymnasium.make(name, render_mode="rgb_array").unwrapped)
 
 
 def test_every_shipped_creature_and_movement_is_registered_and_can_be_made():
     ids = [gambol.environment_id(creature, movement) for creature in gambol.creature_names() for movement in gambol.movement_names()]
     assert "gambol/Biped1Running-v0" in ids
+    ids.append("gambol/BipedalWalker-v0")
     assert set(ids) == {name for name in gymnasium.registry if name.startswith("gambol/")}
     for name in ids:
         env = gymnasium.make(name, disable_env_checker=True)
@@ -62,3 +75,32 @@ def test_the_length_is_that_of_the_registration_or_of_the_caller():
         assert truncated == (step == 2) == ("fitness" in infos)
     with pytest.raises(ValueError, match="reset"):
         env.step(np.zeros(2, np.float32))
+
+
+def test_a_spec_says_how_long_an_episode_is_and_how_far_a_usable_one_gets():
+    for creature in gambol.creature_names():
+        for movement in gambol.movement_names():
+            spec = gymnasium.spec(gambol.environment_id(creature, movement))
+            assert spec.max_episode_steps == gambol.CreatureEnv(creature, movement).max_episode_steps
+            assert (spec.reward_threshold is None) == (movement not in ("running", "backwards", "swimming"))
+    # 0.5 body lengths/s for 20 s.
+    spec = gymnasium.spec("gambol/Biped1Running-v0")
+    assert spec.max_episode_steps == 1000
+    assert spec.reward_threshold == pytest.approx(0.5 * 20 * episode_facts("biped-1")[0], rel=1e-6)
+    envs = gymnasium.make_vec("gambol/Biped1Running-v0", num_envs=2)
+    assert envs.max_episode_steps == 1000 and envs.spec.reward_threshold == spec.reward_threshold
+
+
+def test_a_limit_of_the_registration_changes_no_end():
+    env = gymnasium.make("gambol/Biped1Jumping-v0")
+    env.reset(seed=1)
+    for step in range(250):
+        *_, truncated, infos = env.step(np.zeros(2, np.float32))
+        assert truncated == (step == 249) == ("fitness" in infos)
+
+
+def test_the_usable_speed_is_that_of_the_judge():
+    page = Path(__file__).parents[2] / "docs"
+    speed = f"{USABLE_SPEED} body lengths/s"
+    assert f"the mean forward speed is at least **{speed}**" in (page / "gaits.md").read_text("utf-8")
+    assert f"gets ahead at {speed} or more" in (page / "movements.md").read_text("utf-8")

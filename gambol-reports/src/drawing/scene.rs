@@ -1,8 +1,9 @@
 //! The world around a creature: the ground, and marks that stay where they are.
 
 use super::{
+    DrawingError,
     axis::ticks,
-    canvas::{Canvas, GROUND, GROUND_LINE, QUIET, lines},
+    canvas::{Canvas, GROUND, GROUND_LINE, QUIET, SKY, WATER, lines},
     corners::outlines,
     creature::View,
     text::{Anchor, Style},
@@ -13,8 +14,18 @@ use tiny_skia::Transform;
 /// A mark on the ground is numbered if there is so much room, px.
 const ROOM_FOR_NUMBER: f64 = 90.0;
 
+/// An image of the world without a creature, width and height in px: sky and ground, or water where there is no ground, and marks
+/// along the bottom.
+pub(crate) fn backdrop(size: [u32; 2], view: &View, ground: &Ground) -> Result<Canvas, DrawingError> {
+    let [width, height] = size;
+    let mut canvas = Canvas::new(width, height, if *ground == Ground::none() { WATER } else { SKY })?;
+    draw_ground(&mut canvas, view, ground);
+    draw_marks(&mut canvas, view);
+    Ok(canvas)
+}
+
 /// All shapes as one: outlines first, so that what lies inside another shape is covered.
-pub(crate) fn draw_ground(canvas: &mut Canvas, view: &View, ground: &Ground) {
+fn draw_ground(canvas: &mut Canvas, view: &View, ground: &Ground) {
     let (right, below) = (canvas.width() + 10.0, canvas.height() + 10.0);
     let on_screen = |outline: Result<Vec<[f32; 2]>, f32>| match outline {
         Ok(corners) => corners.into_iter().map(|corner| view.point(corner)).collect(),
@@ -38,7 +49,7 @@ pub(crate) fn draw_ground(canvas: &mut Canvas, view: &View, ground: &Ground) {
 }
 
 /// Marks along the bottom that stay where they are in the world, some with their x.
-pub(crate) fn draw_marks(canvas: &mut Canvas, view: &View) {
+fn draw_marks(canvas: &mut Canvas, view: &View) {
     let (width, height) = (f64::from(canvas.width()), canvas.height());
     let [from, to] = [-view.origin[0] / view.scale, (width - view.origin[0]) / view.scale];
     let numbered = ticks([from, to], width / ROOM_FOR_NUMBER);

@@ -3,7 +3,7 @@
 use super::Cut;
 use crate::drawing::{
     DrawingError,
-    canvas::{Canvas, INK, SKY, WATER},
+    canvas::{Canvas, INK},
     check_poses,
     creature::{Model, View},
     scene,
@@ -95,12 +95,9 @@ impl Panel {
     pub(super) fn draw(&self, frame: u32) -> Result<Canvas, DrawingError> {
         let [width, height] = self.size;
         let index = (frame as usize).min(self.poses.len().saturating_sub(1));
-        let in_water = self.ground == Ground::none();
-        let mut canvas = Canvas::new(width, height, if in_water { WATER } else { SKY })?;
         let left = 0.5 * f64::from(width) - self.scale * self.camera[index];
         let view = View { scale: self.scale, origin: [left, f64::from(height) - FOOT + self.scale * self.bottom] };
-        scene::draw_ground(&mut canvas, &view, &self.ground);
-        scene::draw_marks(&mut canvas, &view);
+        let mut canvas = scene::backdrop(self.size, &view, &self.ground)?;
         self.model.draw(&mut canvas, &view, &self.poses[index]);
         let title = Style::Label.cut(&self.title, room(width));
         canvas.text(&title, Style::Label, [TITLE, 6.0], Anchor::Left, INK);

@@ -3,7 +3,7 @@
 use super::{FRAMES, MARGIN, Subject, WIDTH, moments::Moments};
 use crate::drawing::{
     DrawingError,
-    canvas::{CONTACT, CURVE, Canvas, INK, QUIET, SKY, WATER},
+    canvas::{CONTACT, CURVE, Canvas, INK, QUIET},
     creature::{Model, View},
     scene,
     text::{Anchor, Style},
@@ -100,12 +100,9 @@ impl<'a> Frames<'a> {
     pub(super) fn frame(&self, frame: usize, step: usize) -> Result<Canvas, DrawingError> {
         let pose = &self.subject.snapshots[step];
         let [width, height] = self.size;
-        let water = self.subject.in_water();
-        let mut canvas = Canvas::new(width as u32, height as u32, if water { WATER } else { SKY })?;
         let left = 0.5 * f64::from(width) - self.scale * self.model.middle(pose);
         let view = View { scale: self.scale, origin: [left, f64::from(height - FOOT) + self.scale * self.bottom] };
-        scene::draw_ground(&mut canvas, &view, self.subject.ground);
-        scene::draw_marks(&mut canvas, &view);
+        let mut canvas = scene::backdrop([width as u32, height as u32], &view, self.subject.ground)?;
         self.model.draw(&mut canvas, &view, pose);
         self.model.draw_contacts(&mut canvas, &view, pose);
         self.draw_labels(&mut canvas, frame, step, pose);

@@ -2,6 +2,7 @@
 
 - :func:`make_vec`: many environments of a creature and a movement at once, a ``gymnasium.vector.VectorEnv``.
 - ``gymnasium.make("gambol/Biped1Running-v0")``: one of them; registered for every shipped creature and movement.
+- ``gymnasium.make("gambol/BipedalWalker-v0")``: a body with the observations and actions of Gymnasium's BipedalWalker.
 - :class:`CmaEs` and other strategies by ask and tell on NumPy arrays.
 - :func:`train`: a whole run, from a creature and a movement to a champion in a folder.
 """

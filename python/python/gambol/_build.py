@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from gymnasium import spaces
 
+from gambol import _bipedal_walker
 from gambol._gambol import Environments
 
 
@@ -28,8 +29,9 @@ def build(
     threads: int,
 ) -> Environments:
     """Builds them; what is wrong is a ``ValueError`` in the library's own words."""
+    is_walker = creature == _bipedal_walker.NAME
     return Environments(
-        os.fspath(creature),
+        os.fspath(_bipedal_walker.FILE if is_walker else creature),
         movement,
         num_envs,
         preset=preset,
@@ -40,6 +42,7 @@ def build(
         settings=assignments(settings),
         autoreset=autoreset,
         threads=threads,
+        layout=_bipedal_walker.LAYOUT if is_walker else None,
     )
 
 
@@ -48,9 +51,13 @@ def assignments(settings: Mapping[str, Any] | None) -> list[str]:
     return [f"{path}={json.dumps(value)}" for path, value in (settings or {}).items()]
 
 
-def single_spaces(native: Environments) -> tuple[spaces.Space[Any], spaces.Space[Any]]:
+def single_spaces(
+    native: Environments, creature: str | os.PathLike[str]
+) -> tuple[spaces.Space[Any], spaces.Space[Any]]:
     """What one environment shows, float32[inputs] within ± the input range; and takes, float32[motors] within ±1."""
     inputs, motors = native.shape
     limit = native.input_range
-    observation = spaces.Box(-limit, limit, (inputs,), np.float32)
+    observation: spaces.Space[Any] = spaces.Box(-limit, limit, (inputs,), np.float32)
+    if creature == _bipedal_walker.NAME:
+        observation = _bipedal_walker.observation_space()
     return observation, spaces.Box(-1.0, 1.0, (motors,), np.float32)

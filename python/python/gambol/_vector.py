@@ -9,11 +9,13 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from gymnasium.error import ResetNeeded
 from gymnasium.vector import AutoresetMode
 from gymnasium.vector import VectorEnv as GymnasiumVectorEnv
 from gymnasium.vector.utils import batch_space
 
 from gambol._build import build, single_spaces
+from gambol._drawing import RENDER_FPS, RENDER_SIZE, Frame, check_drawing, warn_of_no_mode
 
 Floats = npt.NDArray[np.float32]
 Rewards = npt.NDArray[np.float64]
@@ -47,6 +49,8 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
     of rapier (``engine="rapier"``), the reference, which steps one creature at a time.
     """
 
+    metadata = {"render_modes": ["rgb_array"], "render_fps": RENDER_FPS}
+
     def __init__(
         self,
         creature: str | os.PathLike[str],
@@ -63,10 +67,10 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
         threads: int = 0,
         copy: bool = True,
         render_mode: str | None = None,
+        render_size: tuple[int, int] = RENDER_SIZE,
     ) -> None:
         """Builds the environments; see :func:`make_vec`."""
-        if render_mode is not None:
-            raise ValueError(f"render_mode = {render_mode!r}: vector environments draw nothing; it must be None")
+        check_drawing(render_mode, VectorEnv.metadata["render_modes"], render_size)
         mode = AutoresetMode(autoreset_mode)
         self._native = build(
             creature,
@@ -82,9 +86,11 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
             threads=threads,
         )
         self.num_envs = num_envs
-        self.metadata = {"render_modes": [], "autoreset_mode": mode}
-        self.render_mode = None
-        self.single_observation_space, self.single_action_space = single_spaces(self._native)
+        fps = round(1 / self._native.time_step)
+        self.metadata = {**VectorEnv.metadata, "render_fps": fps, "autoreset_mode": mode}
+        self.render_mode = render_mode
+        self._render_size = render_size
+        self.single_observation_space, self.single_action_space = single_spaces(self._native, creature)
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self._copy = copy
@@ -195,6 +201,18 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
             last[index] = self._last_observations[index].copy()
         return {"final_obs": last, "_final_obs": mask.copy(), "final_info": infos, "_final_info": mask.copy()}
 
+    def render(self) -> tuple[Frame, ...] | None:
+        """A picture of each creature, ``num_envs`` of ``uint8[height, width, 3]``.
+
+        Each takes some milliseconds and is drawn in this call, one after the other: of many environments this is slow.
+        """
+        if self.render_mode is None:
+            warn_of_no_mode()
+            return None
+        if not self._is_reset:
+            raise ResetNeeded("call reset before render")
+        return tuple(self._native.frame(index, *self._render_size) for index in range(self.num_envs))
+
     @property
     def values(self) -> Rewards:
         """The movement's value so far of every environment, ``float64[num_envs]``, in :attr:`unit`; 0 before the first step."""
@@ -260,11 +278,14 @@ def make_vec(
     autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
     threads: int = 0,
     copy: bool = True,
+    render_mode: str | None = None,
+    render_size: tuple[int, int] = RENDER_SIZE,
 ) -> VectorEnv:
     """Environments of a creature and a movement, stepped together.
 
     Args:
-        creature: the name of a shipped creature (:func:`gambol.creature_names`), or the path of a creature file.
+        creature: the name of a shipped creature (:func:`gambol.creature_names`), the path of a creature file, or
+            ``"bipedal-walker"``, which has the observations and actions of Gymnasium's BipedalWalker.
         movement: what is rewarded (:func:`gambol.movement_names`).
         num_envs: how many; a multiple of 16 wastes nothing.
         terrain: ``"NAME"`` or ``"NAME:DIFFICULTY"`` (:func:`gambol.terrain_names`), such as ``"hurdles:0.5"``; flat by default.
@@ -279,6 +300,8 @@ def make_vec(
             (``"NextStep"``, ``"SameStep"``, ``"Disabled"``).
         threads: how many step the environments; 0, the default: one for each core. No result depends on it.
         copy: whether each step returns arrays of its own. Without, they are overwritten by the next step.
+        render_mode: ``"rgb_array"``: :meth:`VectorEnv.render` draws; by default it does not.
+        render_size: width and height of a picture, each from 16 to 4096 px.
 
     Raises:
         ValueError: if a name or a setting is wrong; the message says which, and what is allowed.
@@ -303,4 +326,6 @@ def make_vec(
         autoreset_mode=autoreset_mode,
         threads=threads,
         copy=copy,
+        render_mode=render_mode,
+        render_size=render_size,
     )
