@@ -123,3 +123,19 @@ def test_ask_and_tell_take_turns():
     search.ask()
     with pytest.raises(ValueError, match="length"):
         search.tell([1.0])
+
+
+def test_a_front_is_of_compromises():
+    """None is worse than another in both objectives."""
+    search = gambol.Nsga2(6, seed=2, population=40)
+    assert search.front.weights.shape == (0, 6)
+    for _ in range(30):
+        genomes = search.ask().astype(np.float64)
+        objectives = np.stack([-np.sum((genomes - 0.5) ** 2, axis=1), -np.sum((genomes + 0.5) ** 2, axis=1)], axis=1)
+        search.tell(objectives.sum(axis=1), objectives)
+    front = search.front
+    assert front.weights.dtype == np.float32 and front.objectives.shape == (len(front.weights), 2) and len(front.weights) > 5
+    for one in front.objectives:
+        assert not np.any(np.all(front.objectives > one, axis=1))
+    again = -np.sum((front.weights.astype(np.float64) - 0.5) ** 2, axis=1)
+    assert np.array_equal(again, front.objectives[:, 0])

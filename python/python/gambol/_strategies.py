@@ -173,8 +173,9 @@ class Nsga2(Strategy):
     def front(self) -> Front:
         """The front of the individuals that are kept; of no points before the first generation is told."""
         points = self._search.front() or []
+        several = len(points[0][1]) if points else 0
         weights = np.array([weights for weights, _ in points], np.float32).reshape(len(points), self.dimension)
-        return Front(weights, np.array([objectives for _, objectives in points], np.float64).reshape(len(points), -1))
+        return Front(weights, np.array([objectives for _, objectives in points], np.float64).reshape(len(points), several))
 
 
 class Ars(Strategy):
