@@ -21,7 +21,7 @@ def seconds(workers, folder):
     ray.init(num_cpus=workers, include_dashboard=False, log_to_driver=False)
     cluster.compare(STRATEGIES, ["apod"], out=folder / "warm", seeds=range(1, 3), evaluations=64, cluster=ray)
     start = time.perf_counter()
-    cluster.compare(STRATEGIES, CREATURES, out=folder / "c", seeds=range(1, 51), evaluations=400, cluster=ray)
+    cluster.compare(STRATEGIES, CREATURES, out=folder / "c", seeds=range(1, 51), evaluations=100, cluster=ray)
     spent = time.perf_counter() - start
     ray.shutdown()
     return spent, (folder / "c" / "medians.csv").read_bytes()

@@ -5,6 +5,7 @@ use crate::{
     errors::wrong,
     group::{Autoreset, Finished, Group, Rows},
     layout::{Layout, Wanted},
+    movements,
     stage::stage,
 };
 use gambol_reports::drawing::Painter;
@@ -137,7 +138,8 @@ impl Environments {
                 groups.par_iter_mut().zip(observations.par_chunks_mut(size)).enumerate().try_for_each(reset)
             }),
         })
-        .map_err(failed)
+        .map_err(failed)?;
+        movements::raised()
     }
 
     /// A step of all environments, written into the arrays. Returns the episodes that have ended.
@@ -198,6 +200,7 @@ impl Environments {
             None => step_all!(iter_mut, chunks, chunks_mut),
             Some(pool) => pool.install(|| step_all!(par_iter_mut, par_chunks, par_chunks_mut)),
         });
+        movements::raised()?;
         let ended = |it: Finished| match it.outcome {
             Ok(fitness) => (it.environment, fitness, None),
             Err(failure) => (it.environment, f64::NAN, Some(failure.to_string())),

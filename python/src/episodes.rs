@@ -6,13 +6,41 @@ use envs_lanes::{LANES, LaneEpisode};
 use envs_rapier::RapierEnvironment;
 use gambol_runs::{Registry, config::EngineChoice, request::Request};
 use ne_core::Seed;
-use std::{borrow::Cow, error::Error, sync::OnceLock};
+use std::{
+    borrow::Cow,
+    collections::BTreeSet,
+    error::Error,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
 use tasks::{Environment, Episode};
 
 /// Everything that can be named. Built when it is first asked for: an import costs nothing.
 pub(crate) fn registry() -> &'static Registry {
-    static REGISTRY: OnceLock<Registry> = OnceLock::new();
-    REGISTRY.get_or_init(Registry::default)
+    let mut registry = lock();
+    registry.get_or_insert_with(|| Box::leak(Box::default()))
+}
+
+/// Adds something of a name of its own; what was added under that name before is replaced.
+///
+/// # Errors
+/// If the library has a movement of that name.
+pub(crate) fn register(name: String, add: impl FnOnce(&mut Registry)) -> Result<(), String> {
+    static ADDED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
+    let mut changed = registry().clone();
+    let mut added = ADDED.lock().unwrap_or_else(PoisonError::into_inner);
+    if !added.contains(&name) && changed.movements.find(&name).is_some() {
+        return Err(format!("name = \"{name}\": the library has a movement of that name"));
+    }
+    add(&mut changed);
+    added.insert(name);
+    // What was built before keeps the registry that it was built with: one for each registration stays.
+    *lock() = Some(Box::leak(Box::new(changed)));
+    Ok(())
+}
+
+fn lock() -> MutexGuard<'static, Option<&'static Registry>> {
+    static REGISTRY: Mutex<Option<&'static Registry>> = Mutex::new(None);
+    REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The episodes of environments, in the engine that plays them.

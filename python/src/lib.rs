@@ -11,6 +11,7 @@ mod errors;
 mod experiments;
 mod group;
 mod layout;
+mod movements;
 mod names;
 mod neat;
 mod runs;
@@ -32,6 +33,8 @@ mod _gambol {
     use crate::environments::Environments;
     #[pymodule_export]
     use crate::experiments::Experiment;
+    #[pymodule_export]
+    use crate::movements::{Snapshot, register_movement};
     #[pymodule_export]
     use crate::names::{
         creature_names, default_time_step, episode_facts, movement_names, strategy_names, terrain_names,

@@ -1,6 +1,6 @@
 //! Whole runs: what Python's `gambol.train` does, and what it reads of a run folder.
 
-use crate::{elsewhere, episodes::registry, errors::wrong};
+use crate::{elsewhere, episodes::registry, errors::wrong, movements};
 use gambol_runs::{
     request::Request,
     run::Run,
@@ -154,6 +154,7 @@ fn step(
 
 /// Whether the run is to end now, after the generation with this line.
 fn asked(callback: Option<&Py<PyAny>>, line: Option<String>) -> PyResult<bool> {
+    movements::raised()?;
     Python::attach(|py| {
         py.check_signals()?;
         match callback.zip(line) {

@@ -20,7 +20,7 @@ def test_the_examples_of_the_page_run(example, tmp_path):
 
 
 def test_there_are_examples():
-    assert len(EXAMPLES) == 3
+    assert len(EXAMPLES) == 6
 
 
 def test_types_are_complete(tmp_path):

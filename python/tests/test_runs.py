@@ -1,6 +1,7 @@
 """Whole runs, and that strategies and environments have the bits of the runs of Rust."""
 
 import json
+import sys
 
 import numpy as np
 import pytest
@@ -101,3 +102,23 @@ def test_what_is_wrong_is_said(run, tmp_path):
     (tmp_path / "champion.json").write_text("{}")
     with pytest.raises(OSError, match="champion.json"):
         gambol.Champion(tmp_path / "champion.json")
+
+
+def test_a_bar_shows_how_far_it_is(tmp_path, capfd):
+    """If it is asked for; nothing is printed else."""
+    pytest.importorskip("tqdm", reason="tqdm is not installed")
+    gambol.train("biped-1", "running", out=tmp_path / "quiet", generations=3, population=8)
+    assert capfd.readouterr() == ("", "")
+    run = gambol.train("biped-1", "running", out=tmp_path / "told", generations=3, population=8, progress=True)
+    said = capfd.readouterr().err
+    assert "3/3" in said and f"best {run.log['best_so_far'][-1]:.3g}" in said
+    run.resume(generations=5, progress=True)
+    assert "5generation" in capfd.readouterr().err
+
+
+def test_a_bar_without_tqdm_is_refused(tmp_path, monkeypatch):
+    """With what to install."""
+    monkeypatch.setitem(sys.modules, "tqdm.auto", None)
+    with pytest.raises(ImportError, match="progress=True needs tqdm: pip install tqdm"):
+        gambol.train("biped-1", "running", out=tmp_path / "run", generations=1, progress=True)
+    assert not (tmp_path / "run").exists()

@@ -10,6 +10,7 @@
 from gambol._champion import Champion, Controller
 from gambol._environment import CreatureEnv
 from gambol._gambol import creature_names, movement_names, strategy_names, terrain_names, variation_names
+from gambol._movement import Movement, Snapshot, register_movement
 from gambol._neat import BestGenome, ConnectionGene, Neat, NeatGenome, NodeGene, Species
 from gambol._registration import environment_id, register_environments
 from gambol._runs import Run, train
@@ -41,6 +42,7 @@ __all__ = [
     "CreatureEnv",
     "Front",
     "HillClimbing",
+    "Movement",
     "Neat",
     "NeatGenome",
     "NodeGene",
@@ -48,6 +50,7 @@ __all__ = [
     "OpenEs",
     "RandomSearch",
     "Run",
+    "Snapshot",
     "Species",
     "Strategy",
     "VectorEnv",
@@ -55,6 +58,7 @@ __all__ = [
     "environment_id",
     "make_vec",
     "movement_names",
+    "register_movement",
     "strategy_names",
     "terrain_names",
     "train",

@@ -215,3 +215,20 @@ class NeatSearch:
     def restore(saved: bytes) -> NeatSearch: ...
     @property
     def generations(self) -> int: ...
+
+class Snapshot:
+    """What a movement sees."""
+
+    @property
+    def time(self) -> float:
+        """Seconds since the episode began."""
+    @property
+    def motor_work(self) -> float:
+        """Work of all motors so far, J."""
+    @property
+    def parts(self) -> npt.NDArray[np.float32]:
+        """A row for each part, the torso first: x, y, cosine, sine, vx, vy, spin, and 1 where it touches the ground."""
+
+def register_movement(
+    name: str, unit: str, steps: int | None, description: str, make: Callable[[], object]
+) -> None: ...

@@ -16,9 +16,7 @@ import numpy.typing as npt
 from gambol import _gambol
 from gambol._build import assignments
 from gambol._champion import Champion
-
-Callback = Callable[[dict[str, Any]], bool | None]
-
+from gambol._progress import Callback, shown
 
 class Run:
     """A run folder, whether this program made it or the command line did."""
@@ -66,6 +64,7 @@ class Run:
         generations: int | None = None,
         threads: int = 0,
         callback: Callback | None = None,
+        progress: bool | None = None,
         cluster: Any = None,
     ) -> Run:
         """Goes on from the last checkpoint, to the bytes of a run that was never stopped.
@@ -74,11 +73,18 @@ class Run:
             generations: the generation to go on to, in place of the planned one.
             threads: as of :func:`train`.
             callback: as of :func:`train`.
+            progress: as of :func:`train`.
             cluster: as of :func:`train`.
         """
-        with _evaluating_on(cluster) as elsewhere:
-            ended = _gambol.resume(self.folder, generations, threads, _told(callback), elsewhere)
+        planned = self._planned if generations is None else lambda: generations
+        with _evaluating_on(cluster) as elsewhere, shown(progress, callback, planned) as told:
+            ended = _gambol.resume(self.folder, generations, threads, _told(told), elsewhere)
         return Run(self.folder, ended[0])
+
+    def _planned(self) -> int | None:
+        """How many generations it is to have."""
+        stop: dict[str, Any] = self.config.get("stop", {})
+        return stop.get("generations")
 
     def __repr__(self) -> str:
         """Where it is."""
@@ -108,6 +114,7 @@ def train(
     settings: Mapping[str, Any] | None = None,
     threads: int = 0,
     callback: Callback | None = None,
+    progress: bool | None = None,
     cluster: Any = None,
 ) -> Run:
     """Trains a creature, as the program's command ``gambol train`` does, to the same bytes.
@@ -129,6 +136,8 @@ def train(
         threads: 0, the default: one for each core. No byte depends on it.
         callback: called after each generation with its line of the log as a dictionary. The run ends if it returns
             ``True``. What it raises ends the run too, once what there is has been saved.
+        progress: whether a bar shows how far it is, which needs tqdm; by default if that is installed and there is a terminal or
+            a notebook.
         cluster: the module ``ray``, whose cluster evaluates each generation that is worth it, to the same bytes; the logger
             ``gambol.cluster`` says what is worth it and why. See docs/scale.md.
 
@@ -142,7 +151,7 @@ def train(
         gambol.cluster.DifferentBits: if a machine of the cluster computes other bits than others.
         gambol.cluster.Lost: if the cluster loses an evaluation again and again. What there was is saved.
     """
-    with _evaluating_on(cluster) as elsewhere:
+    with _evaluating_on(cluster) as elsewhere, shown(progress, callback, Run(out)._planned) as told:
         ended = _gambol.train(
             None if creature is None else os.fspath(creature),
             movement,
@@ -158,7 +167,7 @@ def train(
             config=None if config is None else Path(config),
             settings=assignments(settings),
             threads=threads,
-            callback=_told(callback),
+            callback=_told(told),
             elsewhere=elsewhere,
         )
     return Run(out, ended[0])

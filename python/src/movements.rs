@@ -1,0 +1,135 @@
+//! Movements written in Python: each step of each creature calls Python, which is slow.
+
+use crate::{
+    episodes::{register, registry},
+    errors::wrong,
+};
+use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use std::sync::{Arc, Mutex, PoisonError};
+use tasks::{Movement, Verdict};
+
+/// What a movement sees.
+#[pyclass(module = "gambol._gambol", frozen)]
+pub(crate) struct Snapshot(tasks::Snapshot);
+
+#[pymethods]
+impl Snapshot {
+    /// Seconds since the episode began.
+    #[getter]
+    fn time(&self) -> f32 {
+        self.0.time
+    }
+
+    /// Work of all motors so far, J.
+    #[getter]
+    fn motor_work(&self) -> f64 {
+        self.0.motor_work
+    }
+
+    /// A row for each part, the torso first: x, y, cosine, sine, vx, vy, spin, and 1 where it touches the ground.
+    #[getter]
+    fn parts<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let row = |part: &tasks::PartState| {
+            [part.x, part.y, part.cos, part.sin, part.vx, part.vy, part.spin, f32::from(u8::from(part.touching))]
+        };
+        let numbers: Vec<f32> = self.0.parts.iter().flat_map(row).collect();
+        PyArray1::from_vec(py, numbers).reshape([self.0.parts.len(), 8])
+    }
+}
+
+/// Adds a movement to those that can be named. `make`: called without arguments for each creature; what it returns has the methods
+/// `begin`, `observe` and `value`.
+#[pyfunction]
+pub(crate) fn register_movement(
+    py: Python<'_>,
+    name: String,
+    unit: String,
+    steps: Option<u32>,
+    description: &str,
+    make: Py<PyAny>,
+) -> PyResult<()> {
+    let is_name = |name: &str| {
+        let fine = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
+        !name.is_empty() && name.len() <= 64 && name.chars().all(fine)
+    };
+    if !is_name(&name) {
+        return Err(wrong(format!("name = \"{name}\": must be of lower-case letters, digits and hyphens, at most 64")));
+    }
+    if matches!(steps, Some(0) | Some(1_000_001..)) {
+        return Err(wrong(format!("steps = {}: must be from 1 to 1000000", steps.unwrap_or_default())));
+    }
+    // Once as a sample, so that an error is told at once.
+    let sample = Written { made: make.call0(py)?, name: name.clone(), unit, make: Arc::new(make) };
+    register(name, |registry| {
+        registry.movements.add_with(steps, description, move || Box::new(sample.clone()));
+    })
+    .map_err(wrong)
+}
+
+/// What a movement has raised since this was asked last: whatever it was called for is not to be believed.
+pub(crate) fn raised() -> PyResult<()> {
+    let mut raised = RAISED.lock().unwrap_or_else(PoisonError::into_inner);
+    raised.take().map_or(Ok(()), Err)
+}
+
+static RAISED: Mutex<Option<PyErr>> = Mutex::new(None);
+
+/// A movement whose methods are Python's.
+struct Written {
+    name: String,
+    unit: String,
+    make: Arc<Py<PyAny>>,
+    made: Py<PyAny>,
+}
+
+impl Written {
+    /// What Python answers; the first error is kept to be raised.
+    fn ask<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Option<T> {
+        Python::attach(|py| ask(self.made.bind(py))).map_err(keep).ok()
+    }
+}
+
+fn keep(error: PyErr) {
+    RAISED.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+}
+
+impl Clone for Written {
+    fn clone(&self) -> Self {
+        Python::attach(|py| {
+            // A copy begins anew: episodes are independent.
+            let made = self.make.call0(py).unwrap_or_else(|error| {
+                keep(error);
+                py.None()
+            });
+            let (name, unit, make) = (self.name.clone(), self.unit.clone(), Arc::clone(&self.make));
+            Self { name, unit, make, made }
+        })
+    }
+}
+
+impl Movement for Written {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn unit(&self) -> &str {
+        &self.unit
+    }
+
+    fn begin(&mut self, start: &tasks::Snapshot) {
+        self.ask(|made| made.call_method1("begin", (Snapshot(start.clone()),)).map(drop));
+    }
+
+    fn observe(&mut self, now: &tasks::Snapshot) -> Verdict {
+        match self.ask(|made| made.call_method1("observe", (Snapshot(now.clone()),))?.is_truthy()) {
+            Some(false) => Verdict::GoOn,
+            Some(true) => Verdict::End,
+            None => Verdict::Fail("the movement raised an error"),
+        }
+    }
+
+    fn value(&self) -> f64 {
+        self.ask(|made| made.call_method0("value")?.extract()).unwrap_or(f64::NAN)
+    }
+}

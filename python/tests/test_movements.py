@@ -1,0 +1,114 @@
+"""Movements written in Python."""
+
+import numpy as np
+import pytest
+
+import gambol
+
+
+class Distance:
+    """Running, once more: how far the torso gets forwards."""
+
+    def begin(self, start):
+        """From here."""
+        self.start = self.here = float(start.parts[0, 0])
+
+    def observe(self, now):
+        """To there."""
+        self.here = float(now.parts[0, 0])
+
+    def value(self):
+        """The way."""
+        return self.here - self.start
+
+
+class Lazy(Distance):
+    """Ends after half a second."""
+
+    def observe(self, now):
+        """By the clock."""
+        super().observe(now)
+        return now.time > 0.5
+
+
+class Broken(Distance):
+    """Fails in its tenth step."""
+
+    steps = 0
+
+    def observe(self, now):
+        """So far."""
+        self.steps += 1
+        if self.steps == 10:
+            raise LookupError("the tenth step")
+
+
+@pytest.fixture(scope="module", autouse=True)
+def registered():
+    """They are known from then on."""
+    gambol.register_movement("far", Distance, steps=120, description="distance, in Python")
+    gambol.register_movement("far-for-a-while", Lazy, steps=120)
+    gambol.register_movement("broken", Broken, steps=120)
+
+
+def step_all(envs, steps, seed=0):
+    """Rewards of random actions."""
+    envs.reset(seed=1)
+    envs.action_space.seed(seed)
+    return np.array([envs.step(envs.action_space.sample())[1] for _ in range(steps)])
+
+
+def test_it_is_what_the_same_in_rust_is():
+    """But for what Rust's running does beside."""
+    mine = gambol.make_vec("biped-1", "far", num_envs=20, threads=2)
+    other = gambol.make_vec("biped-1", "running", num_envs=20, max_episode_steps=120)
+    assert np.allclose(step_all(mine, 100), step_all(other, 100), atol=1e-6)
+    assert mine.unit == "m" and mine.max_episode_steps == 120
+    assert "far" in gambol.movement_names()
+
+
+def test_it_may_end_an_episode():
+    """As it says."""
+    env = gambol.CreatureEnv("biped-1", "far-for-a-while")
+    env.reset(seed=1)
+    steps = 1
+    while not env.step(np.zeros(2))[2]:
+        steps += 1
+    assert 24 <= steps <= 27
+
+
+def test_it_is_trained_for(tmp_path):
+    """Twice to the same champion."""
+    runs = [
+        gambol.train("biped-1", "far", out=tmp_path / name, preset="plain", generations=5, population=16, threads=threads)
+        for name, threads in (("one", 1), ("two", 2))
+    ]
+    assert runs[0].log["best"][-1] == runs[1].log["best"][-1] > 0
+    assert runs[0].champion.verify()
+    assert runs[0].champion.data["movement"]["name"] == "far"
+
+
+def test_what_it_raises_is_raised(tmp_path):
+    """By environments and by training."""
+    env = gambol.CreatureEnv("biped-1", "broken")
+    env.reset(seed=1)
+    with pytest.raises(LookupError, match="the tenth step"):
+        for _ in range(20):
+            env.step(np.zeros(2))
+    with pytest.raises(LookupError, match="the tenth step"):
+        gambol.train("biped-1", "broken", out=tmp_path / "run", preset="plain", generations=5, population=4)
+
+
+def test_names_and_numbers_are_checked():
+    """As they are registered."""
+    with pytest.raises(ValueError, match='name = "running": the library has a movement of that name'):
+        gambol.register_movement("running", Distance)
+    with pytest.raises(ValueError, match='name = "High Kick": must be of lower-case letters, digits and hyphens'):
+        gambol.register_movement("High Kick", Distance)
+    with pytest.raises(ValueError, match="steps = 0: must be from 1 to 1000000"):
+        gambol.register_movement("none", Distance, steps=0)
+    with pytest.raises(TypeError):
+        gambol.register_movement("none", lambda needed: Distance())
+    # Again, with another length.
+    gambol.register_movement("far-for-a-while", Lazy, steps=60)
+    assert gambol.make_vec("biped-1", "far-for-a-while", num_envs=1).max_episode_steps == 60
