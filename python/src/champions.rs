@@ -51,7 +51,10 @@ pub(crate) fn champion_robustness(
     py.detach(|| {
         let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
         let perturbations = Perturbations { count: worlds, seed, variation };
-        let robustness = robustness(&champion(&path)?, registry(), &perturbations).map_err(wrong)?;
+        let champion = champion(&path)?;
+        // Of its own: threads that many share are gone in a process that was forked.
+        let threads = rayon::ThreadPoolBuilder::new().build().map_err(wrong)?;
+        let robustness = threads.install(|| robustness(&champion, registry(), &perturbations)).map_err(wrong)?;
         serde_json::to_string(&robustness).map_err(wrong)
     })
 }

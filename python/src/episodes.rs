@@ -20,6 +20,11 @@ pub(crate) fn registry() -> &'static Registry {
     registry.get_or_insert_with(|| Box::leak(Box::default()))
 }
 
+/// The same, if it was asked for before.
+pub(crate) fn built() -> Option<&'static Registry> {
+    *lock()
+}
+
 /// Adds something of a name of its own; what was added under that name before is replaced.
 ///
 /// # Errors

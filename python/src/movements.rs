@@ -1,9 +1,6 @@
 //! Movements written in Python: each step of each creature calls Python, which is slow.
 
-use crate::{
-    episodes::{register, registry},
-    errors::wrong,
-};
+use crate::{episodes::register, errors::wrong};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use std::sync::{Arc, Mutex, PoisonError};

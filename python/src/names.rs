@@ -1,6 +1,9 @@
 //! What can be named.
 
-use crate::{episodes::registry, errors::wrong};
+use crate::{
+    episodes::{built, registry},
+    errors::wrong,
+};
 use envs_rapier::PhysicsSettings;
 use pyo3::{PyResult, pyfunction};
 
@@ -36,7 +39,9 @@ pub(crate) fn default_time_step() -> f32 {
 /// The names of the movements.
 #[pyfunction]
 pub(crate) fn movement_names() -> Vec<String> {
-    let movements = tasks::MovementCatalogue::default();
+    // An import asks for them: it builds no registry for that.
+    let usual = tasks::MovementCatalogue::default();
+    let movements = built().map_or(&usual, |registry| &registry.movements);
     movements.entries().iter().filter(|entry| entry.steps.is_some()).map(|entry| entry.name.clone()).collect()
 }
 

@@ -111,9 +111,9 @@ def test_a_bar_shows_how_far_it_is(tmp_path, capfd):
     assert capfd.readouterr() == ("", "")
     run = gambol.train("biped-1", "running", out=tmp_path / "told", generations=3, population=8, progress=True)
     said = capfd.readouterr().err
-    assert "3/3" in said and f"best {run.log['best_so_far'][-1]:.3g}" in said
+    assert "3/3" in said and ("best " in said) == np.isfinite(run.log["best_so_far"][-1])
     run.resume(generations=5, progress=True)
-    assert "5generation" in capfd.readouterr().err
+    assert "5/5" in capfd.readouterr().err
 
 
 def test_a_bar_without_tqdm_is_refused(tmp_path, monkeypatch):

@@ -194,8 +194,9 @@ def _told(callback: Callback | None) -> Callable[[str], bool] | None:
 
 
 def _flat(line: dict[str, Any]) -> dict[str, float]:
-    """A line of the log as names and numbers."""
-    flat = {name: value for name, value in line.items() if isinstance(value, (int, float))}
+    """A line of the log as names and numbers; NaN where there is none."""
+    numbers = ((name, np.nan if value is None else value) for name, value in line.items() if name not in ("fitness", "strategy"))
+    flat = {name: value for name, value in numbers if isinstance(value, (int, float))}
     flat |= line.get("fitness") or {}
     flat |= {statistic["name"]: statistic["value"] for statistic in line.get("strategy", [])}
     return flat

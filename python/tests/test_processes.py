@@ -1,0 +1,50 @@
+"""Other processes: those that are forked from one that has used threads, and those that begin anew."""
+
+import multiprocessing
+import pickle
+
+import numpy as np
+import pytest
+
+import gambol
+
+
+def everything(folder, answers):
+    """Uses what computes, in threads where there are some, and answers with what came of it."""
+    envs = gambol.make_vec("biped-1", "running", num_envs=32, threads=2)
+    envs.reset(seed=1)
+    rewards = [envs.step(np.zeros((32, 2), np.float32))[1] for _ in range(20)]
+    search = gambol.CmaEs(20, seed=1)
+    genomes = search.ask()
+    run = gambol.train("biped-1", "running", out=folder, preset="plain", generations=2, population=8, threads=2)
+    run.champion.gait()
+    share = run.champion.robustness(8)["usable_share"]
+    answers.put(pickle.dumps((np.array(rewards), genomes, run.log["best"], share)))
+
+
+class Here:
+    """Answers in this process."""
+
+    def put(self, answer):
+        """Keeps it."""
+        self.answer = answer
+
+
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_another_process_computes_the_same(tmp_path, method):
+    """Though this one has used threads before."""
+    here = Here()
+    everything(tmp_path / "here", here)
+    context = multiprocessing.get_context(method)
+    answers = context.Queue()
+    process = context.Process(target=everything, args=(tmp_path / "there", answers))
+    process.start()
+    try:
+        answer = answers.get(timeout=60)
+        process.join(60)
+        assert process.exitcode == 0
+    finally:
+        process.kill()
+    for one, other in zip(pickle.loads(here.answer), pickle.loads(answer), strict=True):
+        assert np.array_equal(one, other)
