@@ -9,8 +9,8 @@
 
 from gambol._champion import Champion, Controller
 from gambol._environment import CreatureEnv
-from gambol._gambol import creature_names, movement_names, strategy_names, terrain_names, variation_names
-from gambol._movement import Movement, Snapshot, register_movement
+from gambol._gambol import Snapshot, creature_names, movement_names, strategy_names, terrain_names, variation_names
+from gambol._movement import Movement, register_movement
 from gambol._neat import BestGenome, ConnectionGene, Neat, NeatGenome, NodeGene, Species
 from gambol._registration import environment_id, register_environments
 from gambol._runs import Run, train
