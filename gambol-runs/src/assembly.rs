@@ -203,7 +203,8 @@ fn unwrapped(mut layer: Value) -> Result<FileContent, ConfigError> {
     }
 }
 
-fn merge(base: &mut Value, layer: Value) {
+/// Lays fields over what is there, as [`Assembly::lay_over`] says.
+pub(crate) fn merge(base: &mut Value, layer: Value) {
     match (base, layer) {
         (Value::Object(base), Value::Object(layer)) if !is_other_choice(base, &layer) => {
             for (key, value) in layer {

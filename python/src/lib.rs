@@ -14,6 +14,7 @@ mod layout;
 mod movements;
 mod names;
 mod neat;
+mod progress;
 mod runs;
 mod searches;
 mod stage;

@@ -1,13 +1,16 @@
 //! NEAT by ask and tell: what Python's `gambol.Neat` and `gambol.NeatGenome` are made of.
 
-use crate::{champions::Net, episodes::registry, errors::wrong, searches::best_of};
-use ne_core::{Evaluation, Fitness, Genome as _, Seed, Strategy as _};
+use crate::{
+    champions::Net,
+    errors::wrong,
+    progress::{self, Progress},
+};
+use ne_core::{Fitness, Genome as _, Strategy as _};
 use ne_neat::{Neat, NeatGenome, NeatSettings};
 use ne_net::{DenseShape, Network, Topology};
 use numpy::PyReadonlyArray1;
-use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyBytes};
+use pyo3::{prelude::*, types::PyBytes};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 use std::sync::Arc;
 
 /// A genome. It does not change.
@@ -66,20 +69,9 @@ impl Genes {
 #[serde(deny_unknown_fields)]
 pub(crate) struct NeatSearch {
     strategy: Neat,
-    seed: u64,
-    generations: u64,
+    progress: Progress<NeatGenome>,
     /// The generation that was asked and not told yet.
-    asked: Option<Vec<NeatGenome>>,
-    best: Option<Best>,
-}
-
-/// The best so far, of equals the first.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Best {
-    genome: NeatGenome,
-    fitness: Fitness,
-    generation: u64,
+    asked: Vec<NeatGenome>,
 }
 
 #[pymethods]
@@ -87,51 +79,37 @@ impl NeatSearch {
     /// `settings`: a JSON object laid over the defaults.
     #[new]
     fn new(inputs: usize, outputs: usize, seed: u64, settings: &str) -> PyResult<Self> {
-        let over: Map<String, Value> = serde_json::from_str(settings).map_err(wrong)?;
-        let entry = registry().strategies.find("neat").ok_or_else(|| wrong("NEAT is not registered"))?;
-        let mut settings = entry.settings();
-        over.into_iter().for_each(|(field, value)| settings.set(&field, value));
         let topology = Topology::Dense(Arc::new(DenseShape::new(inputs, Vec::new(), outputs)));
-        // Checked first, so that the message names the setting as a configuration file has it.
-        registry().strategies.validate(&settings, &topology).map_err(wrong)?;
+        let settings = progress::settings("neat", settings, &topology)?;
         let settings = settings.of::<NeatSettings>("neat").unwrap_or_default();
         let strategy = Neat::new(settings, inputs, outputs).map_err(wrong)?;
-        Ok(Self { strategy, seed, generations: 0, asked: None, best: None })
+        Ok(Self { strategy, progress: Progress::new(seed), asked: Vec::new() })
     }
 
     /// The next generation; until it is told, the same again.
     fn ask(&mut self, py: Python<'_>) -> Vec<Genes> {
-        let seed = Seed::of_run(self.seed).generation(self.generations + 1);
-        let Self { strategy, asked, .. } = self;
-        let asked = asked.get_or_insert_with(|| py.detach(|| strategy.ask(seed).to_vec()));
+        let Self { strategy, progress, asked } = self;
+        if progress.asked.is_none() {
+            let seed = progress.seed();
+            *asked = py.detach(|| strategy.ask(seed).to_vec());
+            progress.asked = Some(asked.len());
+        }
         asked.iter().cloned().map(Genes).collect()
     }
 
     /// The fitness of each of the generation last asked, in its order; NaN for an evaluation that failed.
     fn tell(&mut self, py: Python<'_>, fitness: PyReadonlyArray1<'_, f64>) -> PyResult<()> {
-        let Some(asked) = &self.asked else {
-            return Err(PyRuntimeError::new_err("ask before tell: there is no generation that waits for its results"));
-        };
-        let fitness = fitness.as_slice()?;
-        if fitness.len() != asked.len() {
-            return Err(wrong(format!("fitness must be of length {}, found {}", asked.len(), fitness.len())));
-        }
-        let evaluations: Vec<Evaluation> = fitness.iter().copied().map(Evaluation::new).collect();
-        let generation = self.generations + 1;
-        let seed = Seed::of_run(self.seed).generation(generation);
-        if let Some((index, fitness)) = best_of(&evaluations)
-            && self.best.as_ref().is_none_or(|best| fitness > best.fitness)
-        {
-            self.best = Some(Best { genome: asked[index].clone(), fitness, generation });
-        }
-        py.detach(|| self.strategy.tell(&evaluations, seed));
-        (self.asked, self.generations) = (None, generation);
+        let Self { strategy, progress, asked } = self;
+        let seed = progress.seed();
+        let evaluations = progress.told(fitness, None, |index| asked[index].clone())?;
+        py.detach(|| strategy.tell(&evaluations, seed));
+        asked.clear();
         Ok(())
     }
 
     /// The best so far: genome, fitness and generation, from 1.
     fn best(&self) -> Option<(Genes, f64, u64)> {
-        let best = self.best.as_ref()?;
+        let best = self.progress.best.as_ref()?;
         Some((Genes(best.genome.clone()), best.fitness.get(), best.generation))
     }
 
@@ -166,6 +144,6 @@ impl NeatSearch {
     /// How many generations have been told.
     #[getter]
     fn generations(&self) -> u64 {
-        self.generations
+        self.progress.generations
     }
 }

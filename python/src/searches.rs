@@ -1,51 +1,39 @@
 //! Strategies by ask and tell: what Python's `gambol.CmaEs` and its like are made of.
 
-use crate::{episodes::registry, errors::wrong};
+use crate::{
+    errors::wrong,
+    progress::{self, Progress},
+};
 use gambol_runs::{config::StrategySettings, strategies::NetStrategy};
-use ne_core::{Evaluation, Fitness, Seed};
+use ne_core::{Evaluation, Seed};
 use ne_fixed::{Ars, CmaEs, ConventionalNe, Cosyne, HillClimbing, Nsga2, OpenEs, RandomSearch, WeightVector};
 use ne_net::{DenseShape, GraphNeuron, GraphShape, Topology};
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
-use pyo3::{exceptions::PyRuntimeError, prelude::*, types::PyBytes};
+use pyo3::{prelude::*, types::PyBytes};
 use serde::{Deserialize, Serialize};
-use serde_json::{Map, Value};
 use std::sync::Arc;
 
 /// A search for weights, generation by generation, as `ne_core::Evolution` does one.
 #[pyclass(module = "gambol._gambol")]
 pub(crate) struct Search {
     search: Box<dyn Weights>,
-    progress: Progress,
+    about: About,
 }
 
-/// What a search has come to, beside the state of its strategy.
+/// What there is to know of a search, beside the state of its strategy.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Progress {
+struct About {
     strategy: String,
-    seed: u64,
-    /// Told so far.
-    generations: u64,
     dimension: usize,
-    /// How many were asked and not told yet.
-    asked: Option<usize>,
-    best: Option<Best>,
-}
-
-/// The best so far, of equals the first.
-#[derive(Clone, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Best {
-    weights: Vec<f32>,
-    fitness: Fitness,
-    generation: u64,
+    progress: Progress<Vec<f32>>,
 }
 
 /// A file of it, in memory.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Saved<S> {
-    progress: Progress,
+    about: About,
     /// The generation asked and not told yet, one genome after the other.
     population: Vec<f32>,
     strategy: S,
@@ -67,7 +55,7 @@ trait Weights: Send + Sync {
     fn front(&self) -> Option<Vec<(Vec<f32>, Vec<f64>)>>;
 
     /// The state, as text.
-    fn save(&self, progress: &Progress) -> serde_json::Result<Vec<u8>>;
+    fn save(&self, about: &About) -> serde_json::Result<Vec<u8>>;
 }
 
 struct Held<S> {
@@ -107,9 +95,9 @@ impl<S: NetStrategy<Genome = WeightVector> + Sync> Weights for Held<S> {
         )
     }
 
-    fn save(&self, progress: &Progress) -> serde_json::Result<Vec<u8>> {
-        let population = if progress.asked.is_some() { self.population.clone() } else { Vec::new() };
-        serde_json::to_vec(&Saved { progress: progress.clone(), population, strategy: &self.strategy })
+    fn save(&self, about: &About) -> serde_json::Result<Vec<u8>> {
+        let population = if about.progress.asked.is_some() { self.population.clone() } else { Vec::new() };
+        serde_json::to_vec(&Saved { about: about.clone(), population, strategy: &self.strategy })
     }
 }
 
@@ -149,16 +137,14 @@ fn make<S: NetStrategy<Genome = WeightVector> + Sync>(
     settings: &StrategySettings,
     topology: &Topology,
 ) -> Result<Box<dyn Weights>, String> {
-    // Checked first, so that the message names the setting as a configuration file has it.
-    registry().strategies.validate(settings, topology).map_err(|error| error.to_string())?;
     let settings = settings.of::<S::Settings>(S::NAME).unwrap_or_default();
     let strategy = S::build(&settings, topology).map_err(|error| error.to_string())?;
     Ok(Box::new(Held { strategy, population: Vec::new() }))
 }
 
 fn restore<S: NetStrategy<Genome = WeightVector> + Sync>(bytes: &[u8]) -> serde_json::Result<Search> {
-    let Saved { progress, population, strategy } = serde_json::from_slice::<Saved<S>>(bytes)?;
-    Ok(Search { search: Box::new(Held { strategy, population }), progress })
+    let Saved { about, population, strategy } = serde_json::from_slice::<Saved<S>>(bytes)?;
+    Ok(Search { search: Box::new(Held { strategy, population }), about })
 }
 
 #[pymethods]
@@ -180,27 +166,23 @@ impl Search {
             _ => return Err(wrong("say either the dimension or the layers of a net")),
         };
         topology.validate().map_err(|error| wrong(error.within("layers")))?;
-        let over: Map<String, Value> = serde_json::from_str(settings).map_err(wrong)?;
-        let entry = registry().strategies.find(maker.name).ok_or_else(|| wrong("it is not registered"))?;
-        let mut settings = entry.settings();
-        over.into_iter().for_each(|(field, value)| settings.set(&field, value));
+        let settings = progress::settings(maker.name, settings, &topology)?;
         let search = (maker.make)(&settings, &topology).map_err(wrong)?;
-        let dimension = topology.weight_count();
-        let strategy = maker.name.to_owned();
-        Ok(Self { search, progress: Progress { strategy, seed, generations: 0, dimension, asked: None, best: None } })
+        let (strategy, dimension) = (maker.name.to_owned(), topology.weight_count());
+        Ok(Self { search, about: About { strategy, dimension, progress: Progress::new(seed) } })
     }
 
     /// The next generation: float32[population, dimension]; until it is told, the same again.
     fn ask<'py>(&mut self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let Self { search, progress } = self;
-        let seed = Seed::of_run(progress.seed).generation(progress.generations + 1);
+        let Self { search, about: About { dimension, progress, .. } } = self;
+        let seed = progress.seed();
         let genes = match progress.asked {
             Some(_) => search.population().to_vec(),
             None => py.detach(|| search.ask(seed)),
         };
-        let count = genes.len() / progress.dimension;
+        let count = genes.len() / *dimension;
         progress.asked = Some(count);
-        PyArray1::from_vec(py, genes).reshape([count, progress.dimension])
+        PyArray1::from_vec(py, genes).reshape([count, *dimension])
     }
 
     /// The results of the generation last asked, in its order: a fitness each, NaN for an evaluation that failed, and the
@@ -211,42 +193,18 @@ impl Search {
         fitness: PyReadonlyArray1<'_, f64>,
         objectives: Option<PyReadonlyArray2<'_, f64>>,
     ) -> PyResult<()> {
-        let Self { search, progress } = self;
-        let Some(count) = progress.asked else {
-            return Err(PyRuntimeError::new_err("ask before tell: there is no generation that waits for its results"));
-        };
-        let fitness = fitness.as_slice()?;
-        if fitness.len() != count {
-            return Err(wrong(format!("fitness must be of length {count}, found {}", fitness.len())));
-        }
-        let mut evaluations: Vec<Evaluation> = fitness.iter().copied().map(Evaluation::new).collect();
-        if let Some(objectives) = objectives {
-            let objectives = objectives.as_array();
-            if objectives.nrows() != count {
-                return Err(wrong(format!("objectives must have {count} rows, found {}", objectives.nrows())));
-            }
-            for (evaluation, row) in evaluations.iter_mut().zip(objectives.rows()) {
-                evaluation.objectives = row.to_vec();
-            }
-        }
-        let generation = progress.generations + 1;
-        let seed = Seed::of_run(progress.seed).generation(generation);
-        let better = best_of(&evaluations)
-            .filter(|(_, fitness)| progress.best.as_ref().is_none_or(|best| *fitness > best.fitness));
-        if let Some((index, fitness)) = better {
-            let weights = search.population()[index * progress.dimension..][..progress.dimension].to_vec();
-            progress.best = Some(Best { weights, fitness, generation });
-        }
+        let Self { search, about: About { dimension, progress, .. } } = self;
+        let seed = progress.seed();
+        let genome = |index| search.population()[index * *dimension..][..*dimension].to_vec();
+        let evaluations = progress.told(fitness, objectives, genome)?;
         py.detach(|| search.tell(&evaluations, seed));
-        progress.asked = None;
-        progress.generations = generation;
         Ok(())
     }
 
     /// The best so far: weights, fitness and generation, from 1.
     fn best<'py>(&self, py: Python<'py>) -> Option<(Bound<'py, PyArray1<f32>>, f64, u64)> {
-        let best = self.progress.best.as_ref()?;
-        Some((PyArray1::from_slice(py, &best.weights), best.fitness.get(), best.generation))
+        let best = self.about.progress.best.as_ref()?;
+        Some((PyArray1::from_slice(py, &best.genome), best.fitness.get(), best.generation))
     }
 
     /// Weights and objectives of those that no other is better than in all; `None` if the strategy does not search for several.
@@ -261,7 +219,7 @@ impl Search {
 
     /// Its whole state.
     fn save<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        let saved = py.detach(|| self.search.save(&self.progress)).map_err(wrong)?;
+        let saved = py.detach(|| self.search.save(&self.about)).map_err(wrong)?;
         Ok(PyBytes::new(py, &saved))
     }
 
@@ -275,26 +233,20 @@ impl Search {
     /// How many generations have been told.
     #[getter]
     fn generations(&self) -> u64 {
-        self.progress.generations
+        self.about.progress.generations
     }
 
     /// How many numbers a genome has.
     #[getter]
     fn dimension(&self) -> usize {
-        self.progress.dimension
+        self.about.dimension
     }
 
     /// The strategy's name.
     #[getter]
     fn name(&self) -> &str {
-        &self.progress.strategy
+        &self.about.strategy
     }
-}
-
-/// The best of a generation, of equals the first.
-pub(crate) fn best_of(evaluations: &[Evaluation]) -> Option<(usize, Fitness)> {
-    let fitnesses = evaluations.iter().enumerate().filter_map(|(index, it)| Some((index, it.fitness()?)));
-    fitnesses.reduce(|best, next| if next.1 > best.1 { next } else { best })
 }
 
 /// Numbers that are all alike: the weights of neurons without biases, as few as there can be.

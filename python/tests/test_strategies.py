@@ -139,3 +139,27 @@ def test_a_front_is_of_compromises():
         assert not np.any(np.all(front.objectives > one, axis=1))
     again = -np.sum((front.weights.astype(np.float64) - 0.5) ** 2, axis=1)
     assert np.array_equal(again, front.objectives[:, 0])
+
+
+def test_objectives_stay_as_many():
+    """From the first generation told on, also after pickling."""
+    search = gambol.Nsga2(3, population=8)
+    search.ask()
+    search.tell(np.arange(8.0), np.zeros((8, 2)))
+    search = pickle.loads(pickle.dumps(search))
+    search.ask()
+    with pytest.raises(ValueError, match="objectives must have 2 columns as before, found 3"):
+        search.tell(np.arange(8.0), np.zeros((8, 3)))
+    with pytest.raises(ValueError, match="objectives must have 2 columns as before, found none"):
+        search.tell(np.arange(8.0))
+    search.tell(np.arange(8.0), np.zeros((8, 2)))
+
+
+def test_a_setting_within_a_setting_leaves_the_others():
+    """As in a configuration."""
+    neat = gambol.Neat(2, 1, speciation={"threshold": 0.5}, population=30)
+    neat.tell(np.arange(float(len(neat.ask()))))
+    neat.ask()
+    assert neat.statistics["compatibility_threshold"] < 3.0
+    with pytest.raises(ValueError, match=r"strategy\.neat\.speciation\.limit: unknown field `limit`"):
+        gambol.Neat(2, 1, speciation={"limit": 0.5})

@@ -1,5 +1,6 @@
 //! The search a configuration names.
 
+use crate::assembly::merge;
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{DeserializeOwned, Error},
@@ -50,6 +51,13 @@ impl StrategySettings {
     /// Changes one setting.
     pub fn set(&mut self, field: &str, value: impl Into<Value>) {
         self.settings.insert(field.into(), value.into());
+    }
+
+    /// Lays settings over what is there, as [`Assembly::lay_over`](crate::assembly::Assembly::lay_over) does.
+    pub fn lay_over(&mut self, settings: Map<String, Value>) {
+        for (field, value) in settings {
+            merge(self.settings.entry(field).or_insert(Value::Null), value);
+        }
     }
 
     /// The number of individuals of a generation, if the settings say so, as `population`.
