@@ -8,10 +8,10 @@
 use creatures::Blueprint;
 use envs_core::{PhysicsSettings, Variation};
 use envs_lanes::{DrivenLanes, LANES, LaneEnvironment, LaneEpisode};
-use ne_core::Seed;
+use ne_core::{Purpose, Seed};
 use rand::RngExt;
 use std::time::Instant;
-use tasks::{Environment, Running, Trials};
+use tasks::{Running, Trials};
 
 const CREATURES: usize = 1024;
 const STEPS: usize = 200;
@@ -33,7 +33,7 @@ fn main() {
             (0..LANES).for_each(|lane| group.begin(lane, &start));
         }
         let (inputs, outputs) = (groups[0].inputs(), groups[0].outputs());
-        let mut random = Seed::of_run(2).stream("actions");
+        let mut random = Seed::of_run(2).stream(Purpose::new("actions"));
         let actions: Vec<Vec<f32>> =
             (0..50).map(|_| (0..CREATURES * outputs).map(|_| random.random_range(-1.0..1.0)).collect()).collect();
         let mut observations = vec![0.0; CREATURES * inputs];

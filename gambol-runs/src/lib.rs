@@ -54,6 +54,7 @@ pub mod episode_parts;
 pub mod front;
 pub mod gait;
 pub mod judge;
+mod layers;
 pub mod obstacles;
 pub mod perturbation;
 pub mod presets;

@@ -1,6 +1,6 @@
 //! The search a configuration names.
 
-use crate::assembly::merge;
+use crate::layers::merge;
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{DeserializeOwned, Error},
