@@ -1,6 +1,8 @@
-//! The native part of the Python package `gambol`: vector environments on SIMD lanes, strategies by ask and tell, runs.
+//! The native part of the Python package `gambol`: vector environments on SIMD lanes, strategies by ask and tell, runs,
+//! champions.
 //!
-//! Nothing is computed here that the libraries do not compute: a Python caller never changes a bit of a run. All that takes
+//! Nothing is computed here that the libraries do not compute: a Python caller never changes a bit of a run, unless it brings a
+//! movement of its own. All that takes
 //! time is done without Python's global lock, and arrays are written in place.
 
 mod champions;

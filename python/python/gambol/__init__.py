@@ -3,8 +3,10 @@
 - :func:`make_vec`: many environments of a creature and a movement at once, a ``gymnasium.vector.VectorEnv``.
 - ``gymnasium.make("gambol/Biped1Running-v0")``: one of them; registered for every shipped creature and movement.
 - ``gymnasium.make("gambol/BipedalWalker-v0")``: a body with the observations and actions of Gymnasium's BipedalWalker.
-- :class:`CmaEs` and other strategies by ask and tell on NumPy arrays.
-- :func:`train`: a whole run, from a creature and a movement to a champion in a folder.
+- :class:`CmaEs` and other strategies by ask and tell on NumPy arrays; :class:`Neat` with genomes as objects.
+- :func:`train`: a whole run, from a creature and a movement to a :class:`Champion` in a folder.
+- :func:`register_movement`: a movement written in Python.
+- :mod:`gambol.cluster`: runs and experiments on a Ray cluster; imported by itself.
 """
 
 from gambol._champion import Champion, Controller

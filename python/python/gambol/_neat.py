@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +13,7 @@ import numpy.typing as npt
 from gambol._champion import Controller
 from gambol._drawn_net import drawn
 from gambol._gambol import Genes, NeatSearch
+from gambol._resumable import Resumable, one_for_each
 
 
 class NodeGene(NamedTuple):
@@ -128,7 +129,7 @@ class BestGenome:
     generation: int
 
 
-class Neat:
+class Neat(Resumable):
     """NeuroEvolution of Augmenting Topologies: nets whose neurons and connections evolve with their weights.
 
     :meth:`ask` for a generation, evaluate it, :meth:`tell` the fitnesses. Fitness is to be **maximised**; NaN is an evaluation
@@ -147,6 +148,7 @@ class Neat:
     """
 
     name = "neat"
+    _search: NeatSearch
 
     def __init__(self, inputs: int, outputs: int, *, seed: int = 1, **settings: Any) -> None:
         """Builds the search; nothing is asked yet."""
@@ -164,10 +166,7 @@ class Neat:
             RuntimeError: if no generation waits for its results.
             ValueError: if there is not one fitness for each individual.
         """
-        values = np.ascontiguousarray(fitness, np.float64)
-        if values.ndim != 1:
-            raise ValueError(f"fitness must be of one dimension, found {values.ndim}")
-        self._search.tell(values)
+        self._search.tell(one_for_each(fitness))
 
     @property
     def best(self) -> BestGenome | None:
@@ -185,33 +184,9 @@ class Neat:
         """The number of the species of each individual of the generation last told, ``uint64[population]``."""
         return np.array(self._search.memberships(), np.uint64)
 
-    @property
-    def generation(self) -> int:
-        """How many generations have been told."""
-        return self._search.generations
-
-    @property
-    def statistics(self) -> dict[str, float]:
-        """What the strategy says of its own state, such as its number of species."""
-        return dict(self._search.statistics())
-
-    def __getstate__(self) -> bytes:
-        """The whole state."""
-        return self._search.save()
-
     def __setstate__(self, state: bytes) -> None:
         """Goes on from a state."""
         self._search = NeatSearch.restore(state)
-
-    def __copy__(self) -> Self:
-        """An independent search in the same state."""
-        copy = object.__new__(type(self))
-        copy.__setstate__(self.__getstate__())
-        return copy
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
-        """An independent search in the same state."""
-        return self.__copy__()
 
     def __repr__(self) -> str:
         """How far it is."""

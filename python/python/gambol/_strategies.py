@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
 
 from gambol._gambol import Search
+from gambol._resumable import Resumable, one_for_each
 
 
 @dataclass(frozen=True)
@@ -25,7 +26,7 @@ class Best:
     generation: int
 
 
-class Strategy:
+class Strategy(Resumable):
     """A search for numbers: :meth:`ask` for a generation, evaluate it, :meth:`tell` the results, again and again.
 
     Fitness is to be **maximised**; NaN is an evaluation that failed, which ranks below every fitness. A search is a function
@@ -77,9 +78,7 @@ class Strategy:
             RuntimeError: if no generation waits for its results.
             ValueError: if there is not one result for each individual.
         """
-        values = np.ascontiguousarray(fitness, np.float64)
-        if values.ndim != 1:
-            raise ValueError(f"fitness must be of one dimension, found {values.ndim}")
+        values = one_for_each(fitness)
         several = None if objectives is None else np.ascontiguousarray(objectives, np.float64)
         self._search.tell(values, several)
 
@@ -90,37 +89,13 @@ class Strategy:
         return None if best is None else Best(*best)
 
     @property
-    def generation(self) -> int:
-        """How many generations have been told."""
-        return self._search.generations
-
-    @property
     def dimension(self) -> int:
         """How many numbers a genome has."""
         return self._search.dimension
 
-    @property
-    def statistics(self) -> dict[str, float]:
-        """What the strategy says of its own state, such as its step size."""
-        return dict(self._search.statistics())
-
-    def __getstate__(self) -> bytes:
-        """The whole state."""
-        return self._search.save()
-
     def __setstate__(self, state: bytes) -> None:
         """Goes on from a state."""
         self._search = Search.restore(self.name, state)
-
-    def __copy__(self) -> Self:
-        """An independent search in the same state."""
-        copy = object.__new__(type(self))
-        copy.__setstate__(self.__getstate__())
-        return copy
-
-    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
-        """An independent search in the same state."""
-        return self.__copy__()
 
     def __repr__(self) -> str:
         """Its kind, its dimension and how far it is."""

@@ -1,4 +1,4 @@
-"""Tasks that know nothing of each other, and those who do them."""
+"""Tasks that know nothing of each other, and the machines that do them."""
 
 from __future__ import annotations
 
