@@ -20,6 +20,8 @@ struct Ziggurat {
     widths: [f32; LAYERS + 1],
     /// The share of a layer's width that lies under the curve for certain: the width of the layer above.
     safe: [f32; LAYERS],
+    /// How high the curve is at each width.
+    heights: [f32; LAYERS + 1],
 }
 
 const LAYERS: usize = 128;
@@ -58,10 +60,14 @@ impl Normal {
         if layer == 0 {
             return Some(tail(stream).copysign(x));
         }
-        let height = |width: f32| libm::expf(-0.5 * width * width);
-        let (low, high) = (height(self.ziggurat.widths[layer]), height(self.ziggurat.widths[layer + 1]));
+        let (low, high) = (self.ziggurat.heights[layer], self.ziggurat.heights[layer + 1]);
         (low + stream.random::<f32>() * (high - low) < height(x)).then_some(x)
     }
+}
+
+/// The bell curve.
+fn height(x: f32) -> f32 {
+    libm::expf(-0.5 * x * x)
 }
 
 /// A number from the tail. Source: Marsaglia, *Generating a Variable from the Tail of the Normal Distribution*,
@@ -78,17 +84,17 @@ fn tail(stream: &mut RandomStream) -> f32 {
 
 impl Ziggurat {
     fn new() -> Self {
-        let height = |width: f64| libm::exp(-0.5 * width * width);
+        let exact_height = |width: f64| libm::exp(-0.5 * width * width);
         let mut exact = [0.0; LAYERS + 1];
-        exact[0] = AREA / height(TAIL);
+        exact[0] = AREA / exact_height(TAIL);
         exact[1] = TAIL;
         for layer in 2..LAYERS {
             let below: f64 = exact[layer - 1];
-            exact[layer] = (-2.0 * libm::log(AREA / below + height(below))).sqrt();
+            exact[layer] = (-2.0 * libm::log(AREA / below + exact_height(below))).sqrt();
         }
         let widths = exact.map(|width| width as f32);
         let safe = std::array::from_fn(|layer| (exact[layer + 1] / exact[layer]) as f32);
-        Self { widths, safe }
+        Self { widths, safe, heights: widths.map(height) }
     }
 }
 
