@@ -1,6 +1,7 @@
 use gambol_runs::episode_parts::SetupError;
 use ne_core::Failure;
 use player::{ChampionError, FileError};
+use std::path::PathBuf;
 
 /// Why a champion is not exported.
 #[derive(Debug, thiserror::Error)]
@@ -61,6 +62,14 @@ pub enum ExportError {
         weights: usize,
         /// How many are allowed.
         most: usize,
+    },
+    /// The file that was asked for is called like one that stands beside it.
+    #[error("{}: must not be called like the file beside it; {usual} is usual", .file.display())]
+    SameName {
+        /// The file.
+        file: PathBuf,
+        /// How its name usually ends.
+        usual: &'static str,
     },
     /// It cannot be written.
     #[error(transparent)]

@@ -18,6 +18,7 @@
 mod bones;
 mod character;
 mod cycle;
+mod destination;
 mod dragonbones;
 mod error;
 mod gltf;
@@ -31,6 +32,7 @@ mod trace;
 
 pub use character::character_of;
 pub use cycle::Cycle;
+pub use destination::Destination;
 pub use error::ExportError;
 pub use picture::Picture;
 pub use pose::Pose;

@@ -10,7 +10,7 @@ use crate::{
 use creatures::{Actuation, Channel, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, RAPIER_VERSION, RapierEnvironment, Variation};
 use ne_core::{
-    Evaluation, Fitness, Genome, Seed,
+    Evaluation, Fitness, Genome, Seed, SettingError,
     archive::{self, ArchiveError, Layout},
 };
 use ne_net::Network;
@@ -140,6 +140,18 @@ impl From<&Channel> for ChannelRecord {
 }
 
 impl Champion {
+    /// How many steps of its physics so many seconds are.
+    ///
+    /// # Errors
+    /// If there are none, or more than a million.
+    pub fn steps_in(&self, seconds: f64) -> Result<u32, SettingError> {
+        let steps = seconds / f64::from(self.physics.time_step);
+        match (1.0..=1e6).contains(&steps) {
+            true => Ok(steps.round() as u32),
+            false => Err(SettingError::new("seconds", seconds, "from 1 to 1000000 steps of the physics")),
+        }
+    }
+
     /// Plays a champion once more, in rapier, and records what it does.
     pub fn new<G: Genome<Phenotype: Into<Network>>>(
         config: &RunConfig,

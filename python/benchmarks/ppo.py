@@ -1,6 +1,8 @@
-"""PPO of Stable-Baselines3 and the CMA-ES of Gambol on the same creature: fitness by steps and by seconds.
+"""PPO of Stable-Baselines3 beside CMA-ES on the same creatures: by ask and tell for a small net in the same environments, and as
+the program trains by itself. All are judged in the same worlds: fitness by steps and by seconds.
 
-pip install stable-baselines3; python benchmarks/ppo.py --out ppo.csv [--seeds 1 2 3] [--steps 5000000]
+pip install stable-baselines3; python benchmarks/ppo.py --out ppo.csv [--creatures tetrapod-2 biped-1] [--seeds 1 2 3]
+    [--steps 5000000]
 """
 
 import argparse
@@ -16,9 +18,13 @@ from stable_baselines3.common.vec_env import VecEnv, VecNormalize
 
 import gambol
 
-CREATURE, MOVEMENT = "biped-1", "running"
+MOVEMENT = "running"
 #: The senses that the program trains with, which have speeds and a clock, and the distance alone as fitness.
 TASK = {"preset": "default", "settings": {"movement.terms": []}}
+#: A learner is judged in as many worlds.
+WORLDS = 16
+#: How many nets a generation of CMA-ES has, and how many hidden neurons a net.
+POPULATION, HIDDEN = 64, 16
 
 
 class Lanes(VecEnv):
@@ -76,92 +82,146 @@ class Lanes(VecEnv):
         return [False] * self.num_envs
 
 
-class Curve(BaseCallback):
-    """Writes down how good the deterministic policy is after each update."""
+class Judge:
+    """Plays policies in worlds that are the same for all."""
 
-    def __init__(self, lanes, write, begun):
-        """``write``: is called with steps, seconds and fitness."""
-        super().__init__()
-        self.lanes, self.write, self.begun = lanes, write, begun
-        self.judging = 0.0
-        self.test = gambol.make_vec(CREATURE, MOVEMENT, num_envs=16, **TASK)
+    def __init__(self, creature):
+        """``creature``: whose."""
+        self.worlds = gambol.make_vec(creature, MOVEMENT, num_envs=WORLDS, **TASK)
 
-    def _on_step(self):
-        return True
-
-    def _on_rollout_start(self):
-        start = time.perf_counter()
-        fitness = self.judge()
-        self.judging += time.perf_counter() - start
-        self.write(self.num_timesteps, time.perf_counter() - self.begun - self.judging, fitness)
-
-    def judge(self):
-        """The median fitness of an episode without noise, in 16 worlds."""
-        normalised = self.model.get_vec_normalize_env()
-        observations, _ = self.test.reset(seed=1)
-        fitness = np.full(self.test.num_envs, np.nan)
-        running = np.ones(self.test.num_envs, bool)
+    def __call__(self, act):
+        """The median fitness of an episode; ``act``: observations to actions."""
+        observations, _ = self.worlds.reset(seed=1)
+        fitness = np.full(WORLDS, np.nan)
+        running = np.ones(WORLDS, bool)
         while running.any():
-            actions, _ = self.model.predict(normalised.normalize_obs(observations), deterministic=True)
-            observations, _, _, _, infos = self.test.step(np.clip(actions, -1, 1))
+            observations, _, _, _, infos = self.worlds.step(np.clip(act(observations), -1, 1))
             ended = running & infos.get("_fitness", False)
             fitness[ended] = infos["fitness"][ended] if ended.any() else np.nan
             running &= ~ended
         return float(np.nanmedian(fitness))
 
 
-def ppo(seed, steps, write):
+class Curve(BaseCallback):
+    """Writes down how good the policy is without noise, before each collection of experience."""
+
+    def __init__(self, judge, write, begun):
+        """``write``: is called with steps, seconds and fitness."""
+        super().__init__()
+        self.judge, self.write, self.begun = judge, write, begun
+        self.judging = 0.0
+
+    def _on_step(self):
+        return True
+
+    def _on_rollout_start(self):
+        start = time.perf_counter()
+        fitness = self.judge(self.act)
+        self.judging += time.perf_counter() - start
+        self.write(self.num_timesteps, time.perf_counter() - self.begun - self.judging, fitness)
+
+    def act(self, observations):
+        """What the policy does without noise."""
+        normalised = self.model.get_vec_normalize_env().normalize_obs(observations)
+        return self.model.predict(normalised, deterministic=True)[0]
+
+
+def ppo(creature, seed, steps, write):
     """PPO with 1,024 environments."""
-    envs = gambol.make_vec(CREATURE, MOVEMENT, num_envs=1024, **TASK, autoreset_mode="SameStep")
+    envs = gambol.make_vec(creature, MOVEMENT, num_envs=1024, **TASK, autoreset_mode="SameStep")
     lanes = VecNormalize(Lanes(envs, seed), clip_reward=np.inf)
     begun = time.perf_counter()
     model = PPO(
-        "MlpPolicy", lanes, n_steps=64, batch_size=4096, n_epochs=5, gamma=0.99, learning_rate=5e-4, seed=seed,
-        use_sde=True, sde_sample_freq=8, policy_kwargs={"log_std_init": -0.5}, device="cpu",
+        "MlpPolicy", lanes, n_steps=32, batch_size=8192, n_epochs=5, gamma=0.99, learning_rate=3e-4, seed=seed,
+        policy_kwargs={"log_std_init": -0.5}, device="cpu",
     )
-    model.learn(steps, callback=Curve(lanes, write, begun))
-    return envs
+    model.learn(steps, callback=Curve(Judge(creature), write, begun))
 
 
-def cma_es(seed, steps, write):
-    """The program's own training: of its champion one episode in rapier, where PPO has the median of 16 worlds."""
-    with tempfile.TemporaryDirectory() as folder:
-        begun = time.perf_counter()
+class Nets:
+    """Nets of one hidden layer whose weights are rows of a matrix; each has observations of its own."""
 
-        def told(line):
-            write(line["steps"], time.perf_counter() - begun, line["best_so_far"])
-            return line["steps"] >= steps
+    def __init__(self, weights, inputs, outputs):
+        """``weights``: ``[nets, (inputs + 1) * HIDDEN + (HIDDEN + 1) * outputs]``."""
+        first = (inputs + 1) * HIDDEN
+        self.first = weights[:, :first].reshape(-1, inputs + 1, HIDDEN)
+        self.second = weights[:, first:].reshape(-1, HIDDEN + 1, outputs)
 
-        gambol.train(
-            CREATURE, MOVEMENT, out=Path(folder) / "run", **TASK, strategy="cma-es", seed=seed, generations=10**6, callback=told
-        )
+    def __call__(self, observations):
+        """The actions, ``[nets, outputs]``."""
+        hidden = np.tanh(np.matmul(observations[:, None], self.first[:, :-1])[:, 0] + self.first[:, -1])
+        return np.tanh(np.matmul(hidden[:, None], self.second[:, :-1])[:, 0] + self.second[:, -1])
+
+
+def cma_es(creature, seed, steps, write):
+    """CMA-ES by ask and tell: a population's episodes begin alike, in other worlds each generation. The best is judged."""
+    envs = gambol.make_vec(creature, MOVEMENT, num_envs=POPULATION, **TASK)
+    inputs, outputs = envs.single_observation_space.shape[0], envs.single_action_space.shape[0]
+    search = gambol.CmaEs((inputs + 1) * HIDDEN + (HIDDEN + 1) * outputs, seed=seed, population=POPULATION)
+    judge, begun, judging = Judge(creature), time.perf_counter(), 0.0
+    taken, generation, next_judged = 0, 0, 1
+    while taken < steps:
+        weights = search.ask()
+        nets = Nets(weights, inputs, outputs)
+        observations, _ = envs.reset(seed=[1_000 * seed + generation] * POPULATION)
+        fitness, running = np.zeros(POPULATION), np.ones(POPULATION, bool)
+        while running.any():
+            observations, rewards, terminated, truncated, _ = envs.step(nets(observations))
+            fitness += rewards * running
+            taken += int(running.sum())
+            running &= ~(terminated | truncated)
+        search.tell(fitness)
+        generation += 1
+        if generation == next_judged or taken >= steps:
+            start = time.perf_counter()
+            best = np.repeat(weights[[np.argmax(fitness)]], WORLDS, axis=0)
+            median = judge(Nets(best, inputs, outputs))
+            judging += time.perf_counter() - start
+            write(taken, time.perf_counter() - begun - judging, median)
+            next_judged = max(generation + 1, int(generation * 1.3))
+
+
+def program(creature, seed, steps, write):
+    """The program's own training, ended after 1, 2, 4, … generations. Its champion is the best of those whose gait is usable."""
+    judge, generations, taken = Judge(creature), 1, 0
+    while taken < steps:
+        with tempfile.TemporaryDirectory() as folder:
+            begun = time.perf_counter()
+            run = gambol.train(
+                creature, MOVEMENT, out=Path(folder) / "run", seed=seed, generations=generations
+            )
+            seconds, taken = time.perf_counter() - begun, run.log["steps"][-1]
+            write(taken, seconds, judge(run.champion.controller()))
+        generations *= 2
 
 
 def main():
     """Writes a table and prints the ends."""
     parser = argparse.ArgumentParser()
     parser.add_argument("--out", type=Path, required=True)
+    parser.add_argument("--creatures", nargs="+", default=["tetrapod-2", "biped-1"])
     parser.add_argument("--seeds", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--steps", type=int, default=5_000_000)
     given = parser.parse_args()
     with given.out.open("w", newline="") as file:
         table = csv.writer(file)
-        table.writerow(["learner", "seed", "steps", "seconds", "fitness"])
-        for learner in (cma_es, ppo):
-            for seed in given.seeds:
-                last = None
+        table.writerow(["creature", "learner", "seed", "steps", "seconds", "fitness"])
+        for creature in given.creatures:
+            for learner in (cma_es, ppo, program):
+                for seed in given.seeds:
+                    last = None
 
-                def write(steps, seconds, fitness):
-                    nonlocal last
-                    if fitness is None:
-                        # Nothing has been judged yet.
-                        return
-                    last = steps, seconds, fitness
-                    table.writerow([learner.__name__, seed, steps, f"{seconds:.3f}", f"{fitness:.4f}"])
+                    def write(steps, seconds, fitness):
+                        nonlocal last
+                        last = steps, seconds, fitness
+                        table.writerow([creature, learner.__name__, seed, steps, f"{seconds:.3f}", f"{fitness:.4f}"])
 
-                learner(seed, given.steps, write)
-                file.flush()
-                print(f"{learner.__name__}, seed {seed}: {last[0]:,} steps, {last[1]:.1f} s, fitness {last[2]:.2f}", flush=True)
+                    learner(creature, seed, given.steps, write)
+                    file.flush()
+                    print(
+                        f"{creature}, {learner.__name__}, seed {seed}: {last[0]:,} steps, {last[1]:.1f} s, {last[2]:.2f} m",
+                        flush=True,
+                    )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 //! Champion files: what Python's `gambol.Champion` is made of.
 
 use crate::{episodes::registry, errors::wrong};
-use gambol_exports::{Format, Options, Picture, export};
+use gambol_exports::{Destination, Format, Options, Picture, export};
 use gambol_reports::report;
 use gambol_runs::{
     champion::Champion,
@@ -11,7 +11,10 @@ use gambol_runs::{
 use ne_core::Phenotype as _;
 use ne_net::Network;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
-use pyo3::{exceptions::PyOSError, prelude::*, types::PyBytes};
+use pyo3::{
+    exceptions::{PyFileExistsError, PyOSError},
+    prelude::*,
+};
 use std::path::{Path, PathBuf};
 
 /// A champion file, as JSON, once it has been checked.
@@ -59,35 +62,39 @@ pub(crate) fn champion_robustness(
     })
 }
 
-/// A champion in another format: files, by what comes after their name.
+/// Writes a champion in another format. Returns the files; `out` is the first of them.
 #[pyfunction]
-#[pyo3(signature = (path, format, name, *, seconds, size, rate, ground))]
+#[pyo3(signature = (path, format, out, *, seconds, size, rate, ground, overwrite))]
 #[expect(clippy::too_many_arguments, reason = "Python calls it by keyword")]
-pub(crate) fn export_champion<'py>(
-    py: Python<'py>,
+pub(crate) fn export_champion(
+    py: Python<'_>,
     path: PathBuf,
     format: &str,
-    name: String,
+    out: Option<PathBuf>,
     seconds: Option<f64>,
     size: Option<u32>,
     rate: Option<f64>,
     ground: bool,
-) -> PyResult<Vec<(&'static str, Bound<'py, PyBytes>)>> {
+    overwrite: bool,
+) -> PyResult<Vec<PathBuf>> {
     let format = self::format(format)?;
-    let files = py.detach(|| {
+    py.detach(|| {
         let champion = champion(&path)?;
-        let steps = seconds.map(|seconds| steps(seconds, &champion)).transpose()?;
+        let destination = Destination::new(format, &champion, out).map_err(wrong)?;
+        if let Some(there) = destination.paths.iter().find(|path| path.exists()).filter(|_| !overwrite) {
+            return Err(PyFileExistsError::new_err(format!(
+                "{} is there: overwrite=True overwrites it",
+                there.display()
+            )));
+        }
+        let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         let usual = Picture::default();
         let picture = Picture { size: size.unwrap_or(usual.size), rate: rate.unwrap_or(usual.rate), ground };
-        export(&champion, registry(), format, &Options { name, steps, picture }).map_err(wrong)
-    })?;
-    Ok(files.into_iter().map(|file| (file.ending, PyBytes::new(py, &file.bytes))).collect())
-}
-
-/// How the names of a format's files end; the first is the file that is asked for.
-#[pyfunction]
-pub(crate) fn export_endings(format: &str) -> PyResult<Vec<&'static str>> {
-    Ok(self::format(format)?.endings().to_vec())
+        let options = Options { name: destination.name.clone(), steps, picture };
+        let files = export(&champion, registry(), format, &options).map_err(wrong)?;
+        destination.write(&files).map_err(|error| PyOSError::new_err(error.to_string()))?;
+        Ok(destination.paths)
+    })
 }
 
 /// Writes a page that replays a champion.
@@ -95,7 +102,7 @@ pub(crate) fn export_endings(format: &str) -> PyResult<Vec<&'static str>> {
 pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds: Option<f64>) -> PyResult<()> {
     py.detach(|| {
         let champion = champion(&path)?;
-        let steps = seconds.map(|seconds| steps(seconds, &champion)).transpose()?;
+        let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         report::write_replay(&champion, registry(), steps, &page).map_err(|error| PyOSError::new_err(error.to_string()))
     })
 }
@@ -173,12 +180,4 @@ fn format(name: &str) -> PyResult<Format> {
         let known = Format::ALL.map(Format::name).join(", ");
         wrong(format!("there is no format \"{name}\" (there are: {known})"))
     })
-}
-
-fn steps(seconds: f64, champion: &Champion) -> PyResult<u32> {
-    let steps = seconds / f64::from(champion.physics.time_step);
-    match (1.0..=1e6).contains(&steps) {
-        true => Ok(steps.round() as u32),
-        false => Err(wrong(format!("seconds = {seconds}: must give from 1 to 1000000 steps"))),
-    }
 }

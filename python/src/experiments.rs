@@ -5,6 +5,7 @@ use gambol_experiments::{
     compare::{Method, PlanRequest},
     distributed::{self, Failed, GaitStudy},
     reproduce,
+    tune::TuneRequest,
 };
 use gambol_runs::request::Request;
 use ne_core::StopConditions;
@@ -48,6 +49,43 @@ impl Experiment {
             variation,
         };
         Ok(Self { experiment: Box::new(request.plan(registry()).map_err(wrong)?) })
+    }
+
+    /// A strategy's settings, as `gambol tune`.
+    #[staticmethod]
+    #[pyo3(signature = (strategy, creatures, movements, seeds, evaluations, *, trials, spread, draw_seed, preset, settings))]
+    #[expect(clippy::too_many_arguments, reason = "Python calls it by keyword")]
+    fn tune(
+        py: Python<'_>,
+        strategy: String,
+        creatures: Vec<String>,
+        movements: Vec<String>,
+        seeds: Vec<u64>,
+        evaluations: u64,
+        trials: u32,
+        spread: f64,
+        draw_seed: u64,
+        preset: String,
+        settings: Vec<String>,
+    ) -> PyResult<Self> {
+        if !(1..=1000).contains(&trials) {
+            return Err(wrong(format!("trials = {trials}: must be from 1 to 1000")));
+        }
+        if !(spread > 1.0 && spread <= 1000.0) {
+            return Err(wrong(format!("spread = {spread}: must be above 1 and at most 1000")));
+        }
+        let plan = PlanRequest {
+            creatures,
+            movements,
+            seeds,
+            budget: StopConditions { evaluations: Some(evaluations), ..StopConditions::default() },
+            preset: Some(preset),
+            set: settings,
+            ..PlanRequest::default()
+        };
+        let request = TuneRequest { strategy, trials, draw_seed, spread, plan };
+        let tuning = py.detach(|| request.tuning(registry())).map_err(wrong)?;
+        Ok(Self { experiment: Box::new(tuning) })
     }
 
     /// The experiments of the thesis, as `gambol reproduce thesis` without timed runs.

@@ -28,7 +28,7 @@ use pyo3::prelude::*;
 mod _gambol {
     #[pymodule_export]
     use crate::champions::{
-        Net, champion_robustness, export_champion, export_endings, judge_gait, read_champion, verify, write_replay,
+        Net, champion_robustness, export_champion, judge_gait, read_champion, verify, write_replay,
     };
     #[pymodule_export]
     use crate::elsewhere::{Batch, BatchEvaluator};

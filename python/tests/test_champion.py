@@ -67,7 +67,7 @@ def test_what_cannot_be_exported_is_told(champion, tmp_path):
         champion.export("mp4", tmp_path / "gait")
     with pytest.raises(ValueError, match=r"size"):
         champion.export("gif", tmp_path / "gait", size=5)
-    with pytest.raises(ValueError, match="seconds = 0: must give from 1 to 1000000 steps"):
+    with pytest.raises(ValueError, match="seconds = 0: must be from 1 to 1000000 steps of the physics"):
         champion.export("trace", tmp_path / "gait", seconds=0.0)
 
 

@@ -25,6 +25,20 @@ GAITS = _experiments.recipe(
     robust=False,
 )
 
+TUNING = _experiments.recipe(
+    "tune",
+    strategy="cma-es",
+    creatures=["apod"],
+    movements=["running"],
+    seeds=[1, 2],
+    evaluations=200,
+    trials=3,
+    spread=4.0,
+    draw_seed=1,
+    preset="plain",
+    settings=["movement.steps=60"],
+)
+
 
 def do(work, machines, check=0.01):
     """All that is missing."""
@@ -51,7 +65,7 @@ def test_lost_runs_are_done_again_to_the_same_results(alone, tmp_path, lose):
     assert machines.submitted >= work.experiment.runs + 2
 
 
-@pytest.mark.parametrize("of", [REPRODUCTION, GAITS])
+@pytest.mark.parametrize("of", [REPRODUCTION, GAITS, TUNING])
 def test_other_experiments_are_distributed(tmp_path, of):
     """Twice, in other orders."""
     for name in ("one", "other"):

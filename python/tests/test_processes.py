@@ -1,7 +1,8 @@
-"""Other processes: those that are forked from one that has used threads, and those that begin anew."""
+"""Threads and other processes: those that are forked from one that has used threads, and those that begin anew."""
 
 import multiprocessing
 import pickle
+import threading
 
 import numpy as np
 import pytest
@@ -48,3 +49,43 @@ def test_another_process_computes_the_same(tmp_path, method):
         process.kill()
     for one, other in zip(pickle.loads(here.answer), pickle.loads(answer), strict=True):
         assert np.array_equal(one, other)
+
+
+def rewards_of(seed, found):
+    """The rewards of environments of one's own."""
+    envs = gambol.make_vec("biped-1", "running", num_envs=32, threads=1)
+    envs.reset(seed=seed)
+    found[seed] = np.array([envs.step(np.full((32, 2), 0.3, np.float32))[1] for _ in range(50)])
+
+
+def test_threads_that_share_nothing_compute_the_same():
+    """Four at the same time."""
+    alone, together = {}, {}
+    for seed in range(4):
+        rewards_of(seed, alone)
+    threads = [threading.Thread(target=rewards_of, args=(seed, together)) for seed in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(alone[seed], together[seed]) for seed in range(4))
+
+
+def test_threads_that_share_a_search_are_told_so_and_break_nothing():
+    """It is asked in one thread while another one asks it: an error, or the same generation again."""
+    search, errors = gambol.CmaEs(500, seed=1), []
+
+    def ask():
+        for _ in range(200):
+            try:
+                search.tell(-np.square(search.ask()).sum(axis=1))
+            except RuntimeError as error:
+                errors.append(str(error))
+
+    threads = [threading.Thread(target=ask) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert all("borrowed" in error or "waits" in error for error in errors), set(errors)
+    assert np.isfinite(search.ask()).all()

@@ -50,7 +50,12 @@ impl Experiment for Plan {
     fn conclude(&self, folder: &Path, _: &Registry) -> Result<Vec<PathBuf>, Failed> {
         let folder = ComparisonFolder::open(folder)?;
         write_outcome(&folder)?;
-        let data = ["medians.csv", "scores.csv", "curves.csv", "settings.csv"].map(|name| folder.path().join(name));
-        Ok([folder.page()].into_iter().chain(data).collect())
+        Ok(outcome(&folder))
     }
+}
+
+/// The files that say what came of a comparison.
+pub(super) fn outcome(folder: &ComparisonFolder) -> Vec<PathBuf> {
+    let data = ["medians.csv", "scores.csv", "curves.csv", "settings.csv"].map(|name| folder.path().join(name));
+    [folder.page()].into_iter().chain(data).collect()
 }

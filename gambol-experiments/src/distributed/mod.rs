@@ -10,6 +10,7 @@ mod gait_study;
 mod reproduction;
 #[cfg(test)]
 mod tests;
+mod tuning;
 
 pub use gait_study::GaitStudy;
 

@@ -2,6 +2,7 @@ use super::*;
 use crate::{
     compare::{ComparisonFolder, Method, PlanRequest, WorkOptions, work},
     reproduce,
+    tune::{TuneRequest, Tuning},
     work::Part,
 };
 use gambol_runs::request::Request;
@@ -40,6 +41,20 @@ fn gaits(steps: Option<u64>) -> Result<GaitStudy, Failed> {
     GaitStudy::new(&[request], vec![1, 2], stop, false, &Registry::default())
 }
 
+fn tuning(draw_seed: u64) -> Tuning {
+    let plan = PlanRequest {
+        creatures: vec!["apod".into()],
+        movements: vec!["running".into()],
+        seeds: vec![1],
+        budget: StopConditions { evaluations: Some(64), ..StopConditions::default() },
+        preset: Some("plain".into()),
+        set: vec!["movement.steps=30".into()],
+        ..PlanRequest::default()
+    };
+    let request = TuneRequest { strategy: "cma-es".into(), trials: 3, draw_seed, spread: 4.0, plan };
+    request.tuning(&Registry::default()).expect("trials")
+}
+
 /// Does the runs from the last to the first, each twice, and one of them as a stranger.
 fn is_done_anywhere(experiment: &dyn Experiment) {
     let registry = Registry::default();
@@ -71,6 +86,7 @@ fn every_experiment_is_done_anywhere() {
     is_done_anywhere(&comparison());
     is_done_anywhere(&reproduction(&["thesis"]));
     is_done_anywhere(&gaits(Some(2_000)).expect("a study"));
+    is_done_anywhere(&tuning(1));
 }
 
 #[test]
@@ -103,6 +119,8 @@ fn experiments_are_told_apart() {
     assert_eq!(digest(&comparison()), digest(&comparison()));
     assert_ne!(digest(&comparison()), digest(&crate::compare::Plan { seeds: vec![1, 3], ..comparison() }));
     assert_ne!(digest(&reproduction(&["thesis"])), digest(&reproduction(&["default"])));
+    assert_eq!(digest(&tuning(1)), digest(&tuning(1)), "wherever its files were");
+    assert_ne!(digest(&tuning(1)), digest(&tuning(2)));
     let [one, other] = [1_000, 2_000].map(|steps| gaits(Some(steps)).expect("a study"));
     assert_ne!(digest(&one), digest(&other));
 }

@@ -10,7 +10,7 @@ mod draw;
 
 pub use draw::draw;
 
-use crate::compare::{Analysis, CompareError, Method, PlanError, PlanRequest};
+use crate::compare::{Analysis, CompareError, ComparisonFolder, Method, Plan, PlanError, PlanRequest, write_outcome};
 use gambol_runs::{Registry, config::StrategySettings};
 use serde_json::json;
 use std::{
@@ -75,38 +75,85 @@ pub enum TuneError {
     },
 }
 
-impl TuneRequest {
-    /// Draws the trials, writes their settings to `folder/trials`, and gives the request of their comparison. The same
-    /// request gives the same files; those that are there already must have the same bytes.
+/// The trials of a tuning, and the comparison of them.
+#[derive(Clone, Debug)]
+pub struct Tuning {
+    /// The settings of each trial; the first has the defaults.
+    pub trials: Vec<StrategySettings>,
+    /// Each trial as a method.
+    pub plan: Plan,
+}
+
+impl Tuning {
+    /// Writes the settings of the trials to `folder/trials`; those that are there already must have the same bytes.
     ///
     /// # Errors
-    /// If there is no such strategy, no draw can run, or a file cannot be written.
-    pub fn prepare(
-        &self,
-        folder: &Path,
-        registry: &Registry,
-    ) -> Result<(Vec<StrategySettings>, PlanRequest), TuneError> {
-        let entry = registry.strategies.find(&self.strategy);
-        let entry = entry.ok_or_else(|| TuneError::Unknown(registry.strategies.unknown(&self.strategy)))?;
+    /// If another tuning was begun in the folder, or a file cannot be written.
+    pub fn begin(&self, folder: &Path) -> Result<(), TuneError> {
         let place = folder.join("trials");
-        let (mut trials, mut methods) = (Vec::new(), Vec::new());
-        for trial in 0..self.trials {
-            let path = place.join(format!("trial-{trial:03}.json"));
-            let method =
-                Method { name: format!("trial-{trial:03}"), preset: None, strategy: None, config: Some(path.clone()) };
-            let settings = self.trial(&entry.settings(), trial, registry)?;
-            fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+        fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+        for (settings, name) in self.trials.iter().zip(&self.plan.methods) {
+            let path = place.join(format!("{name}.json"));
             match fs::read_to_string(&path) {
-                Ok(known) if known != text(&settings) => {
+                Ok(known) if known != text(settings) => {
                     return Err(TuneError::Other { folder: folder.into(), file: path });
                 }
                 Ok(_) => {}
-                Err(_) => write_tuned(&path, &settings)?,
+                Err(_) => write_tuned(&path, settings)?,
             }
-            trials.push(settings);
-            methods.push(method);
         }
-        Ok((trials, PlanRequest { methods, ..self.plan.clone() }))
+        Ok(())
+    }
+
+    /// The folder of the comparison in that of the tuning.
+    pub fn comparison(folder: &Path) -> PathBuf {
+        folder.join("comparison")
+    }
+
+    /// Writes what came of the comparison, and the best settings to `folder/tuned.json`.
+    ///
+    /// # Errors
+    /// If runs are missing, or a file cannot be written.
+    pub fn conclude(&self, folder: &Path) -> Result<Tuned, TuneError> {
+        let analysis = write_outcome(&ComparisonFolder::open(&Self::comparison(folder))?)?;
+        let (best, file) = (best(&analysis), folder.join("tuned.json"));
+        write_tuned(&file, &self.trials[best])?;
+        Ok(Tuned { analysis, best, file })
+    }
+}
+
+/// What came of a tuning.
+#[derive(Clone, Debug)]
+pub struct Tuned {
+    /// The trials, compared.
+    pub analysis: Analysis,
+    /// The place of the best among them.
+    pub best: usize,
+    /// Its settings, as a configuration file that `compare` takes.
+    pub file: PathBuf,
+}
+
+impl TuneRequest {
+    /// Draws the trials. The same request gives the same.
+    ///
+    /// # Errors
+    /// If there is no such strategy, or no draw can run.
+    pub fn tuning(&self, registry: &Registry) -> Result<Tuning, TuneError> {
+        let entry = registry.strategies.find(&self.strategy);
+        let entry = entry.ok_or_else(|| TuneError::Unknown(registry.strategies.unknown(&self.strategy)))?;
+        let place = tempfile::tempdir();
+        let place = place.map_err(|source| TuneError::Write { path: std::env::temp_dir(), source })?;
+        let (mut trials, mut methods) = (Vec::new(), Vec::new());
+        for trial in 0..self.trials {
+            let name = format!("trial-{trial:03}");
+            let path = place.path().join(format!("{name}.json"));
+            let settings = self.trial(&entry.settings(), trial, registry)?;
+            write_tuned(&path, &settings)?;
+            trials.push(settings);
+            methods.push(Method { name, preset: None, strategy: None, config: Some(path) });
+        }
+        let plan = PlanRequest { methods, ..self.plan.clone() }.plan(registry)?;
+        Ok(Tuning { trials, plan })
     }
 
     /// The settings of a trial: the first draw that can run.
@@ -139,7 +186,7 @@ impl TuneRequest {
 }
 
 /// The place of the best trial: with the highest interquartile mean over all scenarios, of equals the first.
-pub fn best(analysis: &Analysis) -> usize {
+fn best(analysis: &Analysis) -> usize {
     let overall = analysis.primary_standings().overall.as_ref();
     let means = overall.map_or(&[][..], |overall| &overall.methods);
     let better = |best: usize, (place, mean): (usize, f64)| if mean > means[best].value { place } else { best };
@@ -150,7 +197,7 @@ pub fn best(analysis: &Analysis) -> usize {
 ///
 /// # Errors
 /// If the file cannot be written.
-pub fn write_tuned(path: &Path, settings: &StrategySettings) -> Result<(), TuneError> {
+fn write_tuned(path: &Path, settings: &StrategySettings) -> Result<(), TuneError> {
     ne_core::archive::write_whole(path, text(settings).as_bytes())
         .map_err(|source| TuneError::Write { path: path.into(), source })
 }
@@ -183,16 +230,18 @@ mod tests {
         let registry = Registry::default();
         for entry in registry.strategies.entries() {
             let folder = tempfile::tempdir().expect("a folder");
-            let (trials, plan) = request(entry.name(), 4).prepare(folder.path(), &registry).expect("trials");
+            let Tuning { trials, plan } = request(entry.name(), 4).tuning(&registry).expect("trials");
             assert_eq!(trials[0], entry.settings(), "the first has the defaults");
             assert!(trials[1..].iter().all(|trial| *trial != trials[0]), "{}", entry.name());
-            let planned = plan.plan(&registry).expect("they can be compared");
-            let had: Vec<_> = planned.cells.iter().map(|cell| cell.config.strategy.clone()).collect();
+            let had: Vec<_> = plan.cells.iter().map(|cell| cell.config.strategy.clone()).collect();
             assert_eq!(had, trials);
-            let again = request(entry.name(), 4).prepare(folder.path(), &registry).expect("the same");
-            assert_eq!(again.0, trials);
+            let again = request(entry.name(), 4).tuning(&registry).expect("the same");
+            assert_eq!((&again.trials, &again.plan), (&trials, &plan));
+            again.begin(folder.path()).expect("a new folder");
+            again.begin(folder.path()).expect("the same folder");
             let other = TuneRequest { draw_seed: 2, ..request(entry.name(), 4) };
-            let error = other.prepare(folder.path(), &registry).expect_err("another tuning").to_string();
+            let other = other.tuning(&registry).expect("other trials");
+            let error = other.begin(folder.path()).expect_err("another tuning").to_string();
             assert!(error.contains("holds another tuning"), "{error}");
         }
     }
@@ -208,8 +257,7 @@ mod tests {
 
     #[test]
     fn a_misspelt_strategy_is_corrected() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let error = request("naet", 1).prepare(folder.path(), &Registry::default()).expect_err("unknown").to_string();
+        let error = request("naet", 1).tuning(&Registry::default()).expect_err("unknown").to_string();
         assert!(error.contains("did you mean \"neat\"?"), "{error}");
     }
 }

@@ -1,15 +1,11 @@
-use super::{Outcome, check_output, gait::champion_file, replay::steps_of};
+use super::{Outcome, check_output, gait::champion_file};
 use crate::{
     Registry,
     champion::Champion,
-    export::{self, Format, Options, Picture},
+    export::{self, Destination, Format, Options, Picture},
 };
 use clap::{Args, ValueEnum, builder::PossibleValue};
-use ne_core::archive;
-use std::{
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::{path::PathBuf, process::ExitCode};
 
 #[derive(Args)]
 #[command(after_help = "\
@@ -95,46 +91,22 @@ impl Export {
         let file = champion_file(&self.champion)?;
         let Named(format) = self.to;
         let champion = Champion::read(&file)?;
-        let (name, places) = self.places(format, format!("{}-{}", champion.creature.name, champion.movement.name))?;
-        for place in &places {
+        let destination = Destination::new(format, &champion, self.out)?;
+        for place in &destination.paths {
             if place.canonicalize().is_ok_and(|out| file.canonicalize().is_ok_and(|file| file == out)) {
                 return Err(format!("{} is what is to be exported", file.display()).into());
             }
             check_output(place, self.force)?;
         }
-        let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
+        let steps = self.seconds.map(|seconds| champion.steps_in(seconds)).transpose()?;
         let picture = Picture { size: self.size, rate: self.rate, ground: self.ground };
-        let options = Options { name, steps, picture };
+        let options = Options { name: destination.name.clone(), steps, picture };
         let exported = export::export(&champion, registry, format, &options)
             .map_err(|error| format!("{}: {error}", file.display()))?;
-        let written: Vec<(&Path, &[u8])> =
-            places.iter().zip(&exported).map(|(place, exported)| (&**place, &*exported.bytes)).collect();
-        // The file that names the others comes last: what it names is there.
-        let in_order: Vec<_> = written.iter().rev().copied().collect();
-        archive::write_whole_together(&in_order).map_err(|error| format!("cannot write {error}"))?;
-        for (place, bytes) in written {
-            say!("{}  {}, {} bytes", format.name(), place.display(), bytes.len())?;
+        destination.write(&exported).map_err(|error| format!("cannot write {error}"))?;
+        for (place, file) in destination.paths.iter().zip(&exported) {
+            say!("{}  {}, {} bytes", format.name(), place.display(), file.bytes.len())?;
         }
         Ok(ExitCode::SUCCESS)
-    }
-
-    /// What the files are called, and where they go: the first as asked for, the others beside it.
-    fn places(&self, format: Format, name: String) -> Result<(String, Vec<PathBuf>), String> {
-        let (first_ending, others) = format.endings().split_first().ok_or("a format without files")?;
-        let first = self.out.clone().unwrap_or_else(|| format!("{name}{first_ending}").into());
-        let last = first.file_name().map_or_else(String::new, |last| last.to_string_lossy().into_owned());
-        let without_extension =
-            || first.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-        let name = match last.strip_suffix(first_ending) {
-            Some(name) if !name.is_empty() => name.to_owned(),
-            _ => without_extension(),
-        };
-        let others: Vec<PathBuf> =
-            others.iter().map(|ending| first.with_file_name(format!("{name}{ending}"))).collect();
-        if others.contains(&first) {
-            let out = first.display();
-            return Err(format!("--out {out}: must not be called like the file beside it; {first_ending} is usual"));
-        }
-        Ok((name, std::iter::once(first).chain(others).collect()))
     }
 }

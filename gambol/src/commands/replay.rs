@@ -72,7 +72,7 @@ impl Replay {
             champion.write(path)?;
             say!("champion    {}", path.display())?;
         }
-        let steps = self.seconds.map(|seconds| steps_of(seconds, champion.physics.time_step)).transpose()?;
+        let steps = self.seconds.map(|seconds| champion.steps_in(seconds)).transpose()?;
         champion.movement.steps = steps.or(champion.movement.steps);
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
         let episode = champion.episode(&registry).map_err(|error| in_file(&error))?;
@@ -132,15 +132,6 @@ fn same_file(one: &Path, other: &Path) -> bool {
             .or_else(|_| Ok::<_, std::io::Error>(folder.canonicalize()?.join(path.file_name().unwrap_or_default())))
     };
     one == other || matches!((place(one), place(other)), (Ok(one), Ok(other)) if one == other)
-}
-
-/// The steps of so many seconds.
-pub(super) fn steps_of(seconds: f64, time_step: f32) -> Result<u32, String> {
-    let steps = seconds / f64::from(time_step);
-    match (1.0..=1e6).contains(&steps) {
-        true => Ok(steps.round() as u32),
-        false => Err(format!("--seconds {seconds}: must give from 1 to 1000000 steps")),
-    }
 }
 
 /// A point of the front in a run's folder, counted from 1; of a run with stages, of the one whose champion is the run's.

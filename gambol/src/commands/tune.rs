@@ -1,8 +1,8 @@
 use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry,
-    compare::{ComparisonFolder, Part, PlanRequest, Progress, WorkOptions, table, work, write_outcome},
-    tune::{TuneRequest, best, text, write_tuned},
+    compare::{ComparisonFolder, Part, PlanRequest, Progress, WorkOptions, table, work},
+    tune::{TuneRequest, Tuned, Tuning, text},
 };
 use clap::Args;
 use ne_core::{StopConditions, StopSignal};
@@ -75,9 +75,9 @@ impl Tune {
         let strategy = self.strategy.clone();
         let request =
             TuneRequest { strategy, trials: self.trials, draw_seed: self.first_seed, spread: self.spread, plan };
-        let (trials, plan) = request.prepare(&self.out, registry)?;
-        let plan = plan.plan(registry)?;
-        let folder = ComparisonFolder::create(&self.out.join("comparison"), &plan)?;
+        let tuning = request.tuning(registry)?;
+        tuning.begin(&self.out)?;
+        let folder = ComparisonFolder::create(&Tuning::comparison(&self.out), &tuning.plan)?;
         let signal = StopSignal::default();
         super::interrupt::stop_on_interrupt(&signal)?;
         let show = |Progress { run, best, done, all }: &Progress<f64>| {
@@ -94,20 +94,17 @@ impl Tune {
             signal: signal.clone(),
             on_run: &show,
         };
-        let left = work(&folder, &plan, &options)?;
+        let left = work(&folder, &tuning.plan, &options)?;
         if signal.is_set() || left > 0 {
             say!("{left} runs are left; the same command goes on")?;
             return Ok(if signal.is_set() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS });
         }
-        let analysis = write_outcome(&folder)?;
-        let best = best(&analysis);
-        let tuned = self.out.join("tuned.json");
-        write_tuned(&tuned, &trials[best])?;
+        let Tuned { analysis, best, file } = tuning.conclude(&self.out)?;
         if !self.quiet {
             tell!("{}", table::overall(&analysis));
-            tell!("the best is trial-{best:03}; it is in {}", tuned.display());
+            tell!("the best is trial-{best:03}; it is in {}", file.display());
         }
-        say!("{}", text(&trials[best]).trim_end())?;
+        say!("{}", text(&tuning.trials[best]).trim_end())?;
         Ok(ExitCode::SUCCESS)
     }
 }

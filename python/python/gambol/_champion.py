@@ -99,21 +99,16 @@ class Champion:
             ValueError: if there is no such format, a number is out of its range, or the format cannot hold it.
             FileExistsError: if a file is there.
         """
-        first, *others = _gambol.export_endings(format)
-        usual = f"{self.data['creature']['name']}-{self.data['movement']['name']}{first}"
-        path = Path(usual if out is None else out)
-        name = path.name.removesuffix(first) if path.name != first and path.name.endswith(first) else path.stem
-        paths = [path, *(path.with_name(name + ending) for ending in others)]
-        for place in paths:
-            if place.exists() and not overwrite:
-                raise FileExistsError(f"{place} is there: overwrite=True overwrites it")
-        if path in paths[1:]:
-            raise ValueError(f"out = {str(path)!r}: must not be called like the file beside it; {first} is usual")
-        files = _gambol.export_champion(self.path, format, name, seconds=seconds, size=size, rate=rate, ground=ground)
-        # The file that names the others comes last.
-        for place, (_, content) in reversed(list(zip(paths, files, strict=True))):
-            place.write_bytes(content)
-        return paths
+        return _gambol.export_champion(
+            self.path,
+            format,
+            None if out is None else Path(out),
+            seconds=seconds,
+            size=size,
+            rate=rate,
+            ground=ground,
+            overwrite=overwrite,
+        )
 
     def replay(self, page: str | os.PathLike[str], *, seconds: float | None = None) -> Path:
         """Writes a page that replays it and needs nothing else, as ``gambol replay --html`` does.

@@ -145,6 +145,20 @@ class Experiment:
         settings: list[str],
     ) -> Experiment: ...
     @staticmethod
+    def tune(
+        strategy: str,
+        creatures: list[str],
+        movements: list[str],
+        seeds: list[int],
+        evaluations: int,
+        *,
+        trials: int,
+        spread: float,
+        draw_seed: int,
+        preset: str,
+        settings: list[str],
+    ) -> Experiment: ...
+    @staticmethod
     def reproduce(
         creatures: list[str], movements: list[str], presets: list[str], runs: int, generations: int
     ) -> Experiment: ...
@@ -176,9 +190,16 @@ class Experiment:
 
 def champion_robustness(path: Path, worlds: int, seed: int, variation: str | None) -> str: ...
 def export_champion(
-    path: Path, format: str, name: str, *, seconds: float | None, size: int | None, rate: float | None, ground: bool
-) -> list[tuple[str, bytes]]: ...
-def export_endings(format: str) -> list[str]: ...
+    path: Path,
+    format: str,
+    out: Path | None,
+    *,
+    seconds: float | None,
+    size: int | None,
+    rate: float | None,
+    ground: bool,
+    overwrite: bool,
+) -> list[Path]: ...
 def write_replay(path: Path, page: Path, seconds: float | None) -> None: ...
 
 class Net:

@@ -19,7 +19,7 @@ from gambol.cluster._ray import RayWorkers
 from gambol.cluster._training import train
 from gambol.cluster._work import DifferentBits, Lost
 
-__all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce", "train"]
+__all__ = ["DifferentBits", "Lost", "compare", "gaits", "reproduce", "train", "tune"]
 
 OnRun = Callable[[str, int, int], None]
 Names = Sequence[str | os.PathLike[str]]
@@ -100,6 +100,47 @@ def compare(
         preset=preset,
         engine=engine,
         variation=variation,
+        settings=assignments(settings),
+    )
+    return _do(of, out, cluster, check, on_run)
+
+
+def tune(
+    strategy: str,
+    creatures: Names,
+    movements: Sequence[str] = ("running",),
+    *,
+    out: str | os.PathLike[str],
+    evaluations: int,
+    trials: int = 20,
+    spread: float = 4.0,
+    seeds: Sequence[int] = range(900_001, 900_004),
+    preset: str = "plain",
+    settings: Mapping[str, Any] | None = None,
+    cluster: Any = None,
+    check: float = 0.01,
+    on_run: OnRun | None = None,
+) -> list[Path]:
+    """Tunes a strategy's numbers, as the program's command ``gambol tune`` does, to the same best settings.
+
+    ``trials``: how many settings are tried, from 1 to 1,000, the defaults among them; ``spread``: numbers are multiplied with a
+    factor from 1/``spread`` to ``spread``, above 1 and at most 1,000, drawn from the first of the ``seeds``, which should not be
+    those compared on. The other arguments are those of :func:`compare`.
+
+    Returns:
+        ``tuned.json``, the best settings as a configuration file, and the files of the comparison of the trials.
+    """
+    of = recipe(
+        "tune",
+        strategy=strategy,
+        creatures=_names(creatures),
+        movements=_names(movements),
+        seeds=list(seeds),
+        evaluations=evaluations,
+        trials=trials,
+        spread=spread,
+        draw_seed=next(iter(seeds), 0),
+        preset=preset,
         settings=assignments(settings),
     )
     return _do(of, out, cluster, check, on_run)
