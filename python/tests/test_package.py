@@ -37,6 +37,14 @@ def test_types_are_complete(tmp_path):
         assert code == 0, text + errors
 
 
+def test_types_of_the_native_part_are_those_of_its_source():
+    """Names, parameters and their kinds, in both directions, as the installed module has them."""
+    pytest.importorskip("mypy")
+    command = [sys.executable, "-m", "mypy.stubtest", "--ignore-disjoint-bases", "--concise", "gambol._gambol"]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_everything_public_is_documented():
     for name in gambol.__all__:
         assert getattr(gambol, name).__doc__, name

@@ -2,10 +2,42 @@
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import final
 
 import numpy as np
 import numpy.typing as npt
 
+__all__ = [
+    "Batch",
+    "BatchEvaluator",
+    "Environments",
+    "Experiment",
+    "Genes",
+    "NeatSearch",
+    "Net",
+    "Search",
+    "Snapshot",
+    "champion_robustness",
+    "creature_names",
+    "default_time_step",
+    "episode_facts",
+    "export_champion",
+    "judge_gait",
+    "movement_names",
+    "read_champion",
+    "read_config",
+    "read_log",
+    "register_movement",
+    "resume",
+    "strategy_names",
+    "terrain_names",
+    "train",
+    "variation_names",
+    "verify",
+    "write_replay",
+]
+
+@final
 class Environments:
     def __new__(
         cls,
@@ -68,6 +100,7 @@ def terrain_names() -> list[str]: ...
 def variation_names() -> list[str]: ...
 def strategy_names() -> list[str]: ...
 
+@final
 class Search:
     def __new__(
         cls, name: str, dimension: int | None, layers: list[int] | None, seed: int, settings: str
@@ -87,15 +120,17 @@ class Search:
     @property
     def name(self) -> str: ...
 
+@final
 class Batch:
     def __len__(self) -> int: ...
     def piece(self, start: int, stop: int) -> bytes: ...
 
+@final
 class BatchEvaluator:
     def __new__(cls, config: str) -> BatchEvaluator: ...
     def evaluate(self, piece: bytes) -> bytes: ...
 
-Elsewhere = Callable[[str, Batch], list[bytes] | None]
+_Elsewhere = Callable[[str, Batch], list[bytes] | None]
 
 def train(
     creature: str | None,
@@ -114,14 +149,14 @@ def train(
     settings: list[str],
     threads: int,
     callback: Callable[[str], bool] | None,
-    elsewhere: Elsewhere | None,
+    elsewhere: _Elsewhere | None,
 ) -> tuple[str, int, int, int]: ...
 def resume(
     folder: Path,
     generations: int | None,
     threads: int,
     callback: Callable[[str], bool] | None,
-    elsewhere: Elsewhere | None,
+    elsewhere: _Elsewhere | None,
 ) -> tuple[str, int, int, int]: ...
 def read_log(folder: Path) -> list[str]: ...
 def read_config(folder: Path) -> str: ...
@@ -129,6 +164,7 @@ def read_champion(path: Path) -> str: ...
 def verify(path: Path) -> tuple[bool, float | None, int | None]: ...
 def judge_gait(path: Path) -> str: ...
 
+@final
 class Experiment:
     @staticmethod
     def compare(
@@ -202,6 +238,7 @@ def export_champion(
 ) -> list[Path]: ...
 def write_replay(path: Path, page: Path, seconds: float | None) -> None: ...
 
+@final
 class Net:
     @staticmethod
     def of_champion(path: Path) -> Net: ...
@@ -213,6 +250,7 @@ class Net:
     def activate(self, inputs: npt.NDArray[np.float32]) -> npt.NDArray[np.float32]: ...
     def reset(self) -> None: ...
 
+@final
 class Genes:
     def nodes(self) -> list[tuple[int, str, float]]: ...
     def connections(self) -> list[tuple[int, int, int, float, bool]]: ...
@@ -223,6 +261,7 @@ class Genes:
     @staticmethod
     def of_text(text: str) -> Genes: ...
 
+@final
 class NeatSearch:
     def __new__(cls, inputs: int, outputs: int, seed: int, settings: str) -> NeatSearch: ...
     def ask(self) -> list[Genes]: ...
@@ -237,6 +276,7 @@ class NeatSearch:
     @property
     def generations(self) -> int: ...
 
+@final
 class Snapshot:
     """What a movement sees."""
 

@@ -174,7 +174,7 @@ def train(
 
 
 @contextmanager
-def _evaluating_on(cluster: Any) -> Iterator[_gambol.Elsewhere | None]:
+def _evaluating_on(cluster: Any) -> Iterator[_gambol._Elsewhere | None]:
     if cluster is None:
         yield None
         return
