@@ -59,6 +59,8 @@ pub(crate) enum Episodes {
 /// Episodes, and what a caller wants to know of them.
 pub(crate) struct Described {
     pub(crate) episodes: Episodes,
+    /// The name of the movement.
+    pub(crate) movement: String,
     /// Sensors are scaled to ± this.
     pub(crate) input_range: f32,
     /// The unit of the fitness.
@@ -79,7 +81,8 @@ impl Described {
         };
         let unit = registry.movements.build(&config.movement)?.unit().to_owned();
         let input_range = config.controller.input_range;
-        Ok(Self { episodes, input_range, unit, config: serde_json::to_string(&config)? })
+        let movement = config.movement.name.clone();
+        Ok(Self { episodes, movement, input_range, unit, config: serde_json::to_string(&config)? })
     }
 }
 

@@ -3,7 +3,10 @@
 use crate::{episodes::register, errors::wrong};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::{
+    collections::BTreeMap,
+    sync::{Arc, Mutex, PoisonError},
+};
 use tasks::{Movement, Verdict};
 
 /// What a movement sees.
@@ -64,13 +67,14 @@ pub(crate) fn register_movement(
     .map_err(wrong)
 }
 
-/// What a movement has raised since this was asked last: whatever it was called for is not to be believed.
-pub(crate) fn raised() -> PyResult<()> {
+/// What the movement of this name has raised since this was asked last: whatever it was called for is not to be believed.
+pub(crate) fn raised(movement: &str) -> PyResult<()> {
     let mut raised = RAISED.lock().unwrap_or_else(PoisonError::into_inner);
-    raised.take().map_or(Ok(()), Err)
+    raised.remove(movement).map_or(Ok(()), Err)
 }
 
-static RAISED: Mutex<Option<PyErr>> = Mutex::new(None);
+/// By the movement's name, since other threads may train with others.
+static RAISED: Mutex<BTreeMap<String, PyErr>> = Mutex::new(BTreeMap::new());
 
 /// A movement whose methods are Python's.
 struct Written {
@@ -83,12 +87,12 @@ struct Written {
 impl Written {
     /// What Python answers; the first error is kept to be raised.
     fn ask<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Option<T> {
-        Python::attach(|py| ask(self.made.bind(py))).map_err(keep).ok()
+        Python::attach(|py| ask(self.made.bind(py))).map_err(|error| keep(&self.name, error)).ok()
     }
 }
 
-fn keep(error: PyErr) {
-    RAISED.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(error);
+fn keep(movement: &str, error: PyErr) {
+    RAISED.lock().unwrap_or_else(PoisonError::into_inner).entry(movement.to_owned()).or_insert(error);
 }
 
 impl Clone for Written {
@@ -96,7 +100,7 @@ impl Clone for Written {
         Python::attach(|py| {
             // A copy begins anew: episodes are independent.
             let made = self.make.call0(py).unwrap_or_else(|error| {
-                keep(error);
+                keep(&self.name, error);
                 py.None()
             });
             let (name, unit, make) = (self.name.clone(), self.unit.clone(), Arc::clone(&self.make));

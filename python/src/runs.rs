@@ -102,11 +102,15 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&
     let mut here = elsewhere.is_none();
     loop {
         let mut line = None;
+        let movement = run.stage_config().map_or_else(String::new, |config| config.movement.name.clone());
         let step = step(&mut run, (!here).then_some(&mut answers), &mut |generation| {
             line = callback.and_then(|_| serde_json::to_string(generation.report).ok());
         })?;
         let stops = match (step, elsewhere) {
-            (Step::Over(reason), _) => return Ok(ended(&run.finish(reason).map_err(broken)?)),
+            (Step::Over(reason), _) => {
+                let done = run.finish(reason).map_err(broken)?;
+                return movements::raised(&movement).map(|()| ended(&done));
+            }
             (Step::Wants(batch), Some(elsewhere)) => match elsewhere::ask(elsewhere, run.stage_config(), batch) {
                 Ok(Some(evaluations)) => {
                     answers.give(evaluations);
@@ -120,7 +124,7 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&
             },
             _ => {
                 here = elsewhere.is_none();
-                asked(callback, line)
+                asked(callback, line, &movement)
             }
         };
         let interrupted = |error: &PyErr| Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py));
@@ -152,9 +156,9 @@ fn step(
     }
 }
 
-/// Whether the run is to end now, after the generation with this line.
-fn asked(callback: Option<&Py<PyAny>>, line: Option<String>) -> PyResult<bool> {
-    movements::raised()?;
+/// Whether the run is to end now, after the generation with this line, of this movement.
+fn asked(callback: Option<&Py<PyAny>>, line: Option<String>, movement: &str) -> PyResult<bool> {
+    movements::raised(movement)?;
     Python::attach(|py| {
         py.check_signals()?;
         match callback.zip(line) {

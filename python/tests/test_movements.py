@@ -1,5 +1,7 @@
 """Movements written in Python."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 
@@ -97,6 +99,21 @@ def test_what_it_raises_is_raised(tmp_path):
             env.step(np.zeros(2))
     with pytest.raises(LookupError, match="the tenth step"):
         gambol.train("biped-1", "broken", out=tmp_path / "run", preset="plain", generations=5, population=4)
+    with pytest.raises(LookupError, match="the tenth step"):
+        gambol.train("biped-1", "broken", out=tmp_path / "last", preset="plain", generations=1, population=4)
+
+
+def test_each_of_two_trainings_raises_what_is_its_own(tmp_path):
+    """In threads: of another movement's error the one that goes well hears nothing."""
+
+    def train(movement, steps):
+        return gambol.train("biped-1", movement, out=tmp_path / movement, preset="plain", generations=steps, population=4)
+
+    with ThreadPoolExecutor() as threads:
+        well, badly = threads.submit(train, "far", 20), threads.submit(train, "broken", 20)
+        with pytest.raises(LookupError, match="the tenth step"):
+            badly.result()
+        assert len(well.result().log["best"]) == 20
 
 
 def test_names_and_numbers_are_checked():
