@@ -1,4 +1,4 @@
-use super::{Outcome, check_output, gait::champion_file};
+use super::{Outcome, check_output, gait::champion_file, replay::steps_in};
 use crate::{
     Registry,
     champion::Champion,
@@ -98,7 +98,7 @@ impl Export {
             }
             check_output(place, self.force)?;
         }
-        let steps = self.seconds.map(|seconds| champion.steps_in(seconds)).transpose()?;
+        let steps = self.seconds.map(|seconds| steps_in(&champion, seconds)).transpose()?;
         let picture = Picture { size: self.size, rate: self.rate, ground: self.ground };
         let options = Options { name: destination.name.clone(), steps, picture };
         let exported = export::export(&champion, registry, format, &options)

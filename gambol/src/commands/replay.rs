@@ -72,7 +72,7 @@ impl Replay {
             champion.write(path)?;
             say!("champion    {}", path.display())?;
         }
-        let steps = self.seconds.map(|seconds| champion.steps_in(seconds)).transpose()?;
+        let steps = self.seconds.map(|seconds| steps_in(&champion, seconds)).transpose()?;
         champion.movement.steps = steps.or(champion.movement.steps);
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
         let episode = champion.episode(&registry).map_err(|error| in_file(&error))?;
@@ -132,6 +132,11 @@ fn same_file(one: &Path, other: &Path) -> bool {
             .or_else(|_| Ok::<_, std::io::Error>(folder.canonicalize()?.join(path.file_name().unwrap_or_default())))
     };
     one == other || matches!((place(one), place(other)), (Ok(one), Ok(other)) if one == other)
+}
+
+/// How many steps `--seconds` are.
+pub(super) fn steps_in(champion: &Champion, seconds: f64) -> Result<u32, String> {
+    champion.steps_in(seconds).map_err(|error| format!("--{error}"))
 }
 
 /// A point of the front in a run's folder, counted from 1; of a run with stages, of the one whose champion is the run's.

@@ -92,7 +92,7 @@ fn what_cannot_be_exported_is_said_and_leaves_nothing() -> Outcome {
     assert_says(&fail(&mut export(&run, "csv", &champion, &["--force"])), &["is what is to be exported"]);
     assert_says(
         &fail(&mut export(&run, "csv", &out, &["--seconds", "0"])),
-        &["seconds = 0: must be from 1 to 1000000 steps of the physics"],
+        &["--seconds = 0: must be from 1 to 1000000 steps of the physics"],
     );
     assert_says(&fail(&mut export(&run, "csv", &folder.path().join("no/where"), &[])), &["cannot write"]);
     assert!(fs::read(&champion)? == before && !out.exists());
