@@ -6,7 +6,8 @@
 use crate::root;
 use std::{collections::BTreeSet, env, fs};
 
-const DOCUMENTS: [&str; 5] = ["README.md", "docs/gaits.md", "docs/ablation.md", "docs/strategies.md", "docs/thesis.md"];
+const DOCUMENTS: [&str; 6] =
+    ["README.md", "docs/gaits.md", "docs/ablation.md", "docs/ppo.md", "docs/strategies.md", "docs/thesis.md"];
 const MARK: &str = "<!-- table: ";
 
 /// The cells of a line of CSV; cells with commas stand in quotation marks.

@@ -204,7 +204,7 @@ def main():
     parser.add_argument("--steps", type=int, default=5_000_000)
     given = parser.parse_args()
     with given.out.open("w", newline="") as file:
-        table = csv.writer(file)
+        table = csv.writer(file, lineterminator="\n")
         table.writerow(["creature", "learner", "seed", "steps", "seconds", "fitness"])
         for creature in given.creatures:
             for learner in (cma_es, ppo, program):

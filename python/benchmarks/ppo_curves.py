@@ -1,6 +1,6 @@
-"""The curves of ppo.py as a picture.
+"""The curves of ppo.py as a picture and as a table.
 
-pip install matplotlib; python benchmarks/ppo_curves.py ppo.csv ppo.svg
+pip install matplotlib; python benchmarks/ppo_curves.py curves.csv picture.svg table.csv
 """
 
 import csv
@@ -30,11 +30,38 @@ def one_body_length_a_second(creature):
     return 2 * gymnasium.spec(f"gambol/{name}Running-v0").reward_threshold
 
 
+def span(values, digits):
+    """The least and the greatest value."""
+    texts = list(dict.fromkeys(f"{value:,.{digits}f}" for value in sorted(values)))
+    return " to ".join(dict.fromkeys((texts[0], texts[-1])))
+
+
+def write_table(path, curves):
+    """Of each creature and learner when it first runs one body length a second, and what it comes to."""
+    with open(path, "w", newline="") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["creature", "learner", "first at 1 body length/s", "in the end", "taken for it"])
+        for creature in dict.fromkeys(creature for creature, _, _ in curves):
+            for learner, (name, _) in LEARNERS.items():
+                of_seeds = [points for (of, by, _), points in curves.items() if (of, by) == (creature, learner)]
+                wanted = one_body_length_a_second(creature)
+                firsts = [next((point for point in points if point[2] >= wanted), None) for points in of_seeds]
+                reached = [first for first in firsts if first is not None]
+                when = "never"
+                if reached:
+                    when = f"{span((x[0] / 1e6 for x in reached), 2)} million steps, {span((x[1] for x in reached), 1)} s"
+                if 0 < len(reached) < len(firsts):
+                    when += f", {len(reached)} of {len(firsts)} seeds"
+                ends = [points[-1] for points in of_seeds]
+                taken = f"{span((x[0] / 1e6 for x in ends), 1)} million steps, {span((x[1] for x in ends), 0)} s"
+                table.writerow([creature, name, when, f"{span((x[2] for x in ends), 0)} m", taken])
+
+
 def main():
     """A row for each creature, by steps and by seconds."""
-    table, picture = sys.argv[1:3]
+    curves_file, picture, table = sys.argv[1:4]
     curves = defaultdict(list)
-    with open(table, newline="") as file:
+    with open(curves_file, newline="") as file:
         for row in csv.DictReader(file):
             point = float(row["steps"]), float(row["seconds"]), float(row["fitness"])
             curves[row["creature"], row["learner"], row["seed"]].append(point)
@@ -58,6 +85,7 @@ def main():
         panel.set_xlabel(label)
     rows[0][0].legend(frameon=False)
     figure.savefig(picture, metadata={"Date": None})
+    write_table(table, curves)
 
 
 if __name__ == "__main__":
