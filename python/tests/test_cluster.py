@@ -1,5 +1,6 @@
 """Experiments on machines that share no files: whatever is lost, the results are those of one process."""
 
+import json
 from pathlib import Path
 
 import pytest
@@ -124,3 +125,18 @@ def test_errors_are_told(tmp_path):
         experiment.carry_out(24)
     with pytest.raises(ValueError, match="there is no strategy or preset"):
         _experiments.experiment((COMPARISON[0], COMPARISON[1].replace('"ga"', '"gaa"')))
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        ({"trials": 0}, "trials = 0: must be from 1 to 1000"),
+        ({"spread": 1.0}, "spread = 1: must be above 1 and at most 1000"),
+        ({"strategy": "cmaes2"}, "cmaes2"),
+    ],
+)
+def test_a_tuning_is_checked(wrong, message):
+    """Before anything is handed out."""
+    kind, arguments = TUNING
+    with pytest.raises(ValueError, match=message):
+        _experiments.experiment(_experiments.recipe(kind, **{**json.loads(arguments), **wrong}))
