@@ -17,7 +17,8 @@
 //! - The first part is the *torso*. Every other part hangs by one hinge on a part that stands earlier in the list.
 //! - A part whose tag is one of the file's `actuated_tags` (default `leg`) is *actuated*: the motor of the hinge it
 //!   hangs on is an output of the net. Other parts come along passively.
-//! - A *foot* is the last segment of a leg: an actuated part on which nothing hangs.
+//! - A *foot* is the last segment of a leg: an actuated part on which nothing hangs. A chain with a part that says
+//!   `"leg": false` is an arm or a tail, and has no foot.
 //! - The file lists the *sensors*; by default the rotation of the torso and the angles of the actuated joints, both
 //!   relative to the start pose.
 //! - What an output asks of its motor, a speed or an angle, is the controller's [`Actuation`], and not the body's.

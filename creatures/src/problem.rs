@@ -25,8 +25,8 @@ pub enum Problem {
         /// The name, shortened.
         found: String,
     },
-    /// A name or tag that is empty or too long.
-    #[error("{path}: expected 1 to {LONGEST_NAME} characters, found {found:?}")]
+    /// A name or tag that is empty, too long, or has line breaks or other control characters.
+    #[error("{path}: expected 1 to {LONGEST_NAME} characters without line breaks, found {found:?}")]
     BadName {
         path: String,
         /// The name, shortened.

@@ -49,7 +49,7 @@ fn names() {
     problem!(
         |file| file["parts"][0]["tag"] = json!(" "),
         Problem::BadName { .. },
-        "parts[0].tag: expected 1 to 64 characters, found \" \""
+        "parts[0].tag: expected 1 to 64 characters without line breaks, found \" \""
     );
     let error = error_of(|file| file["parts"][2]["name"] = json!("left leg"));
     let message = "parts[2].name: `left leg` is already the name of parts[1]; each part needs a name of its own";

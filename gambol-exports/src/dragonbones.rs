@@ -62,11 +62,13 @@ impl Scale {
 fn skeleton(blueprint: &Blueprint, cycle: &Cycle, atlas: &Atlas, scale: Scale) -> Value {
     let order = blueprint.creature().drawing_order();
     let name = |part: usize| &blueprint.parts()[part].name;
+    // One that no part's name ends with, so that no two slots have the same.
+    let is_free = |ending: &String| blueprint.parts().iter().all(|part| !part.name.ends_with(ending.as_str()));
+    let boxed = (1..).map(|times| ":box".repeat(times)).find(is_free).unwrap_or_default();
     let bone = |(part, body): (usize, &BodyPart)| bone(blueprint, part, body, scale);
     let slots = |slot: &dyn Fn(usize, String) -> Value| -> Vec<Value> {
         let pictures = order.iter().map(|&part| slot(part, name(part).clone()));
-        // No part's name has a colon.
-        pictures.chain(order.iter().map(|&part| slot(part, format!("{}:box", name(part))))).collect()
+        pictures.chain(order.iter().map(|&part| slot(part, format!("{}{boxed}", name(part))))).collect()
     };
     let shown = |part: usize, slot: String| {
         let display = match slot == *name(part) {

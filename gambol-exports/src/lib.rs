@@ -150,7 +150,7 @@ pub fn export(
         Format::Player => vec![character_of(champion, registry)?.to_bytes()?],
         Format::Trace => vec![trace::of(champion, registry, options.steps)?],
         Format::Csv => vec![trajectory(champion, registry, options.steps)?],
-        Format::Gif => vec![picture::gif(&drawn(champion, registry, &options.picture)?)?],
+        Format::Gif => vec![picture::gif(&drawn_at(champion, registry, &options.picture, picture::GIF_RATE)?)?],
         Format::Apng => vec![picture::apng(&drawn(champion, registry, &options.picture)?)?],
         Format::Svg => {
             vec![picture::svg(
@@ -171,8 +171,15 @@ pub fn export(
 }
 
 fn drawn(champion: &Champion, registry: &Registry, picture: &Picture) -> Result<Loop, ExportError> {
+    drawn_at(champion, registry, picture, f64::INFINITY)
+}
+
+/// With at most so many frames a second.
+fn drawn_at(champion: &Champion, registry: &Registry, picture: &Picture, most: f64) -> Result<Loop, ExportError> {
+    picture.check()?;
     let cycle = Cycle::of_champion(champion, registry)?;
-    Loop::new(&Blueprint::new(champion.creature.clone())?, cycle, picture)
+    let picture = picture.at_most(most, &cycle);
+    Loop::new(&Blueprint::new(champion.creature.clone())?, cycle, &picture)
 }
 
 fn trajectory(champion: &Champion, registry: &Registry, steps: Option<u32>) -> Result<Vec<u8>, ExportError> {

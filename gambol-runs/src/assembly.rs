@@ -8,7 +8,7 @@ use crate::{
     strategies::StrategyError,
     suggest,
 };
-use ne_core::digest::Digest;
+use ne_core::{digest::Digest, field_path};
 use serde_json::{Map, Value, json};
 
 /// Why a configuration is not one. The message names the field, and the nearest valid name where a name is wrong.
@@ -126,10 +126,8 @@ impl<'a> Assembly<'a> {
     /// As [`finish`](Self::finish), for a look in between.
     pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
         self.check_names()?;
-        let config: RunConfig = serde_path_to_error::deserialize(&self.value).map_err(|error| {
-            let field = error.path().to_string();
-            ConfigError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
-        })?;
+        let config: RunConfig = field_path::read(self.value.to_string().as_bytes())
+            .map_err(|error| ConfigError::Field { field: error.path, message: suggest::explain(&error.message) })?;
         self.registry.strategies.check(&config.strategy)?;
         Ok(config)
     }

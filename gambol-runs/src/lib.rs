@@ -59,7 +59,7 @@ pub mod obstacles;
 pub mod perturbation;
 pub mod presets;
 mod program_name;
-mod recorder;
+pub mod recorder;
 pub mod reference;
 mod registry;
 pub mod request;

@@ -76,6 +76,14 @@ impl EarlierLines {
     }
 }
 
+/// Checks that the files of lines have all that they had when the checkpoint was written.
+///
+/// # Errors
+/// If a line is damaged or missing; the error names file and line.
+pub fn check_lines(folder: &RunFolder, config: &RunConfig) -> Result<(), FolderError> {
+    EarlierLines::check(folder, config, folder.read_standing()?.progress.generations).map(drop)
+}
+
 impl Recorder {
     /// Goes on after these lines; whatever the files hold beyond them is dropped.
     pub(crate) fn new(folder: RunFolder, earlier: EarlierLines) -> Result<Self, FolderError> {

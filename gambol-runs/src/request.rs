@@ -5,7 +5,7 @@ use crate::{
     assembly::{self, Assembly, ConfigError},
     catalogue::UnknownName,
     champion::{Champion, ChannelRecord},
-    config::{EngineChoice, FrozenTopology, RunConfig},
+    config::{EngineChoice, FrozenTopology, RunConfig, StrategySettings},
     presets::Preset,
     shaping::{self, ShapingError},
     source::{self, SourceError},
@@ -15,6 +15,7 @@ use crate::{
 use creatures::{Blueprint, Creature, CreatureError};
 use envs_rapier::Variation;
 use ne_core::{
+    StopConditions,
     archive::ArchiveError,
     bounded_read::{LARGEST_TEXT, read_text},
 };
@@ -46,6 +47,13 @@ pub struct Request {
     pub config: Option<PathBuf>,
     /// Further bodies of the creature: shipped creatures' names or creature files; if any, in place of the configuration file's.
     pub further_bodies: Vec<String>,
+    /// The seed.
+    pub seed: Option<u64>,
+    /// The number of individuals of a generation.
+    pub population: Option<usize>,
+    /// When the run ends. Evaluations, steps or minutes take the place of the preset's generations, but not of those that a file or
+    /// a setting names.
+    pub limits: StopConditions,
     /// Single settings, `key=value`.
     pub set: Vec<String>,
     /// The engine of training, by name.
@@ -123,6 +131,9 @@ impl Request {
         if let Some(entry) = entry.filter(|entry| entry.name() != base.strategy.name()) {
             base.strategy = entry.settings();
         }
+        if self.limits.evaluations.or(self.limits.steps).is_some() || self.limits.minutes.is_some() {
+            base.stop.generations = None;
+        }
         if self.unvaried {
             base.variation = Variation::default();
             base.training_steps = None;
@@ -150,7 +161,7 @@ impl Request {
             let further_bodies = self.further_bodies.iter().map(|name| source::creature(name, registry));
             assembly.lay_over(json!({ "further_bodies": further_bodies.collect::<Result<Vec<_>, _>>()? }));
         }
-        assembly.lay_over(self.choices(registry)?);
+        assembly.lay_over(self.choices(&base.strategy, registry)?);
         for assignment in &self.set {
             check_strategy_of(assignment, base.strategy.name(), registry)?;
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
@@ -163,9 +174,24 @@ impl Request {
         Ok(config)
     }
 
-    /// The engine, the variation and the terrain that were asked for by name.
-    fn choices(&self, registry: &Registry) -> Result<Value, RequestError> {
+    /// What was asked for on its own.
+    fn choices(&self, strategy: &StrategySettings, registry: &Registry) -> Result<Value, RequestError> {
         let mut choices = json!({});
+        if let Some(seed) = self.seed {
+            choices["seed"] = seed.into();
+        }
+        if let Some(population) = self.population {
+            let name = strategy.name();
+            if !strategy.settings().contains_key("population") {
+                let message = format!("the strategy {name} has no population whose size could be chosen");
+                return Err(RequestError::Unknown(message));
+            }
+            choices["strategy"] = json!({ name: { "population": population } });
+        }
+        if let Value::Object(mut limits) = json!(self.limits) {
+            limits.retain(|_, limit| !limit.is_null());
+            choices["stop"] = limits.into();
+        }
         if let Some(name) = &self.engine {
             let unknown =
                 || RequestError::Unknown(suggest::unknown("engine", name, &EngineChoice::ALL.map(EngineChoice::name)));

@@ -16,6 +16,7 @@ pub use crate::whole_file::{
 use crate::{
     bounded_read::{self, LARGEST_DATA},
     digest::JsonDigest,
+    field_path::{self, without_place},
 };
 use serde::{
     Deserialize, Deserializer, Serialize,
@@ -145,6 +146,10 @@ pub fn write(
         text.write_all(b"\n")?;
         text.flush()?;
         drop(text);
+        if file.stream_position()? > LARGEST_DATA {
+            let message = "it would have more than 4096 MiB, and could not be read again";
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+        }
         // The digest is that of what a reader will see: an f32 as its shortest decimal.
         file.rewind()?;
         let header = read_header(&mut serde_json::Deserializer::from_reader(BufReader::new(&mut *file)))?;
@@ -288,24 +293,18 @@ pub fn content<C: DeserializeOwned>(path: &Path, content: Value) -> Result<C, Ar
 }
 
 fn parsed<T: DeserializeOwned>(path: &Path, text: &[u8]) -> Result<T, ArchiveError> {
-    let mut reader = serde_json::Deserializer::from_slice(text);
-    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-        let field = match error.path().to_string() {
-            top if top == "." => "content".to_owned(),
-            field => field.strip_prefix("content.").map_or(field.clone(), str::to_owned),
+    field_path::read(text).map_err(|error| {
+        let field = match error.path.as_str() {
+            "." => "content",
+            field => field.strip_prefix("content.").unwrap_or(field),
         };
         // The field says where, in whatever layout.
-        ArchiveError::Content { path: path.into(), message: format!("field {field}: {}", without_place(error.inner())) }
+        let message = format!("field {field}: {}", error.message);
+        ArchiveError::Content { path: path.into(), message }
     })
 }
 
 fn malformed(path: &Path, error: &serde_json::Error) -> ArchiveError {
     let (line, column) = (error.line(), error.column());
-    ArchiveError::Malformed { path: path.into(), line, column, message: without_place(error) }
-}
-
-/// What the parser says, without its "at line 1 column 2".
-fn without_place(error: &serde_json::Error) -> String {
-    let full = error.to_string();
-    full.rsplit_once(" at line ").map_or(full.as_str(), |(message, _)| message).to_owned()
+    ArchiveError::Malformed { path: path.into(), line, column, message: without_place(&error.to_string()).to_owned() }
 }

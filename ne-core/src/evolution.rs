@@ -80,6 +80,18 @@ pub enum EvolutionError {
     },
 }
 
+impl EvolutionError {
+    /// The generation, from 1, if the error knows it; an observer's does not: it was told of the last that is over.
+    pub fn generation(&self) -> Option<u64> {
+        match *self {
+            Self::Observer(_) => None,
+            Self::EmptyPopulation { generation, .. }
+            | Self::EvaluationCount { generation, .. }
+            | Self::ReEvaluationCount { generation, .. } => Some(generation),
+        }
+    }
+}
+
 impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {

@@ -25,6 +25,7 @@
 //! With `default-features = false` this crate is the traits and plain data alone. Features:
 //!
 //! - `selection`: the five selectors,
+//! - `fields`: reads values so that an error names the field,
 //! - `evolution` (default): the loop, stop conditions, observers, checkpoints, the serial evaluator, the conformance kit,
 //! - `parallel` (default): the evaluator that uses several threads.
 //!
@@ -92,6 +93,7 @@ mod phenotype;
 mod seed;
 mod selector;
 mod setting;
+mod share;
 mod strategy;
 mod task;
 mod threads;
@@ -112,6 +114,8 @@ pub mod digest;
 mod evaluator;
 #[cfg(feature = "evolution")]
 mod evolution;
+#[cfg(feature = "fields")]
+pub mod field_path;
 #[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
@@ -141,6 +145,7 @@ pub use selector::Selector;
 #[cfg(feature = "selection")]
 pub use selector::{RankSelector, Roulette, Selection, StochasticUniversal, Tournament, Truncation};
 pub use setting::SettingError;
+pub use share::{share_rounded_down, share_rounded_up};
 pub use strategy::{FrontPoint, Origin, SpeciesReport, Statistic, Strategy};
 pub use task::{Task, TaskFn};
 pub use threads::Threads;

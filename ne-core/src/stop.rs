@@ -140,7 +140,11 @@ impl StopConditions {
             return Err(SettingError::new("target", target, "a finite number"));
         }
         if *self == Self::default() {
-            return Err(SettingError::new("stop", "nothing", "at least one condition, or the run would never end"));
+            return Err(SettingError::new(
+                "generations",
+                "none",
+                "a number, as there is no other limit and the run would never end",
+            ));
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Cheaper evaluations before the whole one, of which only the best individuals get it.
 
-use crate::{Evaluation, Evaluator, Failure, Fitness, Genome, Seed, Task};
+use crate::{Evaluation, Evaluator, Failure, Fitness, Genome, Seed, Task, share_rounded_up};
 use std::{cmp::Reverse, fmt, sync::Arc};
 
 /// Spends the whole evaluation on the promising individuals: all are evaluated on a cheaper task first, and only the
@@ -102,9 +102,7 @@ impl<E: Evaluator> SuccessiveHalving<E> {
 
 /// How many of `count` go on: this share of them, rounded up, and at least one.
 fn places(share: f64, count: usize) -> usize {
-    // 0.07 × 100 is 7.000000000000001 in binary: 7 places, not 8.
-    let places = (share * count as f64 - 1e-9).ceil();
-    (places as usize).clamp(1, count.max(1))
+    share_rounded_up(share, count).clamp(1, count.max(1))
 }
 
 /// The indices of all, the best first, of equals the first; failures last.

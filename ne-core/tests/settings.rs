@@ -34,7 +34,7 @@ fn stop_conditions_name_the_field() {
     assert_eq!(message(StopConditions { minutes: Some(0.0), ..none }), "minutes = 0: must be above 0");
     assert_eq!(message(StopConditions { minutes: Some(f64::INFINITY), ..none }), "minutes = inf: must be above 0");
     assert_eq!(message(StopConditions { target: Some(f64::NAN), ..none }), "target = NaN: must be a finite number");
-    let never = "stop = nothing: must be at least one condition, or the run would never end";
+    let never = "generations = none: must be a number, as there is no other limit and the run would never end";
     assert_eq!(message(none), never);
     assert_eq!(StopConditions { target: Some(-1.0), ..none }.validate(), Ok(()));
 }

@@ -1,7 +1,7 @@
 //! The selection of a child's parents.
 
 use crate::{noise::happens, speciation::Species};
-use ne_core::{RandomStream, SettingError};
+use ne_core::{RandomStream, SettingError, share_rounded_up};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
@@ -42,7 +42,7 @@ impl ReproductionSettings {
     /// Those of a species that breed.
     pub(crate) fn survivors<'a>(&self, species: &'a Species) -> &'a [usize] {
         let size = species.members.len();
-        let survivors = (self.survival_share * size as f64).ceil() as usize;
+        let survivors = share_rounded_up(self.survival_share, size);
         &species.members[..survivors.clamp(1, size)]
     }
 

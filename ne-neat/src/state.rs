@@ -1,5 +1,6 @@
 use crate::{
-    ConnectionGene, GenomeError, Neat, NeatGenome, NeatSettings, NodeGene, innovation::Innovations, speciation::Species,
+    ConnectionGene, GenomeError, InnovationNumber, Neat, NeatGenome, NeatSettings, NodeGene, NodeId,
+    innovation::Innovations, speciation::Species,
 };
 use ne_core::{Fitness, SettingError};
 use ne_net::Copies;
@@ -47,9 +48,9 @@ pub enum StateError {
         /// The next that the registry will give.
         next: u32,
     },
-    /// Genes of one number are not the same connection.
+    /// Genes of one number are not the same connection, or one is not that which the number is for.
     #[error(
-        "{field}[{index}]: innovation {innovation} leads from {from} to {to}, elsewhere from {other_from} to {other_to}"
+        "{field}[{index}]: innovation {innovation} leads from {from} to {to}, must lead from {other_from} to {other_to}"
     )]
     Ends {
         /// Which generation: `parents` or `asked`.
@@ -62,9 +63,9 @@ pub enum StateError {
         from: u32,
         /// Where it leads to here.
         to: u32,
-        /// Where it comes from in an individual before.
+        /// Where it must come from: as in an individual before, or from an input.
         other_from: u32,
-        /// Where it leads to in an individual before.
+        /// Where it must lead to: as in an individual before, or to an output.
         other_to: u32,
     },
     /// Species are not in the order of their numbers, or one has a number that has not been given yet.
@@ -207,6 +208,16 @@ impl TryFrom<State> for Neat {
             return Err(StateError::Threshold { found: state.threshold });
         }
         neat.threshold = state.threshold;
+        let Innovations { next_node, next_innovation, .. } = state.innovations;
+        let first = [neat.layout.first_hidden(), (neat.layout.sources() * neat.layout.outputs) as InnovationNumber];
+        for (field, found, least) in
+            [("next_node", next_node, first[0]), ("next_innovation", next_innovation, first[1])]
+        {
+            if found < least {
+                let allowed = format!("at least {least}, the first that is free");
+                return Err(SettingError::new(format!("innovations.{field}"), found, allowed).into());
+            }
+        }
         neat.innovations = state.innovations;
         neat.scores = state.parents.iter().map(|parent| parent.fitness).collect();
         neat.next_species = state.next_species;
@@ -280,13 +291,19 @@ fn generation(field: &str, genes: Vec<Genes>, expected: usize, neat: &Neat) -> R
     genes.into_iter().enumerate().map(genome).collect()
 }
 
-/// Genes of one number must be the same connection, or crossover could make genomes that are none.
+/// Genes of one number must be the same connection, those of the first numbers from an input to an output, or crossover could make genomes that are none.
 fn check_ends(neat: &Neat) -> Result<(), StateError> {
+    let sources = neat.layout.sources() as NodeId;
+    let outputs = neat.layout.outputs as NodeId;
+    let direct = sources * outputs;
     let mut ends = BTreeMap::new();
     for (field, generation) in [("start", &neat.start), ("parents", &neat.parents), ("asked", &neat.population)] {
         for (index, genome) in generation.iter().enumerate() {
             for &ConnectionGene { innovation, from, to, .. } in genome.connections() {
-                let (other_from, other_to) = *ends.entry(innovation).or_insert((from, to));
+                let (other_from, other_to) = *ends.entry(innovation).or_insert_with(|| match innovation < direct {
+                    true => (innovation / outputs, sources + innovation % outputs),
+                    false => (from, to),
+                });
                 if (other_from, other_to) != (from, to) {
                     let field = field.into();
                     return Err(StateError::Ends { field, index, innovation, from, to, other_from, other_to });

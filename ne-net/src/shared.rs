@@ -143,7 +143,8 @@ impl SharedWeight {
 impl SharedShape {
     /// The number of genes.
     pub fn gene_count(&self) -> usize {
-        self.groups.iter().sum()
+        // More than can be counted is refused as too many.
+        self.groups.iter().fold(0, |sum, &group| sum.saturating_add(group))
     }
 
     /// The weights of the net.

@@ -9,7 +9,7 @@ use gambol_runs::{
     strategies::AnyStrategy,
     training::{Answers, Outcome, Resources, Step, TrainError},
 };
-use ne_core::{Generation, StopReason};
+use ne_core::{Generation, StopConditions, StopReason};
 use pyo3::{
     exceptions::{PyKeyboardInterrupt, PyOSError, PyRuntimeError},
     prelude::*,
@@ -53,16 +53,14 @@ pub(crate) fn train(
         variation,
         engine,
         config,
+        seed,
+        population,
+        limits: StopConditions { generations, ..StopConditions::default() },
         set: settings,
         ..Request::default()
     };
     py.detach(|| {
-        let mut config = request.resolve(registry()).map_err(wrong)?;
-        config.seed = seed.unwrap_or(config.seed);
-        config.stop.generations = generations.or(config.stop.generations);
-        if let Some(population) = population {
-            config.strategy.set_population(population);
-        }
+        let config = request.resolve(registry()).map_err(wrong)?;
         let run = Run::begin(&config, &folder, resources(threads)).map_err(broken)?;
         until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })

@@ -4,7 +4,10 @@ use crate::{
     Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Playing, Posture, Rhythm, Rollovers, Running,
     Slip, Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
-use ne_core::SettingError;
+use ne_core::{
+    SettingError,
+    field_path::{self, FieldError},
+};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
 use serde_json::{Map, Value};
 use std::{fmt, sync::Arc};
@@ -475,9 +478,8 @@ impl MovementCatalogue {
 
 /// Reads settings of their own type from what a file says.
 fn parse<S: DeserializeOwned>(settings: &MovementSettings) -> Result<S, MovementSpecError> {
-    serde_path_to_error::deserialize(&Value::Object(settings.clone())).map_err(|error| {
-        let path = error.path().to_string();
+    field_path::read(Value::Object(settings.clone()).to_string().as_bytes()).map_err(|FieldError { path, message }| {
         let field = if path == "." { String::new() } else { path };
-        MovementSpecError::Settings { field, message: error.into_inner().to_string() }
+        MovementSpecError::Settings { field, message }
     })
 }

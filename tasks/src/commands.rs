@@ -81,7 +81,8 @@ pub struct RandomCommands {
     /// The share of the other holds in which it is told to go backwards, from 0 to 1; default 0.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub backwards: f32,
-    /// The share of holds in which it is told to jump once, from 0 to 1; default 0.3. Those holds are 2 s longer.
+    /// The share of holds in which it is told to jump once, from 0 to 1; default 0.3. Those holds are 2 s longer, more if the
+    /// button is held for more than 1.5 s.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub jumps: f32,
     /// How long the button is held, s, from 0.02 to 2; default 0.2.
@@ -201,7 +202,7 @@ impl RandomCommands {
             let mut seconds = between(self.hold, hold);
             if jumps < self.jumps {
                 let pressed = time + BEFORE_PRESS + seconds * press;
-                seconds += BEFORE_PRESS + AFTER_PRESS;
+                seconds += BEFORE_PRESS + AFTER_PRESS.max(self.press);
                 changes.push(CommandChange { time: pressed, speed, jump: true });
                 changes.push(CommandChange { time: pressed + self.press, speed, jump: false });
             }

@@ -31,7 +31,8 @@ pub(super) fn check(creature: &Creature, problems: &mut Vec<Problem>) {
 }
 
 fn check_name(path: &str, field: &str, name: &str, problems: &mut Vec<Problem>) {
-    if name.trim().is_empty() || name.chars().count() > LONGEST_NAME {
+    let has_control = name.chars().any(char::is_control);
+    if name.trim().is_empty() || has_control || name.chars().count() > LONGEST_NAME {
         problems.push(Problem::BadName { path: format!("{path}.{field}"), found: shortened(name) });
     }
 }

@@ -94,6 +94,11 @@ pub enum PlanError {
     /// Something is missing.
     #[error("say {0}")]
     Missing(&'static str),
+    /// A setting that a comparison chooses itself.
+    #[error(
+        "--set {0}: a comparison has seeds and a budget of its own (--first-seed, --seeds, --evaluations, --steps)"
+    )]
+    Own(String),
     /// The same thing twice.
     #[error("{what} \"{name}\" is there twice; give each a name of its own")]
     Twice {
@@ -196,6 +201,12 @@ impl PlanRequest {
     }
 
     fn cell(&self, method: &Method, creature: &str, movement: &str, registry: &Registry) -> Result<Cell, PlanError> {
+        let field = |assignment: &String| assignment.split(['=', '.']).next().map(|field| field.trim().to_owned());
+        if let Some(own) =
+            self.set.iter().find(|set| field(set).is_some_and(|field| field == "seed" || field == "stop"))
+        {
+            return Err(PlanError::Own(own.clone()));
+        }
         let request = Request {
             creature: Some(creature.into()),
             movement: Some(movement.into()),

@@ -33,7 +33,7 @@ pub struct Point {
     pub steps: u64,
     /// Seconds of wall clock since the run began. The one number that differs between equal runs.
     pub seconds: f64,
-    /// The best fitness so far; `None` while every evaluation failed, and before the first re-evaluation of a champion selection.
+    /// The champion's fitness; `None` while every evaluation failed, and before the first re-evaluation of a champion selection.
     pub best: Option<f64>,
 }
 

@@ -10,9 +10,10 @@ use gambol_runs::training::TrainError;
 /// If a run cannot be done or a file cannot be written; runs under way are finished first.
 pub fn work(folder: &ComparisonFolder, plan: &Plan, options: &WorkOptions<'_, f64>) -> Result<usize, CompareError> {
     let mine = options.part.of(plan.jobs());
-    let work = Work::new(options, mine.len());
-    work.side_by_side(options.workers(), &mine, Job::name, |job| run(folder, job, options))?;
-    Ok(work.left())
+    Work::new(options, mine.len())
+        .side_by_side(options.workers(), &mine, Job::name, |job| run(folder, job, options))?;
+    // Other processes may have done what this one found them at.
+    mine.iter().try_fold(0, |left, job| Ok(left + usize::from(folder.result(job)?.is_none())))
 }
 
 /// Does a run, unless it is done, or goes on with it.

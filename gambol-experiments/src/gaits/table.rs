@@ -24,8 +24,9 @@ pub fn scenario_row(runs: &[GaitRun], count_steps: bool, registry: &Registry) ->
         true => (" M", |run| run.steps_to_usable.map(|steps| steps as f64 / 1e6)),
         false => (" s", |run| run.seconds_to_usable),
     };
-    let times: Vec<f64> = runs.iter().filter_map(time_of).collect();
-    let slowest = times.iter().copied().reduce(f64::max).filter(|_| usable == runs.len());
+    // A run that never was usable took longer than any.
+    let times: Vec<f64> = runs.iter().map(|run| time_of(run).unwrap_or(f64::INFINITY)).collect();
+    let slowest = times.iter().copied().reduce(f64::max).filter(|time| time.is_finite());
     let shown = |number: Option<f64>, unit: &str| number.map_or_else(|| UNKNOWN.into(), |n| format!("{n:.2}{unit}"));
     let quality = middle(runs.iter().filter_map(|run| run.quality).collect());
     let goal = registry.movements.rules(movement).map(|rules| rules.view().goal);
@@ -37,7 +38,7 @@ pub fn scenario_row(runs: &[GaitRun], count_steps: bool, registry: &Registry) ->
         creature.clone(),
         movement.clone(),
         format!("{usable}/{}", runs.len()),
-        shown(middle(times), time_unit),
+        shown(middle(times).filter(|time| time.is_finite()), time_unit),
         shown(slowest, time_unit),
         shown(quality, unit),
         percent(middle(shares)),

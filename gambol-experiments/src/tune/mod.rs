@@ -11,6 +11,7 @@ mod draw;
 pub use draw::draw;
 
 use crate::compare::{Analysis, CompareError, ComparisonFolder, Method, Plan, PlanError, PlanRequest, write_outcome};
+use crate::work::is_free;
 use gambol_runs::{Registry, config::StrategySettings};
 use serde_json::json;
 use std::{
@@ -65,7 +66,21 @@ pub enum TuneError {
         /// The file that differs.
         file: PathBuf,
     },
-    /// A file cannot be read or written.
+    /// There is something else in the folder.
+    #[error("{} is not empty and holds no tuning; choose another folder with --out", folder.display())]
+    Exists {
+        /// The folder.
+        folder: PathBuf,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// A file cannot be written.
     #[error("cannot write {}: {source}", path.display())]
     Write {
         /// The file.
@@ -91,7 +106,12 @@ impl Tuning {
     /// If another tuning was begun in the folder, or a file cannot be written.
     pub fn begin(&self, folder: &Path) -> Result<(), TuneError> {
         let place = folder.join("trials");
-        fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+        let read = |source| TuneError::Read { path: folder.into(), source };
+        if !place.is_dir() && !is_free(folder).map_err(read)? {
+            return Err(TuneError::Exists { folder: folder.into() });
+        }
+        // All are looked at before one is written.
+        let mut missing = Vec::new();
         for (settings, name) in self.trials.iter().zip(&self.plan.methods) {
             let path = place.join(format!("{name}.json"));
             match fs::read_to_string(&path) {
@@ -99,10 +119,12 @@ impl Tuning {
                     return Err(TuneError::Other { folder: folder.into(), file: path });
                 }
                 Ok(_) => {}
-                Err(_) => write_tuned(&path, settings)?,
+                Err(error) if error.kind() == io::ErrorKind::NotFound => missing.push((path, settings)),
+                Err(source) => return Err(TuneError::Read { path, source }),
             }
         }
-        Ok(())
+        fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+        missing.into_iter().try_for_each(|(path, settings)| write_tuned(&path, settings))
     }
 
     /// The folder of the comparison in that of the tuning.

@@ -8,6 +8,9 @@ const OPAQUE: u8 = 128;
 /// The most colours of an image; one more stands for what is not there.
 const COLOURS: usize = 255;
 
+/// The most frames a second. Browsers show a frame that is to last less than 2/100 s for 10/100 s.
+pub(crate) const GIF_RATE: f64 = 50.0;
+
 /// A loop as a GIF image that repeats for ever.
 pub(crate) fn gif(drawn: &Loop) -> Result<Vec<u8>, ExportError> {
     let [width, height] =

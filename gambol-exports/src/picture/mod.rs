@@ -6,7 +6,7 @@ mod sprites;
 mod svg;
 
 pub(crate) use apng::apng;
-pub(crate) use gif::gif;
+pub(crate) use gif::{GIF_RATE, gif};
 pub(crate) use sprites::sprites;
 pub(crate) use svg::svg;
 
@@ -20,7 +20,7 @@ use tasks::Snapshot;
 pub struct Picture {
     /// The longer side of a frame, px; 16 to 2048, default 256.
     pub size: u32,
-    /// Frames a second, 1 to 60; default 25. A loop has as many as fit best.
+    /// Frames a second, 1 to 60, of which a GIF shows at most 50; default 25. A loop has as many as fit best.
     pub rate: f64,
     /// Whether there is sky and ground behind the creature; default no, it stands before nothing.
     pub ground: bool,
@@ -40,6 +40,11 @@ impl Picture {
         };
         within("size", self.size.into(), [16.0, 2048.0])?;
         within("rate", self.rate, [1.0, 60.0])
+    }
+
+    /// The same with at most so many frames a second, of which a cycle has a whole number.
+    pub(crate) fn at_most(self, rate: f64, cycle: &Cycle) -> Self {
+        Self { rate: self.rate.min((cycle.seconds * rate).floor() / cycle.seconds), ..self }
     }
 }
 
@@ -83,7 +88,7 @@ impl Loop {
         }
         let (wide, high) = (right - left, top - bottom);
         let scale = (f64::from(picture.size) - 2.0 * MARGIN) / wide.max(high);
-        let pixels = |metres: f64| (metres * scale + 2.0 * MARGIN).ceil().max(1.0);
+        let pixels = |metres: f64| (metres * scale + 2.0 * MARGIN).ceil().clamp(1.0, f64::from(picture.size));
         let (width, height) = (pixels(wide), pixels(high));
         let origin = [0.5 * width - 0.5 * (left + right) * scale, height - MARGIN + bottom * scale];
         // As many marks as let the last frame lead to the first.

@@ -68,6 +68,20 @@ fn a_gif_shows_what_was_drawn_for_as_long_and_for_ever() {
     }
 }
 
+#[test]
+fn no_frame_of_a_gif_is_shorter_than_browsers_show_it() {
+    for (body, cycle) in samples() {
+        for rate in [60.0, 50.0, 47.3] {
+            let picture = Picture { rate, size: 32, ..PICTURE }.at_most(GIF_RATE, &cycle);
+            let bytes = gif(&Loop::new(&body, cycle.clone(), &picture).expect("it can be drawn")).expect("a GIF");
+            for frame in gift::Decoder::new(&bytes[..]).into_frames() {
+                let control = frame.expect("sound").graphic_control_ext.expect("animated");
+                assert!(control.delay_time_cs() >= 2, "{} at {rate}: {control:?}", body.name());
+            }
+        }
+    }
+}
+
 /// That each pixel has the colour that was drawn, as near as a palette has it.
 fn assert_near(drawn: &[u8], shown: &[u8], name: &str) {
     assert_eq!(drawn.len(), shown.len());

@@ -21,6 +21,7 @@ use gambol_runs::{
     episode_parts::SetupError,
     front::Front,
     judge::Judge,
+    recorder::check_lines,
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     trajectory::Recording,
 };
@@ -90,6 +91,9 @@ pub fn is_up_to_date(folder: &RunFolder, generations: u64) -> bool {
 /// The report of a run with one task.
 fn compose(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -> Result<Report, ReportError> {
     let config = folder.read_config()?;
+    if folder.checkpoint().is_file() {
+        check_lines(folder, &config)?;
+    }
     let (log, gallery) = (folder.read_log()?, folder.read_gallery()?);
     let champion = match folder.champion().is_file() {
         true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),

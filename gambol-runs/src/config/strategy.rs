@@ -1,6 +1,7 @@
 //! The search a configuration names.
 
 use crate::layers::merge;
+use ne_core::field_path::{self, FieldError};
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{DeserializeOwned, Error},
@@ -42,10 +43,10 @@ impl StrategySettings {
     }
 
     /// Its settings as what they are.
-    pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, serde_path_to_error::Error<serde_json::Error>> {
+    pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, FieldError> {
         // Through text: a number is rounded once, to what it becomes.
         let text = Value::Object(self.settings.clone()).to_string();
-        serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_str(&text))
+        field_path::read(text.as_bytes())
     }
 
     /// Changes one setting.

@@ -26,12 +26,12 @@ struct Plan {
     /// Of a few searches for the stride, or for the jump, the best goes on.
     starts: u64,
     /// What a jump is worth in `polish`, s. A press that fails by a few centimetres costs little of it, and all of a schedule of
-    /// commands; where a jump was worth as much as of other bodies, a biped fell more (docs/playing.md).
+    /// commands; where a jump was worth as much as of other bodies, a biped fell more (docs/playing-experiments.md).
     polished_jump: f64,
 }
 
 /// Five of five tetrapods that earned less than 45 s after 15 million steps of `jump` were not playable after 70 million, and of ten that
-/// earned more six were (docs/playing.md).
+/// earned more six were (docs/playing-experiments.md).
 const PLAN: Plan = Plan {
     move_on: [8_000_000, 16_000_000],
     follow: [8_000_000, 100_000_000],
@@ -45,7 +45,7 @@ const PLAN: Plan = Plan {
 };
 
 /// Bodies that balance find each of it later. Of nine searches for their jump three earned less than 36 s after 25 million steps, and 32,
-/// 36 and 48 in the end; the others 47 to 52 (docs/playing.md).
+/// 36 and 48 in the end; the others 47 to 52 (docs/playing-experiments.md).
 const BALANCED_PLAN: Plan = Plan {
     move_on: [8_000_000, 60_000_000],
     follow: [20_000_000, 40_000_000],
@@ -69,7 +69,7 @@ const STANDING: f32 = 0.25;
 const JUMP_CLOCKS: [f32; 2] = [0.4, 0.8];
 
 /// The same for two legs with knees: with the shorter ones biped-2 does not jump, in three of three searches; with these biped-1 and
-/// tetrapod-2 miss more presses (docs/playing.md).
+/// tetrapod-2 miss more presses (docs/playing-experiments.md).
 const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.6, 1.2];
 
 /// What a jump is worth while there is nothing else to learn, s.

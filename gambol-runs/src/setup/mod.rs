@@ -150,8 +150,8 @@ impl Setup {
         if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
             let judged: Vec<&str> = registry.movements.judged().collect();
             let allowed = format!(
-                "null where no gaits are judged during training: only those of {} are, and only in runs with a variation, a \
-                 shortened training episodes or further_bodies",
+                "null where no gaits are judged during training: only those of {} are, and only in runs with variation, \
+                 shortened training episodes or further bodies",
                 judged.join(", ")
             );
             return Err(SettingError::new("stop.tier", "a tier (--until usable)", allowed).into());

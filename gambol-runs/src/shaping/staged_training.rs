@@ -27,6 +27,8 @@ pub struct StagedTraining<C> {
     /// Those that are over.
     stage_runs: Vec<StageRun>,
     current: Option<Current>,
+    /// Whether the folder's configuration has other stop conditions still: it is written once the stages are known to be whole.
+    has_new_stop: bool,
     _lock: FolderLock,
 }
 
@@ -59,7 +61,9 @@ impl StagedTraining<Stages> {
     /// As [`resume_stages`](super::resume_stages).
     pub fn resume(folder: &Path, stop: Option<StopConditions>, resources: Resources) -> Result<Self, ShapingError> {
         let folder = RunFolder::open(folder)?;
-        let stages = Stages::listed(&folder.read_config()?, &resources.registry)?;
+        let mut config = folder.read_config()?;
+        config.stop = stop.unwrap_or(config.stop);
+        let stages = Stages::listed(&config, &resources.registry)?;
         Self::resume_curriculum(stages, &folder, stop, resources)
     }
 }
@@ -90,18 +94,19 @@ impl<C: Curriculum> StagedTraining<C> {
         stop: Option<StopConditions>,
         resources: Resources,
     ) -> Result<Self, ShapingError> {
-        let mut config = folder.read_config()?;
         let lock = folder.lock()?;
-        if let Some(stop) = stop.filter(|&stop| stop != config.stop) {
-            config.stop = stop;
-            folder.write_config(&config)?;
-        }
-        Ok(Self::new(curriculum, config, folder.clone(), lock, resources))
+        let mut config = folder.read_config()?;
+        let planned = config.stop;
+        config.stop = stop.unwrap_or(planned);
+        config.stop.validate().map_err(|error| TrainError::from(SetupError::from(error.within("stop"))))?;
+        let has_new_stop = config.stop != planned;
+        Ok(Self { has_new_stop, ..Self::new(curriculum, config, folder.clone(), lock, resources) })
     }
 
     fn new(curriculum: C, config: RunConfig, folder: RunFolder, _lock: FolderLock, resources: Resources) -> Self {
         let began = Instant::now();
-        Self { curriculum, config, folder, resources, began, stage_runs: Vec::new(), current: None, _lock }
+        let stage_runs = Vec::new();
+        Self { curriculum, config, folder, resources, began, stage_runs, current: None, has_new_stop: false, _lock }
     }
 
     /// Where it writes.
@@ -145,7 +150,11 @@ impl<C: Curriculum> StagedTraining<C> {
         generation: impl FnOnce(&mut Training) -> Result<Step, TrainError>,
     ) -> Result<Step, ShapingError> {
         let Some(current) = &mut self.current else {
-            return Ok(match self.next(stage_progress)? {
+            let next = self.next(stage_progress)?;
+            if std::mem::take(&mut self.has_new_stop) {
+                self.folder.write_config(&self.config)?;
+            }
+            return Ok(match next {
                 Next::Stage(current) => {
                     self.current = Some(*current);
                     Step::Done

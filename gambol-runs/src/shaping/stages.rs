@@ -13,6 +13,7 @@ use creatures::Sensor;
 use envs_core::Variation;
 use ne_core::{
     SettingError,
+    field_path::{self, FieldError},
     promotion::{Decision, Promotion, PromotionRule, StageState},
 };
 use serde_json::{Value, json};
@@ -216,8 +217,10 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
     let mut assembly = Assembly::new(before, registry);
     let mut creature = before.creature.clone();
     if let Some(changed) = settings.changes.get("creature") {
-        creature = serde_json::from_value(changed.clone())
-            .map_err(|error| ConfigError::Field { field: "creature".into(), message: error.to_string() })?;
+        creature = field_path::read(changed.to_string().as_bytes()).map_err(|FieldError { path, message }| {
+            let field = if path == "." { "creature".into() } else { format!("creature.{path}") };
+            ConfigError::Field { field, message }
+        })?;
         // A creature is chosen as a whole, too.
         assembly.lay_over(json!({ "creature": null }));
     }

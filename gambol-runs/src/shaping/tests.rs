@@ -258,7 +258,7 @@ fn errors_of_a_leg_are_told_of_the_run() {
     let over = TrainError::Over { folder: leg.clone(), reason: StopReason::Generations, generations: 6 };
     let message = told(over);
     assert!(message.starts_with("the run in runs/all has ended: "), "{message}");
-    assert!(message.ends_with(" (generation 20); to go on, raise its limit, such as --generations 120"), "{message}");
+    assert!(message.ends_with(" (generation 20); to go on, say --generations 120"), "{message}");
     let source = EvolutionError::EmptyPopulation { strategy: "cma-es".into(), generation: 3 };
     let message = told(TrainError::BrokeOff { folder: leg, generation: 2, source });
     assert!(message.contains("\nthe run stopped in generation 16; "), "{message}");

@@ -2,7 +2,7 @@
 
 use super::{AnyGenome, AnyStrategy, NetStrategy, any::any_checkpoint};
 use crate::{config::StrategySettings, suggest};
-use ne_core::{Checkpoint, SettingError, archive::ArchiveError};
+use ne_core::{Checkpoint, SettingError, archive::ArchiveError, field_path::FieldError};
 use ne_net::Topology;
 use std::{fmt, marker::PhantomData, path::Path, sync::Arc};
 
@@ -95,8 +95,16 @@ impl StrategyCatalogue {
     /// If there is none of this name.
     pub fn of(&self, settings: &StrategySettings) -> Result<&StrategyEntry, StrategyError> {
         // By its name alone: files have no aliases.
-        let found = self.entries.iter().find(|entry| entry.name == settings.name());
-        found.ok_or_else(|| StrategyError::Unknown { message: self.unknown(settings.name()) })
+        let name = settings.name();
+        let found = self.entries.iter().find(|entry| entry.name == name);
+        found.ok_or_else(|| {
+            let meant = self.entries.iter().find(|entry| entry.alias.as_deref() == Some(name));
+            let message = meant.map_or_else(
+                || self.unknown(name),
+                |entry| format!("in files and settings the strategy \"{name}\" is called \"{}\"", entry.name),
+            );
+            StrategyError::Unknown { message }
+        })
     }
 
     /// Checks that there is such a strategy and that it has these settings, of these types; not their ranges.
@@ -225,11 +233,10 @@ struct KindOf<S>(PhantomData<fn() -> S>);
 
 impl<S: NetStrategy> KindOf<S> {
     fn parse(settings: &StrategySettings) -> Result<S::Settings, StrategyError> {
-        settings.parse().map_err(|error| {
-            let place = error.path().to_string();
-            let place = if place == "." { String::new() } else { format!(".{place}") };
+        settings.parse().map_err(|FieldError { path, message }| {
+            let place = if path == "." { String::new() } else { format!(".{path}") };
             let field = format!("strategy.{}{place}", S::NAME);
-            StrategyError::Field { field, message: suggest::explain(&error.into_inner().to_string()) }
+            StrategyError::Field { field, message: suggest::explain(&message) }
         })
     }
 }

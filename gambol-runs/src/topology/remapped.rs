@@ -28,7 +28,7 @@ impl FrozenTopology {
 
     fn remapped_graph(&self, shape: &GraphShape, inputs: &[String], outputs: &[String]) -> GraphShape {
         let place = |name: &String| inputs.iter().position(|other| other == name);
-        // What is no neuron stays below them, and is refused when it is used.
+        // What is no neuron stays below them, and is refused when it is used; so is an output that the net does not have.
         let neuron_node = |node: usize| (inputs.len() + node).saturating_sub(shape.inputs);
         let source_node = |&node: &usize| match self.inputs.get(node).filter(|_| node < shape.inputs) {
             Some(name) => place(name),
@@ -46,7 +46,7 @@ impl FrozenTopology {
         let activation = shape.outputs.first().and_then(|&output| shape.neurons.get(output.checked_sub(shape.inputs)?));
         let activation = activation.map_or(Activation::Tanh, |neuron| neuron.activation);
         let mut output_node = |name: &String| match self.outputs.iter().position(|other| other == name) {
-            Some(output) => neuron_node(shape.outputs[output]),
+            Some(output) => shape.outputs.get(output).map_or(0, |&node| neuron_node(node)),
             None => {
                 neurons.push(GraphNeuron { activation, bias: true, sources: (0..inputs.len()).collect() });
                 inputs.len() + neurons.len() - 1

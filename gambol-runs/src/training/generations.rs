@@ -13,8 +13,8 @@ use crate::{
     strategies::{AnyGenome, AnyStrategy},
 };
 use ne_core::{
-    Evaluator, Evolution, EvolutionError, Generation, Genome, Observer, Parallel, Progress, Seed, StopConditions,
-    StopReason, Task,
+    Checkpoint, Evaluator, Evolution, EvolutionError, Generation, Genome, Observer, Parallel, Progress, Seed,
+    StopConditions, StopReason, Strategy, Task,
     promotion::{Decision, Promotion, StageState},
     successive_halving::SuccessiveHalving,
 };
@@ -148,7 +148,8 @@ impl Training {
         let best = checkpoint.champion.as_ref().map(ne_core::Champion::standing);
         let is_over = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO);
         // One that was killed before its last save still has that to come.
-        if let Some(reason) = is_over.filter(|_| promotion.is_none() && checkpoint.last) {
+        let is_saved = checkpoint.last && !lacks_files(&folder, &checkpoint);
+        if let Some(reason) = is_over.filter(|_| promotion.is_none() && is_saved) {
             return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
         }
         let earlier = EarlierLines::check(&folder, &config, checkpoint.progress.generations)?;
@@ -286,9 +287,15 @@ impl Training {
     }
 
     fn broke_off(&self, source: EvolutionError) -> TrainError {
-        let generation = self.evolution.progress().generations;
+        let generation = source.generation().unwrap_or(self.evolution.progress().generations);
         TrainError::BrokeOff { generation, folder: self.folder.clone(), source }
     }
+}
+
+/// Whether a file is gone that the last save had written.
+fn lacks_files(folder: &RunFolder, checkpoint: &Checkpoint<AnyStrategy>) -> bool {
+    let lacks_champion = checkpoint.champion.is_some() && !folder.champion().is_file();
+    lacks_champion || (checkpoint.strategy.front().is_some() && !folder.front().is_file())
 }
 
 /// A promotion that several may hold.

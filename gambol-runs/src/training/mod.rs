@@ -103,8 +103,8 @@ pub enum TrainError {
     Stages,
     /// The run is over and there is nothing left to do.
     #[error(
-        "the run in {} has ended: {reason} (generation {generations}); to go on, raise its limit, such as --generations {}",
-        folder.path().display(), generations + 100
+        "the run in {} has ended: {reason} (generation {generations}){}", folder.path().display(),
+        how_to_go_on(*reason, *generations)
     )]
     Over {
         /// Where the run is.
@@ -114,6 +114,18 @@ pub enum TrainError {
         /// Generations done.
         generations: u64,
     },
+}
+
+fn how_to_go_on(reason: StopReason, generations: u64) -> String {
+    let limit = match reason {
+        StopReason::Generations | StopReason::Tier => format!("--generations {}", generations + 100),
+        StopReason::Evaluations => "more --evaluations".into(),
+        StopReason::Steps => "more --steps".into(),
+        StopReason::Target => "a higher --target".into(),
+        StopReason::Stagnation => "a higher --stagnation".into(),
+        _ => return String::new(),
+    };
+    format!("; to go on, say {limit}")
 }
 
 fn resume_hint(folder: &RunFolder) -> String {

@@ -33,13 +33,13 @@ enum What {
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  gambol bench strategies                                           every strategy, every task but the longest: some minutes
+  gambol bench strategies            every strategy, every task but the longest: some minutes
   gambol bench strategies --strategies neat --tasks xor --seeds 100
   gambol bench strategies --tasks general-two-poles --strategies neat --settings pole_balancing
   gambol bench strategies --tasks two-poles --json
 
-Evaluations are counted up to and including that of the first solution. Where a candidate has to pass a test that is not
-counted (poles without velocities), a row is measured with every candidate tested, and one with the best of each generation
+Evaluations are counted up to and including that of the first solution. Where a candidate has to pass a test that is not \
+counted (poles without velocities), a row is measured with every candidate tested, and one with the best of each generation \
 tested alone. An attempt without a solution counts with all it has used up. The settings and nets are named below each table.")]
 struct Strategies {
     /// Which strategies [default: all]

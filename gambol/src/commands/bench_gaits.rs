@@ -7,7 +7,7 @@ use crate::{
     request::Request,
 };
 use clap::Args;
-use ne_core::{StopConditions, archive};
+use ne_core::StopConditions;
 use serde_json::json;
 use std::{error::Error, path::PathBuf, process::ExitCode};
 
@@ -18,11 +18,12 @@ Examples:
   gambol bench gaits --whole --seconds 60 --seeds 3          how good gaits are after a minute
   gambol bench gaits --creatures biped-1 --movements running --set controller.modular=null
   gambol bench gaits --creatures examples/creatures/hopper.json --seconds 30 --robust
-  gambol bench gaits --ablate \"the term\" --steps 3000000 --whole --seeds 2 --at-once 2 --threads 1 --keep runs/ablation
+  gambol bench gaits --ablate \"the term\" --steps 3000000 --whole --seeds 2 \\
+      --at-once 2 --threads 1 --keep runs/ablation
 
-bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height.
-A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier, or when the time is up; with
---whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included.
+bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height. \
+A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier, or when the time is up; with \
+--whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included. \
 With --steps, times are millions (M) of physics steps.")]
 pub(super) struct Gaits {
     /// Shipped creatures' names or creature files [default: all seven]
@@ -188,8 +189,7 @@ impl Gaits {
         rows: &[[String; COLUMNS]],
     ) -> Result<(), Box<dyn Error>> {
         let Some(path) = &self.csv else { return Ok(()) };
-        Ok(archive::write_whole(path, csv(columns, rows).as_bytes())
-            .map_err(|error| format!("cannot write {}: {error}", path.display()))?)
+        Ok(super::write_output(path, csv(columns, rows).as_bytes(), self.force)?)
     }
 
     /// A scenario with every seed.

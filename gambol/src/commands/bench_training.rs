@@ -16,7 +16,7 @@ Examples:
   gambol bench training                                             four creatures, 300 generations each
   gambol bench training --creature biped-1 --generations 50 --engine rapier
 
-Each creature learns to run with the default preset, from the start to the saved champion, in a temporary folder. Steps
+Each creature learns to run with the default preset, from the start to the saved champion, in a temporary folder. Steps \
 of the champion selection, which chooses the champion, are in the seconds and not in the steps.")]
 pub(super) struct Training {
     /// A shipped creature's name or a creature file; can be given several times [default: biped-1, apod, tetrapod-2,

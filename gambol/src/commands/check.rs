@@ -31,8 +31,8 @@ Examples:
   gambol check my-config.json
   gambol check runs/biped-1-running/champion.json
 
-A creature is also let settle in rapier, its motors holding still, as before every episode. It is warned of if its torso
-then has turned by more than 5° from the pose in its file, or has sunk by more than 15 % of its height. Warnings leave
+A creature is also let settle in rapier, its motors holding still, as before every episode. It is warned of if its torso \
+then has turned by more than 5° from the pose in its file, or has sunk by more than 15 % of its height. Warnings leave \
 the exit code at 0.")]
 pub(crate) struct Check {
     /// A creature, configuration or champion file, or a shipped creature's name (see: gambol creatures)

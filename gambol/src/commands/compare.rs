@@ -14,17 +14,17 @@ use std::{path::PathBuf, process::ExitCode, time::Instant};
 Examples:
   gambol compare --strategies ga,neat,cma-es --creatures biped-1,apod --movements running,jumping \\
       --seeds 10 --evaluations 15000 --out runs/ga-neat-cma
-  gambol compare --strategies ga,neat,cma-es,random-search --preset shaped --creatures biped-1 --first-seed 1001 \\
-      --seeds 12 --evaluations 15000 --out runs/shaped
-  gambol compare --strategies thesis,default,large=large.json --creatures biped-1 --movements running \\
-      --seeds 5 --steps 10000000 --out runs/presets
+  gambol compare --strategies ga,neat,cma-es,random-search --preset shaped --creatures biped-1 \\
+      --first-seed 1001 --seeds 12 --evaluations 15000 --out runs/shaped
+  gambol compare --strategies thesis,default,large=large.json --creatures biped-1 \\
+      --movements running --seeds 5 --steps 10000000 --out runs/presets
 
-Interrupted, the same command goes on. On a cluster each job does a part into a folder of its own, and one puts them
+Interrupted, the same command goes on. On a cluster each job does a part into a folder of its own, and one puts them \
 together:
   gambol compare ... --part 3/20 --out part-3
   gambol merge part-* --out whole
 
-Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html,
+Each strategy has a run with each seed on each creature and movement. The outcome is in OUT/comparison.html, \
 medians.csv, scores.csv, curves.csv and settings.csv.")]
 pub(crate) struct Compare {
     /// What is compared: strategies (see: gambol strategies), presets, or NAME=CONFIG-FILE
@@ -121,6 +121,9 @@ impl Compare {
             return Ok(ExitCode::from(INTERRUPTED));
         }
         if self.part != Part::ALL {
+            if self.quiet {
+                return Ok(ExitCode::SUCCESS);
+            }
             say!(
                 "part {} is done; when all are: {} merge {} ... --out DIR",
                 self.part,

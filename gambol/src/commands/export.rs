@@ -2,7 +2,7 @@ use super::{Outcome, check_output, gait::champion_file, replay::steps_in};
 use crate::{
     Registry,
     champion::Champion,
-    export::{self, Destination, Format, Options, Picture},
+    export::{self, Destination, ExportError, Format, Options, Picture},
 };
 use clap::{Args, ValueEnum, builder::PossibleValue};
 use std::{path::PathBuf, process::ExitCode};
@@ -33,12 +33,12 @@ pub(crate) struct Export {
     /// How long it is played, for traces and trajectories [default: as long as its movement is judged]
     #[arg(long)]
     seconds: Option<f64>,
-    /// The longer side of a frame, for pictures; of the body, for dragonbones
-    #[arg(long, value_name = "PIXELS", default_value_t = Picture::default().size)]
-    size: u32,
-    /// Frames a second, for pictures
-    #[arg(long, value_name = "NUMBER", default_value_t = Picture::default().rate)]
-    rate: f64,
+    /// The longer side of a frame, for pictures; of the body, for dragonbones [default: 256]
+    #[arg(long, value_name = "PIXELS")]
+    size: Option<u32>,
+    /// Frames a second, for pictures; a GIF shows at most 50 [default: 25]
+    #[arg(long, value_name = "NUMBER")]
+    rate: Option<f64>,
     /// Draw sky and ground behind the creature, for pictures [default: it is transparent]
     #[arg(long)]
     ground: bool,
@@ -90,6 +90,7 @@ impl Export {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let file = champion_file(&self.champion)?;
         let Named(format) = self.to;
+        self.check_options()?;
         let champion = Champion::read(&file)?;
         let destination = Destination::new(format, &champion, self.out)?;
         for place in &destination.paths {
@@ -99,14 +100,33 @@ impl Export {
             check_output(place, self.force)?;
         }
         let steps = self.seconds.map(|seconds| steps_in(&champion, seconds)).transpose()?;
-        let picture = Picture { size: self.size, rate: self.rate, ground: self.ground };
+        let usual = Picture::default();
+        let (size, rate) = (self.size.unwrap_or(usual.size), self.rate.unwrap_or(usual.rate));
+        let picture = Picture { size, rate, ground: self.ground };
         let options = Options { name: destination.name.clone(), steps, picture };
-        let exported = export::export(&champion, registry, format, &options)
-            .map_err(|error| format!("{}: {error}", file.display()))?;
+        let exported = export::export(&champion, registry, format, &options).map_err(|error| match error {
+            ExportError::Setting { .. } => format!("--{error}"),
+            error => format!("{}: {error}", file.display()),
+        })?;
         destination.write(&exported).map_err(|error| format!("cannot write {error}"))?;
         for (place, file) in destination.paths.iter().zip(&exported) {
             say!("{}  {}, {} bytes", format.name(), place.display(), file.bytes.len())?;
         }
         Ok(ExitCode::SUCCESS)
+    }
+
+    /// What a format does not use is not asked for.
+    fn check_options(&self) -> Result<(), String> {
+        let Named(format) = self.to;
+        let is_loop = matches!(format, Format::Gif | Format::Apng | Format::Svg | Format::Sprites);
+        let is_played = matches!(format, Format::Trace | Format::Csv);
+        let options = [
+            ("--seconds", self.seconds.is_some(), is_played),
+            ("--size", self.size.is_some(), is_loop || format == Format::DragonBones),
+            ("--rate", self.rate.is_some(), is_loop),
+            ("--ground", self.ground, is_loop),
+        ];
+        let useless = options.iter().find(|(_, is_given, is_used)| *is_given && !is_used);
+        useless.map_or(Ok(()), |(option, ..)| Err(format!("{option} has no effect on {}; leave it out", format.name())))
     }
 }

@@ -1,11 +1,10 @@
-use super::{Outcome, check_output, gait::champion_file};
+use super::{Outcome, check_image, gait::champion_file, write_output};
 use crate::{
     Registry,
     champion::Champion,
     film::{self, Cut},
 };
 use clap::Args;
-use ne_core::archive;
 use std::{path::PathBuf, process::ExitCode};
 
 #[derive(Args)]
@@ -14,7 +13,7 @@ Examples:
   gambol film runs/biped-1-running --out gentleman.png
   gambol film runs/* --out all.png --columns 4 --from 5 --seconds 3
 
-The image is a PNG with 25 frames a second that repeats for ever; browsers and chats play it, other programs show its first
+The image is a PNG with 25 frames a second that repeats for ever; browsers and chats play it, other programs show its first \
 frame. Each creature is played in rapier, in the world without variation, and the camera follows it.")]
 pub(crate) struct Film {
     /// Champion files, or folders of runs
@@ -52,14 +51,13 @@ impl Film {
                 return Err(format!("{} is what is to be filmed", file.display()).into());
             }
         }
-        check_output(&self.out, self.force)?;
+        check_image(&self.out, self.force)?;
         let Self { from, seconds, columns, width, height, .. } = self;
         let champions = files.iter().map(|file| Champion::read(file)).collect::<Result<Vec<_>, _>>()?;
         let cut = Cut { from, seconds, columns, width, height };
         let bytes = film::of_champions(&champions, &cut, registry)?;
-        let out = self.out.display();
-        archive::write_whole(&self.out, &bytes).map_err(|error| format!("cannot write {out}: {error}"))?;
-        say!("film  {out}, {} frames, {} kB", cut.frames(), bytes.len().div_ceil(1000))?;
+        write_output(&self.out, &bytes, self.force)?;
+        say!("film  {}, {} frames, {} kB", self.out.display(), cut.frames(), bytes.len().div_ceil(1000))?;
         Ok(ExitCode::SUCCESS)
     }
 }

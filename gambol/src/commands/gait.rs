@@ -1,4 +1,4 @@
-use super::{NOT_USABLE, Outcome, check_output, gait_text};
+use super::{NOT_USABLE, Outcome, check_image, gait_text, write_output};
 use crate::{
     Registry,
     champion::Champion,
@@ -10,10 +10,7 @@ use crate::{
 use clap::Args;
 use creatures::Blueprint;
 use envs_core::Ground;
-use ne_core::{
-    archive,
-    bounded_read::{LARGEST_DATA, read_text},
-};
+use ne_core::bounded_read::{LARGEST_DATA, read_text};
 use std::{
     error::Error,
     path::{Path, PathBuf},
@@ -32,11 +29,11 @@ Examples:
 
 The contact sheet is one image: twelve frames over a stride or a jump, footfalls, pitch and height of the torso, the verdict.
 
-A champion is replayed in rapier, for as long as its movement is judged: 60 s of running and what is judged like it, 5 s
-of jumps, 20 s of swimming and of what is not judged. One that is usable must be so in 7 of 8 near worlds as well:
-friction, gravity, mass and time step off by up to 1 %, the start pose by up to 1 degree, the torso spinning by up to 0.05
-rad/s. A trajectory is taken as it is and judged alone; of flat ground, with gravity as on Earth. Where it has no columns
-for speeds they are found by central differences; where it has none for torques, what a step costs is not known, and
+A champion is replayed in rapier, for as long as its movement is judged: 60 s of running and what is judged like it, 5 s \
+of jumps, 20 s of swimming and of what is not judged. One that is usable must be so in 7 of 8 near worlds as well: \
+friction, gravity, mass and time step off by up to 1 %, the start pose by up to 1 degree, the torso spinning by up to 0.05 \
+rad/s. A trajectory is taken as it is and judged alone; of flat ground, with gravity as on Earth. Where it has no columns \
+for speeds they are found by central differences; where it has none for torques, what a step costs is not known, and \
 energy from nowhere is not looked for.
 
 Exit code 0: usable, or not judged. 1: something was wrong. 3: not usable.")]
@@ -75,6 +72,9 @@ impl Gait {
         let with_sheet = self.sheet.is_some();
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         let Measured { gait, name, sheet } = match &self.creature {
+            Some(_) if !is_csv && champion_file(&self.gait).is_ok_and(|file| Champion::read(&file).is_ok()) => {
+                return Err("--creature is for trajectories: a champion says itself whose it is".into());
+            }
             Some(creature) => of_trajectory(&self.gait, creature, self.movement.as_deref(), with_sheet, registry)?,
             None if is_csv => {
                 let path = self.gait.display();
@@ -86,7 +86,7 @@ impl Gait {
             None => of_champion(&champion_file(&self.gait)?, with_sheet, registry)?,
         };
         if let (Some(path), Some(sheet)) = (&self.sheet, &sheet) {
-            archive::write_whole(path, sheet).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+            write_output(path, sheet, self.force)?;
         }
         if self.json {
             say!("{}", serde_json::to_string(&gait)?)?;
@@ -103,7 +103,7 @@ impl Gait {
     /// Nothing may be overwritten unasked, and never what is measured.
     fn check_sheet(&self) -> Result<(), Box<dyn Error>> {
         let Some(sheet) = &self.sheet else { return Ok(()) };
-        check_output(sheet, self.force)?;
+        check_image(sheet, self.force)?;
         let measured = champion_file(&self.gait)?;
         if sheet.canonicalize().ok().is_some_and(|sheet| Some(sheet) == measured.canonicalize().ok()) {
             return Err(format!("{} is what is to be measured", sheet.display()).into());

@@ -102,7 +102,7 @@ fn in_bodies(bodies: usize) -> String {
     after_help = "\
 Examples:
   gambol studio                            draw, train, watch and play in the browser
-  gambol train biped-1 running             train a shipped creature; the run goes to runs/biped-1-running
+  gambol train biped-1 running             train a shipped creature, into runs/biped-1-running
   gambol train my-creature.json jumping    train a creature of your own
   gambol resume runs/biped-1-running --generations 600
   gambol verify runs/biped-1-running/champion.json
@@ -115,7 +115,7 @@ Exit codes:
        train and resume with --until usable: no usable gait was found
   130  a run was interrupted (Ctrl-C, SIGTERM, SIGHUP); it is saved and can be resumed
 
-Set GAMBOL_LOG=debug to see what the libraries do, and how long each generation, evaluation, re-evaluation,
+Set GAMBOL_LOG=debug to see what the libraries do, and how long each generation, evaluation, re-evaluation, \
 checkpoint and report takes."
 )]
 struct Program {
@@ -128,10 +128,28 @@ struct Program {
 fn check_output(path: &Path, force: bool) -> Result<(), String> {
     let shown = path.display();
     archive::check_replaceable(path).map_err(|error| format!("cannot write {shown}: {error}; name another file"))?;
-    match path.exists() && !force {
-        true => Err(format!("{shown} exists; say --force to overwrite it")),
-        false => Ok(()),
+    if path.exists() && !force {
+        return Err(format!("{shown} exists; say --force to overwrite it"));
     }
+    match path.parent().filter(|folder| !folder.as_os_str().is_empty() && !folder.is_dir()) {
+        Some(folder) => Err(format!("cannot write {shown}: there is no folder {}", folder.display())),
+        None => Ok(()),
+    }
+}
+
+/// As [`check_output`], for a PNG image.
+fn check_image(path: &Path, force: bool) -> Result<(), String> {
+    match path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+        true => check_output(path, force),
+        false => Err(format!("{} must end in .png: the image is one", path.display())),
+    }
+}
+
+/// Writes a file to a path that was checked before it was known what to write: whatever has come there since is not overwritten
+/// unasked either.
+fn write_output(path: &Path, bytes: &[u8], force: bool) -> Result<(), String> {
+    check_output(path, force)?;
+    archive::write_whole(path, bytes).map_err(|error| format!("cannot write {}: {error}", path.display()))
 }
 
 #[derive(Subcommand)]
@@ -164,7 +182,7 @@ enum Command {
     Merge(compare::Merge),
     /// Does the experiments of the thesis again, and shows them beside what it reports
     Reproduce(reproduce::Reproduce),
-    /// Measures the strategies, and how long training takes
+    /// Measures strategies, the time of training, and how many gaits become usable
     Bench(bench::Bench),
     /// Opens the studio: draw, train, watch, play, in the browser
     Studio(studio::Studio),

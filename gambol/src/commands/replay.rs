@@ -1,4 +1,4 @@
-use super::{Outcome, check_output, gait::champion_file};
+use super::{Outcome, check_output, gait::champion_file, write_output};
 use crate::{
     Registry, Setup,
     champion::Champion,
@@ -11,7 +11,6 @@ use crate::{
     trajectory::Recording,
 };
 use clap::Args;
-use ne_core::archive;
 use std::{
     error::Error,
     path::{Path, PathBuf},
@@ -24,15 +23,15 @@ use tasks::{Body, Environment};
 Examples:
   gambol replay runs/biped-1-running/champion.json --html gait.html
   gambol replay champion.json --trajectory gait.csv --seconds 10
-  gambol replay champion.json --dot net.dot              then, with Graphviz: dot -Tsvg net.dot > net.svg
+  gambol replay champion.json --dot net.dot     then, with Graphviz: dot -Tsvg net.dot > net.svg
   gambol replay runs/tetrapod-1-running --point 3 --trajectory thrifty.csv --save thrifty.json
 
-Trajectory and page show what `gambol gait` judges: the champion in rapier, in the world without variation, for as long as
+Trajectory and page show what `gambol gait` judges: the champion in rapier, in the world without variation, for as long as \
 its movement is judged (or --seconds), and no term ends it. What is printed at the end is an evaluation, which terms may end.
 
 The trajectory has a row for each step and part, the start included:
   step,time_s,part,x_m,y_m,angle_rad,ground_contact,vx_m_per_s,vy_m_per_s,spin_rad_per_s,motor_torque_n_m
-The torque is that of the motor of the joint on which the part hangs, empty if a controller moves none there. `gambol gait`
+The torque is that of the motor of the joint on which the part hangs, empty if a controller moves none there. `gambol gait` \
 reads such a file.")]
 pub(crate) struct Replay {
     /// A champion file, or the folder of a run
@@ -86,17 +85,17 @@ impl Replay {
             let (recording, failure) = Recording::play(world, &champion.network, steps.unwrap_or(judge.steps()));
             let mut csv = Vec::new();
             recording.write_csv(world.body().unwrap_or(&Body::default()), &mut csv)?;
-            archive::write_whole(path, &csv).map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+            write_output(path, &csv, self.force)?;
             let seconds = recording.snapshots.last().map_or(0.0, |last| last.time);
             let failure = failure.map_or_else(String::new, |failure| format!(", ended by a failure: {failure}"));
             say!("trajectory  {}, {seconds:.2} s{failure}", path.display())?;
         }
         if let Some(path) = &self.dot {
-            archive::write_whole(path, dot(&champion).as_bytes())
-                .map_err(|error| format!("cannot write {}: {error}", path.display()))?;
+            write_output(path, dot(&champion).as_bytes(), self.force)?;
             say!("net         {}", path.display())?;
         }
         if let Some(path) = &self.html {
+            check_output(path, self.force)?;
             report::write_replay(&champion, &registry, steps, path)?;
             say!("page        {}", path.display())?;
         }

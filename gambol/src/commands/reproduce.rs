@@ -34,8 +34,8 @@ Examples:
   gambol reproduce thesis --clock                               and 28 timed runs of 5 minutes, one by one
   gambol reproduce thesis --part 2/4                            every fourth run
 
-Interrupted, the same command goes on. The page OUT/index.html is made of whatever is in the folder, and says what is
-missing. Parts done on several machines are put together by copying their results folders into one; the same command
+Interrupted, the same command goes on. The page OUT/index.html is made of whatever is in the folder, and says what is \
+missing. Parts done on several machines are put together by copying their results folders into one; the same command \
 without --part then makes the page. The numbers are also in results.csv, times.csv and timed.csv.")]
 struct Thesis {
     /// Creatures of the thesis [default: all seven]

@@ -12,7 +12,7 @@ Examples:
   gambol resume runs/biped-1-running                      go on after Ctrl-C, a crash or a power cut
   gambol resume runs/biped-1-running --generations 600    go on with a run that has ended
 
-The rest of the run is, to the bit, what it would have been without the interruption.
+The rest of the run is, to the bit, what it would have been without the interruption. \
 Exit codes are those of train: 3 for a run until usable that ends without a usable champion.")]
 pub(crate) struct Resume {
     /// The folder of the run

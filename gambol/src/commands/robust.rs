@@ -17,14 +17,16 @@ Examples:
   gambol robust runs/tetrapod-2-playing --variation shoved
 
 Worlds take turns in what is changed:
-  bumps      mounds on the ground, up to 2 cm high; a terrain has none, and is laid out anew in every world
+  bumps      mounds on the ground, up to 2 cm high; a terrain has none, and is laid out anew in
+             every world
   pushes     against the torso, up to 0.3 m/s of the whole body, every 2 to 4 s
   friction   friction ± 30 %, mass and motor torque ± 10 %, the start pose by up to 3 degrees
-  physics    what engines differ in: 1 to 8 solver iterations, joints of 30 Hz to 1 kHz, contacts of half to 4 times the
-             frequency and half to twice the damping, motor gain times 0.5 to 50, gravity ± 5 %, steps of 1/240 to 1/40 s
+  physics    what engines differ in: 1 to 8 solver iterations, joints of 30 Hz to 1 kHz, contacts
+             of half to 4 times the frequency and half to twice the damping, motor gain times 0.5
+             to 50, gravity ± 5 %, steps of 1/240 to 1/40 s
   together   all of it
-or, with --variation, all are as that draws them for training.
-In each the champion is replayed and judged as gambol gait does,
+or, with --variation, all are as that draws them for training. \
+In each the champion is replayed and judged as gambol gait does, \
 but for near worlds. Same seed, same worlds, on any number of threads.")]
 pub(crate) struct Robust {
     /// A champion file, or the folder of a run

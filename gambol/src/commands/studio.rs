@@ -14,7 +14,7 @@ use studio_server::Server;
 #[command(after_help = "\
 Examples:
   gambol studio                        the runs in ./runs; the first time a biped learns to run
-  gambol studio runs/biped-1-running   a run, be it that another process is training it
+  gambol studio runs/biped-1-running   a run, even while another process trains it
   gambol studio tetrapod-2             a creature, to be trained
   gambol studio --no-open --port 4000  for a browser that you open yourself
 

@@ -42,7 +42,8 @@ Examples:
   gambol train --config shaping/run-then-gaps-then-thrift.json
   gambol train tetrapod-2 jumping --from runs/tetrapod-2-running
 
-A run ends at the first limit it meets; without any, after 300 generations. Ctrl-C finishes the generation and saves.
+A run ends at the first limit it meets. It has 300 generations at most, unless --generations, --evaluations, --steps, \
+--minutes or --budget says otherwise. Ctrl-C finishes the generation and saves. \
 At the end the champion's gait is judged, as `gambol gait` judges it, if those of its movement are.
 
 Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable. 130: interrupted.")]
@@ -55,10 +56,12 @@ pub(crate) struct Train {
     /// must sense and move the same as the creature, for which the champion is chosen
     #[arg(long, value_name = "NAME|FILE")]
     further_body: Vec<String>,
-    /// Where to start from: default, thesis (the reference algorithm), or stanley-2002 (NEAT as in its paper)
+    /// Where to start from: default, thesis (the algorithm of the thesis), stanley-2002 (NEAT as in its paper), plain or shaped
+    /// (for comparisons)
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
-    /// How it is searched (see: gambol strategies): ga, neat, cma-es, open-es, cosyne, nsga2
+    /// The strategy, in place of the preset's: ga, neat, cma-es, open-es, cosyne, nsga2, or a baseline: ars, hill-climbing,
+    /// random-search (see: gambol strategies)
     #[arg(long, value_name = "NAME")]
     strategy: Option<String>,
     /// Keep the topology of this champion's net (one that NEAT has found, say) and search its weights anew
@@ -79,7 +82,7 @@ pub(crate) struct Train {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// How the world varies in training: none, near, pushed, shoved, physics, light (friction, mass, start pose, pushes, and the
-    /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for two to
+    /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for one to
     /// four legs that run, else light; none with --preset thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
@@ -110,19 +113,19 @@ pub(crate) struct Train {
 /// When a run ends.
 #[derive(Args, Clone, Copy)]
 pub(super) struct Limits {
-    /// End after so many generations
+    /// End when the run has had so many generations, those before a resume included
     #[arg(long)]
     generations: Option<u64>,
-    /// End after so many evaluations
+    /// End when the run has had so many evaluations, those before a resume included
     #[arg(long)]
     evaluations: Option<u64>,
-    /// End after so many physics steps
+    /// End when the run has had so many physics steps, those before a resume included
     #[arg(long)]
     steps: Option<u64>,
-    /// End after so many minutes
+    /// End after so many minutes since the start, or since the resume
     #[arg(long)]
     minutes: Option<f64>,
-    /// End after so much wall-clock time, such as 10s, 90s, 5m or 1h, with the best usable champion so far
+    /// End after so much time since the start, or since the resume, such as 10s, 90s, 5m or 1h
     #[arg(long, value_name = "TIME", value_parser = minutes_of, conflicts_with = "minutes")]
     budget: Option<f64>,
     /// End as soon as the champion's gait is usable (see: gambol gait); exit code 3 if it never is
@@ -157,7 +160,7 @@ pub(super) struct RunFlags {
 impl Limits {
     /// These limits in place of the planned ones. Another budget takes the place of the planned generations and steps; a target
     /// or stagnation alone comes on top of them, or a run might never end.
-    pub(super) fn over(self, planned: StopConditions) -> StopConditions {
+    fn over(self, planned: StopConditions) -> StopConditions {
         let limits = self.conditions();
         let budget = limits.evaluations.or(limits.steps).is_some() || limits.minutes.is_some();
         let generations = planned.generations.filter(|_| !budget);
@@ -218,6 +221,9 @@ impl Train {
             topology_from: topology_from.clone(),
             from: self.from.clone(),
             config: config.clone(),
+            seed: self.seed,
+            population: self.population,
+            limits: self.limits.conditions(),
             set: set.clone(),
             engine: engine.clone(),
             variation: variation.clone(),
@@ -225,13 +231,6 @@ impl Train {
             unvaried: false,
         };
         let mut config = request.resolve(&registry)?;
-        if let Some(seed) = self.seed {
-            config.seed = seed;
-        }
-        if let Some(population) = self.population {
-            config.strategy.set_population(population);
-        }
-        config.stop = self.limits.over(config.stop);
         let transferred = self.transferred()?;
         match &self.from {
             // Its name becomes that of a folder.
@@ -273,6 +272,9 @@ fn located(error: &str, request: Request, registry: &Registry) -> String {
     let file = request.config.clone();
     let alone = Request {
         further_bodies: Vec::new(),
+        seed: None,
+        population: None,
+        limits: StopConditions::default(),
         set: Vec::new(),
         engine: None,
         variation: None,
@@ -309,9 +311,8 @@ pub(super) fn carry_out(
     let show = show.into_inner();
     show.end();
     let outcome = match ended {
-        // Killed after its last save, and before its report.
-        Err(error) if !flags.no_report => lacking_its_report(&*error).ok_or(error)?,
-        ended => ended?,
+        Ok(outcome) => outcome,
+        Err(error) => nothing_left_to_do(&*error, flags.no_report).ok_or(error)?,
     };
     let seconds = began.elapsed().as_secs_f64();
     if !flags.no_report {
@@ -330,14 +331,15 @@ pub(super) fn carry_out(
     })
 }
 
-/// The outcome of a run that has ended and has no report of its end, if that is why it cannot go on.
-fn lacking_its_report(error: &(dyn std::error::Error + 'static)) -> Option<training::Outcome> {
+/// The outcome of a run that has ended, if it has found what it looked for, or was killed after its last save and before its
+/// report.
+fn nothing_left_to_do(error: &(dyn std::error::Error + 'static), no_report: bool) -> Option<training::Outcome> {
     let over = error.downcast_ref::<TrainError>().or_else(|| match error.downcast_ref()? {
         ShapingError::Train(error) => Some(error),
         _ => None,
     })?;
     let TrainError::Over { folder, reason, generations } = over else { return None };
-    if report::is_up_to_date(folder, *generations) {
+    if *reason != StopReason::Tier && (no_report || report::is_up_to_date(folder, *generations)) {
         return None;
     }
     // What cannot be read leaves it at the error.

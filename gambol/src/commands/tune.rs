@@ -11,13 +11,13 @@ use std::{path::PathBuf, process::ExitCode};
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  gambol tune neat --preset plain --creatures biped-1,tetrapod-2 --movements running,jumping --evaluations 3000 \\
-      --trials 20 --seeds 3 --out runs/tune-neat
+  gambol tune neat --preset plain --creatures biped-1,tetrapod-2 --movements running,jumping \\
+      --evaluations 3000 --trials 20 --seeds 3 --out runs/tune-neat
   gambol compare --strategies tuned-neat=runs/tune-neat/tuned.json,ga --preset plain ...
 
-Each trial multiplies every number of the strategy's settings with a factor drawn from 1/SPREAD to SPREAD; the first trial
-has the defaults. All trials run on the same seeds, which should not be those compared on. The best is in OUT/tuned.json,
-the comparison of the trials in OUT/comparison. Interrupted, the same command goes on. Give every strategy the same trials,
+Each trial multiplies every number of the strategy's settings with a factor drawn from 1/SPREAD to SPREAD; the first trial \
+has the defaults. All trials run on the same seeds, which should not be those compared on. The best is in OUT/tuned.json, \
+the comparison of the trials in OUT/comparison. Interrupted, the same command goes on. Give every strategy the same trials, \
 seeds and evaluations.")]
 pub(crate) struct Tune {
     /// The strategy (see: gambol strategies)
@@ -31,7 +31,7 @@ pub(crate) struct Tune {
     /// What all trials have but for the strategy's settings: plain, shaped, or another preset
     #[arg(long, default_value = "plain", value_name = "NAME")]
     preset: String,
-    /// How many settings are tried, the defaults among them
+    /// How many sets of settings are tried, the defaults among them
     #[arg(long, default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..=1000))]
     trials: u32,
     /// Numbers are multiplied with a factor from 1/SPREAD to SPREAD

@@ -174,6 +174,14 @@ fn a_report_of_a_damaged_run_names_the_file_and_keeps_the_old_report() -> Outcom
         assert_untouched(&run, &before);
         write(&file, &whole);
     }
+    for name in ["log.jsonl", "gallery.jsonl"] {
+        let file = run.join(name);
+        let whole = read(&file);
+        write(&file, b"");
+        assert_says(&fail(gambol("report").arg(&run)), &[text(&file), "line 1: it is missing"]);
+        write(&file, &whole);
+    }
+    succeed(gambol("report").arg(&run));
     Ok(())
 }
 

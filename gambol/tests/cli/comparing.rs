@@ -170,6 +170,11 @@ fn a_tuning_goes_on_and_gives_a_file_that_compare_takes() -> Outcome {
     assert_eq!(succeed(tune(&[]).arg("--out").arg(&out)), best, "nothing is left to be done");
     let message = fail(tune(&["--spread", "2"]).arg("--out").arg(&out));
     assert_says(&message, &["holds another tuning", "trial-001.json"]);
+    let other = folder.path().join("other");
+    fs::create_dir(&other)?;
+    fs::write(other.join("tuned.json"), "mine")?;
+    assert_says(&fail(tune(&[]).arg("--out").arg(&other)), &["is not empty and holds no tuning"]);
+    assert_eq!((fs::read_to_string(other.join("tuned.json"))?.as_str(), fs::read_dir(&other)?.count()), ("mine", 1));
     let mut compare = gambol("compare");
     compare.args(["--strategies", &format!("tuned={},ga", text(&out.join("tuned.json"))), "--preset", "plain"]);
     compare.args(["--creatures", "biped-1", "--movements", "jumping", "--seeds", "1", "--evaluations", "50"]);
@@ -197,6 +202,9 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean \"biped-2\"?"),
         (&["--strategies", "ga", "--movements", "runing"], "did you mean \"running\"?"),
+        (&["--strategies", "ga", "--set", "seed=7"], "--set seed=7: a comparison has seeds and a budget of its own"),
+        (&["--strategies", "ga", "--set", "stop.generations=1"], "--set stop.generations=1: a comparison has"),
+        (&["--strategies", "ga", "--set", "strategy.ga.population=5"], "\"ga\" is called \"conventional\""),
         (&["--strategies", "ga,mine=missing.json"], "mine on biped-1 running: cannot read missing.json"),
         (&["--strategies", "ga", "--set", "strategy.conventional.elites=50"], "strategy.conventional.elites = 50"),
         (&["--strategies", "ga,cma-es", "--set", "strategy.cma-es.population=20"], "ga on biped-1 running: --set"),

@@ -94,7 +94,17 @@ fn what_cannot_be_exported_is_said_and_leaves_nothing() -> Outcome {
         &fail(&mut export(&run, "csv", &out, &["--seconds", "0"])),
         &["--seconds = 0: must be from 1 to 1000000 steps of the physics"],
     );
-    assert_says(&fail(&mut export(&run, "csv", &folder.path().join("no/where"), &[])), &["cannot write"]);
+    assert_says(
+        &fail(&mut export(&run, "csv", &folder.path().join("no/where"), &[])),
+        &["cannot write", "there is no folder"],
+    );
+    for (format, option, value) in
+        [("csv", "--size", "64"), ("player", "--seconds", "1"), ("gif", "--seconds", "1"), ("gltf", "--rate", "12")]
+    {
+        let said = fail(&mut export(&run, format, &out, &[option, value]));
+        assert_says(&said, &[&format!("{option} has no effect on {format}")]);
+    }
+    assert_says(&fail(&mut export(&run, "gif", &out, &["--size", "0"])), &["--size: 0 is not from 16 to 2048"]);
     assert!(fs::read(&champion)? == before && !out.exists());
     let damaged = folder.path().join("damaged.json");
     fs::write(&damaged, String::from_utf8(before)?.replacen("\"generation\": ", "\"generation\": 1", 1))?;

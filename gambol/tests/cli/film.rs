@@ -47,6 +47,8 @@ fn a_film_overwrites_nothing_unasked_and_names_what_is_wrong() -> Outcome {
     succeed(&mut film(&[&path], &mine, &["--force"]));
     assert_says(&fail(&mut film(&[&path], &champion, &["--force"])), &[text(&champion), "is what is to be filmed"]);
     assert_eq!(fs::read(&champion)?, before);
+    let other = folder.path().join("new.gif");
+    assert_says(&fail(&mut film(&[&path], &other, &[])), &["new.gif must end in .png"]);
     let new = folder.path().join("new.png");
     assert_says(&fail(&mut film(&[&path], &new, &["--columns", "17"])), &["columns: 17 is not from 1 to 16"]);
     assert_says(&fail(&mut film(&[&path], &new, &["--from", "nan"])), &["from: NaN is not from 0 to 3600"]);

@@ -45,11 +45,18 @@ fn a_run_that_is_over_says_how_to_go_on_and_stays_as_it_is() -> Outcome {
             succeed(gambol("resume").arg(&path));
         }
         let before = contents(&path);
-        for more in [&[][..], &["--generations", "3"], &["--target", "-1000"]] {
+        let longer = "to go on, say --generations 104";
+        for (more, how) in [
+            (&[][..], longer),
+            (&["--generations", "3"], longer),
+            (&["--target", "-1000"], "to go on, say a higher --target"),
+            (&["--evaluations", "8"], "to go on, say more --evaluations"),
+            (&["--steps", "8"], "to go on, say more --steps"),
+        ] {
             let mut resume = gambol("resume");
             resume.arg(&path).args(more).args((!reported).then_some("--no-report"));
             let message = fail(&mut resume);
-            assert_says(&message, &[text(&path), "has ended", "--generations 104"]);
+            assert_says(&message, &[text(&path), "has ended", how]);
             assert_untouched(&path, &before);
         }
     }
@@ -71,5 +78,31 @@ fn a_run_that_is_over_and_lacks_its_report_gets_one() -> Outcome {
     std::fs::write(path.join("report.html"), of_four)?;
     succeed(gambol("resume").arg(&path).arg("--quiet"));
     assert_says(&std::fs::read_to_string(path.join("report.html"))?, &["content=\"6 generations, "]);
+    Ok(())
+}
+
+#[test]
+fn a_run_that_is_over_and_lacks_its_champion_gets_it_again() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(&mut small_run(&path, 4));
+    let before = contents(&path);
+    std::fs::remove_file(path.join("champion.json"))?;
+    succeed(gambol("resume").arg(&path).args(["--no-report", "--quiet"]));
+    assert_untouched(&path, &before);
+    Ok(())
+}
+
+/// So that a script may ask for it again.
+#[test]
+fn a_run_until_usable_that_is_usable_is_no_error() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let mut train = gambol("train");
+    train.args(["tetrapod-1", "running", "--until", "usable", "--no-report", "--quiet", "--out"]);
+    succeed(train.arg(&path));
+    for more in [&[][..], &["--until", "usable"]] {
+        succeed(gambol("resume").arg(&path).args(["--no-report", "--quiet"]).args(more));
+    }
     Ok(())
 }

@@ -548,3 +548,16 @@ fn a_stages_folder_without_a_checkpoint_is_moved_aside_and_not_deleted() -> Outc
     assert!(lasting(&run_folder) == lasting(&whole));
     Ok(())
 }
+
+#[test]
+fn a_limit_that_is_refused_leaves_a_run_with_stages_as_it_was() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("run");
+    succeed(train(&write(folder.path(), &three_stages()), &out).args(["--generations", "5", "--quiet"]));
+    let before = lasting(&out);
+    let refused = fail(gambol("resume").arg(&out).args(["--generations", "0"]));
+    assert_says(&refused, &["stop.generations", "at least 1"]);
+    assert_eq!(lasting(&out), before);
+    succeed(gambol("resume").arg(&out).args(["--generations", "6", "--no-report", "--quiet"]));
+    Ok(())
+}

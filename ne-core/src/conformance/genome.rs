@@ -1,7 +1,7 @@
 //! What a genome owes.
 
 use super::{Promise, Violation, check_phenotype, phenotype::same, probe::Behaviour};
-use crate::Genome;
+use crate::{Genome, field_path};
 use serde::de::DeserializeOwned;
 
 /// There is something to check.
@@ -62,11 +62,7 @@ pub(super) fn to_json(value: &impl serde::Serialize) -> Result<String, String> {
 
 /// From text, the way a checkpoint is read.
 pub(super) fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    let mut reader = serde_json::Deserializer::from_str(text);
-    serde_path_to_error::deserialize(&mut reader).map_err(|error| {
-        let field = error.path().to_string();
-        format!("cannot be read back from JSON: field {field}: {}", error.into_inner())
-    })
+    field_path::read(text.as_bytes()).map_err(|error| format!("cannot be read back from JSON: {error}"))
 }
 
 /// The beginning of a long text.

@@ -1,5 +1,5 @@
 use super::{Decision, Promotion, StageState};
-use crate::SettingError;
+use crate::{SettingError, share_rounded_up};
 use serde::{Deserialize, Serialize};
 
 /// A condition on a stage of a run, as a configuration file names it; as a [`Promotion`] it promotes when it is met.
@@ -115,7 +115,7 @@ impl PromotionRule {
                 let good = evaluations
                     .iter()
                     .filter(|evaluation| evaluation.fitness().is_some_and(|found| found.get() >= *fitness));
-                good.count() as f64 >= of * evaluations.len() as f64
+                good.count() >= share_rounded_up(*of, evaluations.len())
             }
             Self::Measurement(reached) => reached.is_met(state),
             Self::Stagnation(generations) => progress.stagnation >= *generations,

@@ -25,12 +25,15 @@ impl Default for Tournament {
 }
 
 impl Tournament {
+    /// The largest tournament.
+    pub const MAX_SIZE: usize = 1000;
+
     /// Checks the size.
     ///
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        SettingError::check_at_least("size", self.size, 1)
+        SettingError::check_range("size", self.size as f64, 1.0, Self::MAX_SIZE as f64)
     }
 }
 
@@ -47,8 +50,10 @@ impl Selector for Tournament {
                     winner = rival;
                 }
             }
+            // All whom it drew had failed: the best of all that have not, if there is one.
             if scores[winner].is_none() {
-                winner = (0..scores.len()).max_by_key(|&index| scores[index]).unwrap_or(winner);
+                let scored = (0..scores.len()).filter(|&index| scores[index].is_some());
+                winner = scored.max_by_key(|&index| scores[index]).unwrap_or(winner);
             }
             chosen.push(winner);
         }

@@ -1,5 +1,5 @@
 use super::{Selector, ascending};
-use crate::{Fitness, RandomStream, SettingError};
+use crate::{Fitness, RandomStream, SettingError, share_rounded_up};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
@@ -47,8 +47,7 @@ impl Selector for Truncation {
         let order = ascending(scores);
         let survivors = scores.iter().flatten().count();
         let eligible = if survivors == 0 { scores.len() } else { survivors };
-        // A little less, because 0.07 × 100 is 7.000000000000001 and means 7.
-        let parents = ((scores.len() as f64 * self.share - 1e-9).ceil() as usize).clamp(1, eligible);
+        let parents = share_rounded_up(self.share, scores.len()).clamp(1, eligible);
         let best = &order[scores.len() - parents..];
         chosen.extend((0..count).map(|_| best[stream.random_range(0..best.len())]));
     }

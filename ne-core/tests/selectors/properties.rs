@@ -106,6 +106,22 @@ proptest! {
     }
 }
 
+/// Where there is nothing to choose by, all have the same chance.
+#[test]
+fn a_generation_that_failed_as_a_whole_goes_on_with_many_parents() {
+    for selection in [
+        Selection::Roulette(Roulette {}),
+        Selection::StochasticUniversal(StochasticUniversal {}),
+        Selection::Rank(RankSelector::default()),
+        Selection::Tournament(Tournament::default()),
+        Selection::Truncation(Truncation { share: 1.0 }),
+    ] {
+        let chosen = select(&selection, &[None; 20], 200, 7);
+        let parents: std::collections::BTreeSet<usize> = chosen.into_iter().collect();
+        assert!(parents.len() > 10, "{selection:?}: {parents:?}");
+    }
+}
+
 fn same_order(a: &[f64], b: &[f64]) -> bool {
     (0..a.len()).all(|i| (0..i).all(|j| a[i].total_cmp(&a[j]) == b[i].total_cmp(&b[j])))
 }

@@ -2,7 +2,7 @@ use crate::{
     Initialization,
     setting::{check_above_0, check_pairs},
 };
-use ne_core::SettingError;
+use ne_core::{SettingError, share_rounded_down};
 use serde::{Deserialize, Serialize};
 
 /// The settings of [`Ars`](crate::Ars). Those a file leaves out have their defaults.
@@ -55,6 +55,6 @@ impl ArsSettings {
 
     /// Of how many directions a step is made, b.
     pub(super) fn top(&self) -> usize {
-        ((self.top_directions * (self.population / 2) as f64) as usize).max(1)
+        share_rounded_down(self.top_directions, self.population / 2).max(1)
     }
 }

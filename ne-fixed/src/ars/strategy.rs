@@ -192,6 +192,10 @@ fn best_directions(pairs: &[[f64; 2]], count: usize) -> Vec<usize> {
     order
 }
 
+fn square(number: f64) -> f64 {
+    number * number
+}
+
 /// The standard deviation of rewards: of the population, as numpy's `std` has it.
 fn deviation(rewards: &[f64]) -> f64 {
     // In units of the largest, so that squares of huge rewards are numbers.
@@ -201,7 +205,7 @@ fn deviation(rewards: &[f64]) -> f64 {
     }
     let count = rewards.len() as f64;
     let mean = rewards.iter().map(|reward| reward / largest).sum::<f64>() / count;
-    let variance = rewards.iter().map(|reward| (reward / largest - mean).powi(2)).sum::<f64>() / count;
+    let variance = rewards.iter().map(|reward| square(reward / largest - mean)).sum::<f64>() / count;
     variance.sqrt() * largest
 }
 

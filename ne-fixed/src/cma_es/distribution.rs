@@ -1,6 +1,9 @@
 use super::{covariance::Covariance, covariance::CovarianceModel, parameters::Parameters};
 use ne_net::TopologyMap;
 
+/// The least square of a length that is divided by: n / this × the square of a weight's step stays a number.
+const SHORTEST: f64 = 1e-250;
+
 /// The normal distribution N(m, σ²C) that individuals are drawn from, and the paths it has taken.
 ///
 /// Source: Hansen, *The CMA Evolution Strategy: A Tutorial*, arXiv 1604.00772, figure 6; equations by its numbers.
@@ -94,7 +97,7 @@ impl Distribution {
         for (rank, (&weight, y)) in parameters.weights.iter().zip(&steps).enumerate() {
             let bounded = match rank.checked_sub(parameters.parents) {
                 // A negative weight must not count for more the longer the step is, lest C lose its positive axes.
-                Some(other) => weight * n / square(&white[1 + other]).max(f64::MIN_POSITIVE),
+                Some(other) => weight * n / square(&white[1 + other]).max(SHORTEST),
                 None => weight,
             };
             terms.push((rank_mu * bounded, y));

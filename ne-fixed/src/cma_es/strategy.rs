@@ -121,7 +121,8 @@ impl CmaEs {
     /// If they are not weights of this search's topology; the error names the net: `start[0]`.
     pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
         check_start(start, &self.topology)?;
-        Ok(Self { start: start.first().cloned(), ..self })
+        let has_begun = self.asked || self.distribution.is_some() || self.kept.is_some() || self.restarts.count > 0;
+        Ok(if has_begun { self } else { Self { start: start.first().cloned(), ..self } })
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
@@ -141,7 +142,9 @@ impl CmaEs {
         check_growth(growth, &self.topology, &next.topology)?;
         let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
-        let distribution = self.distribution.map(|mut distribution| {
+        // A search that is elsewhere knows less than the one that it left.
+        let left = self.kept.filter(|_| self.restarts.is_elsewhere()).map(|kept| kept.distribution);
+        let distribution = left.or(self.distribution).map(|mut distribution| {
             distribution.limit_deviation(REVIVED * first, f64::INFINITY);
             distribution.remapped(growth, model, first)
         });

@@ -1,6 +1,6 @@
 use super::Permutation;
 use crate::{CrossoverChoice, Initialization, OnePoint, Setting};
-use ne_core::SettingError;
+use ne_core::{SettingError, share_rounded_down};
 use serde::{Deserialize, Serialize};
 
 /// The settings of [`Cosyne`](crate::Cosyne). Those a file leaves out have their defaults.
@@ -95,11 +95,11 @@ impl CosyneSettings {
 
     /// How many nets are parents.
     pub(super) fn parent_count(&self) -> usize {
-        ((self.parents * self.population as f64) as usize).max(2)
+        share_rounded_down(self.parents, self.population).max(2)
     }
 
     /// How many nets children take the place of.
     pub(super) fn offspring_count(&self) -> usize {
-        (self.offspring * self.population as f64) as usize
+        share_rounded_down(self.offspring, self.population)
     }
 }

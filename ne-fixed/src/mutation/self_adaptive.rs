@@ -54,6 +54,10 @@ impl Mutation for SelfAdaptiveMutation {
     fn mutate(&self, weights: &mut [f32], deviation: &mut f32, strength: f32, stream: &mut RandomStream) {
         let normal = Normal::new();
         let learning_rate = self.learning_rate.unwrap_or_else(|| 1.0 / (2.0 * weights.len().max(1) as f64).sqrt());
+        // One of another mutation has none yet.
+        if *deviation == 0.0 {
+            *deviation = self.initial_deviation();
+        }
         *deviation *= libm::expf(learning_rate as f32 * normal.next(stream));
         *deviation = deviation.clamp(self.minimum as f32, self.maximum as f32);
         let deviation = *deviation * strength;

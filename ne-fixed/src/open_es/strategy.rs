@@ -76,7 +76,8 @@ impl OpenEs {
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: with its centre, in which new weights
-    /// are 0, with what [`Adam`](crate::Adam) remembers, and with its deviation, as far as the settings allow it.
+    /// are 0, with what [`Adam`](crate::Adam) remembers (of a new weight the mean square of the others, so that its first steps are
+    /// no longer than theirs), and with its deviation, as far as the settings allow it.
     ///
     /// # Errors
     /// If a setting is out of range, or the growth is not from this topology to that one.
@@ -89,10 +90,12 @@ impl OpenEs {
         let next = Self::new(settings, topology)?;
         check_growth(growth, &self.nets.topology, &next.nets.topology)?;
         let centre = if self.centre.is_empty() { Vec::new() } else { growth.transfer(&self.centre, 0.0) };
+        let squares = &self.adam.squares;
+        let mean_square = squares.iter().sum::<f64>() / squares.len().max(1) as f64;
         let adam = AdamMemory {
             steps: self.adam.steps,
             means: growth.transfer(&self.adam.means, 0.0),
-            squares: growth.transfer(&self.adam.squares, 0.0),
+            squares: growth.transfer(&self.adam.squares, mean_square),
         };
         let deviation = self.deviation.max(next.settings.least_deviation).min(next.settings.deviation);
         Ok(Self { centre, adam, deviation, ..next })

@@ -31,7 +31,7 @@ impl Spectrum {
     /// For signals of `samples` numbers (at least 1), `time_step` s apart.
     pub(super) fn new(samples: usize, time_step: f64) -> Self {
         // Half a turn times index² / samples; whole turns are left out while it is a whole number.
-        let angle = |index: usize| PI * (index * index % (2 * samples)) as f64 / samples as f64;
+        let angle = |index: usize| PI * (index as u64 * index as u64 % (2 * samples as u64)) as f64 / samples as f64;
         let chirp: Vec<Complex> = (0..samples).map(|index| turned(-angle(index))).collect();
         let fourier = Fourier::new(2 * samples - 1);
         let mut filter = vec![[0.0; 2]; fourier.length()];

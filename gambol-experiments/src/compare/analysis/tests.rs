@@ -218,9 +218,18 @@ fn time_to_a_threshold_counts_runs_that_never_reach_it() {
     let time = half.methods[1];
     assert_eq!((time.reached, time.evaluations, time.steps, time.seconds), (8, Some(100.0), Some(1000.0), Some(1.0)));
     assert_eq!((most.methods[0].reached, most.methods[1].evaluations), (0, Some(500.0)));
+    // There is no share of scores below 0.
     let (plan, results) = comparison(&["a", "b"], &["s"], 8, |_, _, seed| -(seed as f64));
-    // Halves of negative scores fall, which no best so far does: such a run is not usable.
     assert!(analyse(&plan, &results).scenarios[0].thresholds.is_empty());
+}
+
+#[test]
+fn a_champion_of_a_better_gait_may_be_worth_less() {
+    let (plan, mut results) = comparison(&["a"], &["s"], 1, |_, _, _| 0.0);
+    results[0] = run("a", "s", 1, &points(&[(300, 2.0), (900, 1.5)]));
+    let analysis = analyse(&plan, &results);
+    assert_eq!(analysis.at_equal_evaluations.scenarios[0].methods[0].scores, [1.5]);
+    assert!(!analysis.caveats.iter().any(|caveat| caveat.contains("fail")), "{:?}", analysis.caveats);
 }
 
 #[test]

@@ -61,7 +61,7 @@ impl Trace {
         self.last.as_ref()
     }
 
-    /// The best score over what was spent; `None` if the run is missing or not usable.
+    /// The champion's score over what was spent; `None` if the run is missing or its file has numbers that no run has.
     pub(super) fn curve(&self, axis: Axis) -> Option<&Curve> {
         self.curves[axis as usize].as_ref()
     }
@@ -120,7 +120,7 @@ impl Traces {
     }
 }
 
-/// `None` without points, and if they are not those of a run.
+/// The fitness of the champion. `None` without points, and if they are not those of a run.
 fn curve(points: &[Point], axis: Axis) -> Option<Curve> {
     let end = axis.of(points.last()?);
     let mut best: Vec<(f64, f64)> = Vec::new();
