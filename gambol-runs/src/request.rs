@@ -5,7 +5,7 @@ use crate::{
     assembly::{self, Assembly, ConfigError},
     catalogue::UnknownName,
     champion::{Champion, ChannelRecord},
-    config::{EngineChoice, FrozenTopology, RunConfig, StrategySettings},
+    config::{EngineChoice, FrozenTopology, RunConfig},
     presets::Preset,
     shaping::{self, ShapingError},
     source::{self, SourceError},
@@ -51,8 +51,8 @@ pub struct Request {
     pub seed: Option<u64>,
     /// The number of individuals of a generation.
     pub population: Option<usize>,
-    /// When the run ends. Evaluations, steps or minutes take the place of the preset's generations, but not of those that a file or
-    /// a setting names.
+    /// When the run ends. Evaluations, steps or minutes take the place of the preset's generations and steps, generations of its
+    /// steps; what a file or a setting names stays.
     pub limits: StopConditions,
     /// Single settings, `key=value`.
     pub set: Vec<String>,
@@ -131,9 +131,9 @@ impl Request {
         if let Some(entry) = entry.filter(|entry| entry.name() != base.strategy.name()) {
             base.strategy = entry.settings();
         }
-        if self.limits.evaluations.or(self.limits.steps).is_some() || self.limits.minutes.is_some() {
-            base.stop.generations = None;
-        }
+        let budget = self.limits.evaluations.or(self.limits.steps).is_some() || self.limits.minutes.is_some();
+        base.stop.generations = base.stop.generations.filter(|_| !budget);
+        base.stop.steps = base.stop.steps.filter(|_| !budget && self.limits.generations.is_none());
         if self.unvaried {
             base.variation = Variation::default();
             base.training_steps = None;
@@ -161,37 +161,31 @@ impl Request {
             let further_bodies = self.further_bodies.iter().map(|name| source::creature(name, registry));
             assembly.lay_over(json!({ "further_bodies": further_bodies.collect::<Result<Vec<_>, _>>()? }));
         }
-        assembly.lay_over(self.choices(&base.strategy, registry)?);
+        assembly.lay_over(self.choices(registry)?);
         for assignment in &self.set {
             check_strategy_of(assignment, base.strategy.name(), registry)?;
             let set = |assembly: &mut Assembly| assembly.set(assignment).and_then(|()| assembly.check());
             set(&mut assembly).map_err(|source| RequestError::Set { assignment: assignment.clone(), source })?;
         }
-        let config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
+        let mut config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
+        }
+        config.seed = self.seed.unwrap_or(config.seed);
+        config.stop = config.stop.overlaid(self.limits);
+        if let Some(population) = self.population {
+            if !config.strategy.settings().contains_key("population") {
+                let message = format!("the strategy {} has no population to be chosen", config.strategy.name());
+                return Err(RequestError::Unknown(message));
+            }
+            config.strategy.set_population(population);
         }
         Ok(config)
     }
 
-    /// What was asked for on its own.
-    fn choices(&self, strategy: &StrategySettings, registry: &Registry) -> Result<Value, RequestError> {
+    /// The engine, the variation and the terrain that were asked for by name.
+    fn choices(&self, registry: &Registry) -> Result<Value, RequestError> {
         let mut choices = json!({});
-        if let Some(seed) = self.seed {
-            choices["seed"] = seed.into();
-        }
-        if let Some(population) = self.population {
-            let name = strategy.name();
-            if !strategy.settings().contains_key("population") {
-                let message = format!("the strategy {name} has no population whose size could be chosen");
-                return Err(RequestError::Unknown(message));
-            }
-            choices["strategy"] = json!({ name: { "population": population } });
-        }
-        if let Value::Object(mut limits) = json!(self.limits) {
-            limits.retain(|_, limit| !limit.is_null());
-            choices["stop"] = limits.into();
-        }
         if let Some(name) = &self.engine {
             let unknown =
                 || RequestError::Unknown(suggest::unknown("engine", name, &EngineChoice::ALL.map(EngineChoice::name)));

@@ -1,6 +1,6 @@
 //! Reads a value so that what is wrong with it has the name of a field.
 
-use serde::de::DeserializeOwned;
+use serde::{Deserializer, de::DeserializeOwned};
 
 /// A value that is not what its type asks for.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -12,14 +12,12 @@ pub struct FieldError {
     pub message: String,
 }
 
-/// Reads a value from JSON.
-///
-/// Always from text: for each kind of reader the code that reads a type is made anew, and that code is a third of the program.
+/// Reads a value. For each kind of reader the code that reads a type is made anew: of text take that of `from_slice`.
 ///
 /// # Errors
-/// [`FieldError`] for the first field that is wrong. Text that is not JSON is an error of the field that it breaks in.
-pub fn read<T: DeserializeOwned>(text: &[u8]) -> Result<T, FieldError> {
-    serde_path_to_error::deserialize(&mut serde_json::Deserializer::from_slice(text)).map_err(|error| {
+/// [`FieldError`] for the first field that is wrong.
+pub fn read<'de, T: DeserializeOwned, D: Deserializer<'de>>(reader: D) -> Result<T, FieldError> {
+    serde_path_to_error::deserialize(reader).map_err(|error| {
         let (path, message) = (error.path().to_string(), error.inner().to_string());
         FieldError { path, message: without_place(&message).to_owned() }
     })

@@ -37,7 +37,7 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f6
 #[pyfunction]
 pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
-        let report = gait::judge(&champion(&path)?, registry()).map_err(wrong)?;
+        let report = on_own_threads(|| gait::judge(&champion(&path)?, registry()).map_err(wrong))?;
         serde_json::to_string(&report).map_err(wrong)
     })
 }
@@ -55,11 +55,14 @@ pub(crate) fn champion_robustness(
         let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
         let perturbations = Perturbations { count: worlds, seed, variation };
         let champion = champion(&path)?;
-        // Of its own: threads that many share are gone in a process that was forked.
-        let threads = rayon::ThreadPoolBuilder::new().build().map_err(wrong)?;
-        let robustness = threads.install(|| robustness(&champion, registry(), &perturbations)).map_err(wrong)?;
+        let robustness = on_own_threads(|| robustness(&champion, registry(), &perturbations).map_err(wrong))?;
         serde_json::to_string(&robustness).map_err(wrong)
     })
+}
+
+/// Threads that all share are gone in a process that was forked.
+fn on_own_threads<T: Send>(what: impl FnOnce() -> PyResult<T> + Send) -> PyResult<T> {
+    rayon::ThreadPoolBuilder::new().build().map_err(wrong)?.install(what)
 }
 
 /// Writes a champion in another format. Returns the files; `out` is the first of them.
@@ -103,7 +106,8 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
     py.detach(|| {
         let champion = champion(&path)?;
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
-        report::write_replay(&champion, registry(), steps, &page).map_err(|error| PyOSError::new_err(error.to_string()))
+        let write = || report::write_replay(&champion, registry(), steps, &page);
+        on_own_threads(|| write().map_err(|error| PyOSError::new_err(error.to_string())))
     })
 }
 

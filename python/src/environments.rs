@@ -139,7 +139,7 @@ impl Environments {
             }),
         })
         .map_err(failed)?;
-        movements::raised(&self.described.movement)
+        movements::raised(&self.described.movements)
     }
 
     /// A step of all environments, written into the arrays. Returns the episodes that have ended.
@@ -200,7 +200,7 @@ impl Environments {
             None => step_all!(iter_mut, chunks, chunks_mut),
             Some(pool) => pool.install(|| step_all!(par_iter_mut, par_chunks, par_chunks_mut)),
         });
-        movements::raised(&self.described.movement)?;
+        movements::raised(&self.described.movements)?;
         let ended = |it: Finished| match it.outcome {
             Ok(fitness) => (it.environment, fitness, None),
             Err(failure) => (it.environment, f64::NAN, Some(failure.to_string())),

@@ -12,9 +12,9 @@ use std::{
     error::Error,
     sync::{Mutex, MutexGuard, PoisonError},
 };
-use tasks::{Environment, Episode};
+use tasks::{Environment, Episode, MovementSpec};
 
-/// Everything that can be named. Built when it is first asked for: an import costs nothing.
+/// Everything that can be named. Built when it is first asked for.
 pub(crate) fn registry() -> &'static Registry {
     let mut registry = lock();
     registry.get_or_insert_with(|| Box::leak(Box::default()))
@@ -59,14 +59,20 @@ pub(crate) enum Episodes {
 /// Episodes, and what a caller wants to know of them.
 pub(crate) struct Described {
     pub(crate) episodes: Episodes,
-    /// The name of the movement.
-    pub(crate) movement: String,
+    /// The names of the movement, its terms and its objectives.
+    pub(crate) movements: Vec<String>,
     /// Sensors are scaled to ± this.
     pub(crate) input_range: f32,
     /// The unit of the fitness.
     pub(crate) unit: String,
     /// The whole configuration, as JSON.
     pub(crate) config: String,
+}
+
+/// The names of a movement, its terms and its objectives: any of them may be Python's.
+pub(crate) fn names_in(movement: &MovementSpec) -> Vec<String> {
+    let added = movement.terms.iter().chain(&movement.objectives).map(|term| term.term.clone());
+    [movement.name.clone()].into_iter().chain(added).collect()
 }
 
 impl Described {
@@ -81,8 +87,8 @@ impl Described {
         };
         let unit = registry.movements.build(&config.movement)?.unit().to_owned();
         let input_range = config.controller.input_range;
-        let movement = config.movement.name.clone();
-        Ok(Self { episodes, movement, input_range, unit, config: serde_json::to_string(&config)? })
+        let movements = names_in(&config.movement);
+        Ok(Self { episodes, movements, input_range, unit, config: serde_json::to_string(&config)? })
     }
 }
 

@@ -67,10 +67,10 @@ pub(crate) fn register_movement(
     .map_err(wrong)
 }
 
-/// What the movement of this name has raised since this was asked last: whatever it was called for is not to be believed.
-pub(crate) fn raised(movement: &str) -> PyResult<()> {
+/// What one of these movements has raised since this was asked last: whatever it was called for is not to be believed.
+pub(crate) fn raised(movements: &[String]) -> PyResult<()> {
     let mut raised = RAISED.lock().unwrap_or_else(PoisonError::into_inner);
-    raised.remove(movement).map_or(Ok(()), Err)
+    movements.iter().filter_map(|movement| raised.remove(movement)).fold(Ok(()), |first, error| first.and(Err(error)))
 }
 
 /// By the movement's name, since other threads may train with others.

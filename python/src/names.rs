@@ -39,7 +39,7 @@ pub(crate) fn default_time_step() -> f32 {
 /// The names of the movements.
 #[pyfunction]
 pub(crate) fn movement_names() -> Vec<String> {
-    // An import asks for them: it builds no registry for that.
+    // Whether or not there is a registry yet.
     let usual = tasks::MovementCatalogue::default();
     let movements = built().map_or(&usual, |registry| &registry.movements);
     movements.entries().iter().filter(|entry| entry.steps.is_some()).map(|entry| entry.name.clone()).collect()

@@ -1,6 +1,11 @@
 //! Whole runs: what Python's `gambol.train` does, and what it reads of a run folder.
 
-use crate::{elsewhere, episodes::registry, errors::wrong, movements};
+use crate::{
+    elsewhere,
+    episodes::{names_in, registry},
+    errors::wrong,
+    movements,
+};
 use gambol_runs::{
     request::Request,
     run::Run,
@@ -100,14 +105,14 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&
     let mut here = elsewhere.is_none();
     loop {
         let mut line = None;
-        let movement = run.stage_config().map_or_else(String::new, |config| config.movement.name.clone());
+        let movements = run.stage_config().map_or_else(Vec::new, |config| names_in(&config.movement));
         let step = step(&mut run, (!here).then_some(&mut answers), &mut |generation| {
             line = callback.and_then(|_| serde_json::to_string(generation.report).ok());
         })?;
         let stops = match (step, elsewhere) {
             (Step::Over(reason), _) => {
                 let done = run.finish(reason).map_err(broken)?;
-                return movements::raised(&movement).map(|()| ended(&done));
+                return movements::raised(&movements).map(|()| ended(&done));
             }
             (Step::Wants(batch), Some(elsewhere)) => match elsewhere::ask(elsewhere, run.stage_config(), batch) {
                 Ok(Some(evaluations)) => {
@@ -122,7 +127,7 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&
             },
             _ => {
                 here = elsewhere.is_none();
-                asked(callback, line, &movement)
+                asked(callback, line, &movements)
             }
         };
         let interrupted = |error: &PyErr| Python::attach(|py| error.is_instance_of::<PyKeyboardInterrupt>(py));
@@ -154,9 +159,9 @@ fn step(
     }
 }
 
-/// Whether the run is to end now, after the generation with this line, of this movement.
-fn asked(callback: Option<&Py<PyAny>>, line: Option<String>, movement: &str) -> PyResult<bool> {
-    movements::raised(movement)?;
+/// Whether the run is to end now, after the generation with this line, of these movements.
+fn asked(callback: Option<&Py<PyAny>>, line: Option<String>, movements: &[String]) -> PyResult<bool> {
+    movements::raised(movements)?;
     Python::attach(|py| {
         py.check_signals()?;
         match callback.zip(line) {

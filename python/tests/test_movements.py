@@ -103,6 +103,21 @@ def test_what_it_raises_is_raised(tmp_path):
         gambol.train("biped-1", "broken", out=tmp_path / "last", preset="plain", generations=1, population=4)
 
 
+def test_what_a_term_raises_is_raised(tmp_path):
+    """It is a movement as any other."""
+    settings = {"movement.terms": [{"term": "broken", "weight": 1}]}
+    envs = gambol.make_vec("biped-1", "running", settings=settings)
+    envs.reset(seed=1)
+    with pytest.raises(LookupError, match="the tenth step"):
+        for _ in range(20):
+            envs.step(np.zeros((1, 2)))
+    with pytest.raises(LookupError, match="the tenth step"):
+        gambol.train("biped-1", "running", out=tmp_path / "run", preset="plain", generations=2, population=4, settings=settings)
+    well = gambol.make_vec("biped-1", "running")
+    well.reset(seed=1)
+    well.step(np.zeros((1, 2)))
+
+
 def test_each_of_two_trainings_raises_what_is_its_own(tmp_path):
     """In threads: of another movement's error the one that goes well hears nothing."""
 

@@ -27,10 +27,15 @@ pub(crate) async fn guard(State(shared): State<Arc<Shared>>, request: Request, n
     response
 }
 
+/// The name as a browser writes it that leaves out the usual port.
+fn with_port(name: &str) -> String {
+    if name.contains(':') { name.to_owned() } else { format!("{name}:80") }
+}
+
 /// Another name would be one that somebody else lets lead here.
 fn has_our_name(shared: &Shared, headers: &HeaderMap) -> bool {
     let host = headers.get(header::HOST).and_then(|host| host.to_str().ok());
-    host.is_some_and(|host| shared.hosts.iter().any(|ours| ours == host))
+    host.is_some_and(|host| shared.hosts.contains(&with_port(host)))
 }
 
 fn comes_from_us(shared: &Shared, headers: &HeaderMap) -> bool {
@@ -38,5 +43,6 @@ fn comes_from_us(shared: &Shared, headers: &HeaderMap) -> bool {
         // Browsers say where a socket comes from.
         return !headers.contains_key(header::UPGRADE);
     };
-    origin.to_str().is_ok_and(|origin| shared.hosts.iter().any(|ours| origin.strip_prefix("http://") == Some(ours)))
+    let name = origin.to_str().ok().and_then(|origin| origin.strip_prefix("http://"));
+    name.is_some_and(|name| shared.hosts.contains(&with_port(name)))
 }

@@ -9,6 +9,7 @@ class LiveNet {
 
   enter({ network }) {
     this.network = network;
+    this.view?.close();
     this.view = null;
     this.build();
   }

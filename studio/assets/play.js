@@ -17,6 +17,8 @@ class Play {
     get("play-reset").addEventListener("click", () => this.begin());
     document.addEventListener("keydown", event => this.key(event, true));
     document.addEventListener("keyup", event => this.key(event, false));
+    // Nothing is told of what is let go of elsewhere.
+    window.addEventListener("blur", () => [...this.held].forEach(key => this.hold(key, false)));
     for (const button of document.querySelectorAll("#touch button")) {
       const hold = on => event => { event.preventDefault(); this.hold(button.dataset.key, on); };
       button.addEventListener("pointerdown", hold(true));
@@ -56,8 +58,10 @@ class Play {
   }
 
   key(event, down) {
-    if (!this.active || event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, dialog")) return;
     const key = event.key === "ArrowUp" ? " " : event.key;
+    // What was held is let go of, whatever else is held by then.
+    if (!down && this.held.has(key)) return this.hold(key, false);
+    if (!this.active || event.ctrlKey || event.metaKey || event.altKey || event.target.closest("input, select, textarea, dialog")) return;
     if (!["ArrowLeft", "ArrowRight", " ", "Shift"].includes(key)) return;
     if (key === " " && event.target.closest("button")) return;
     if (key !== "Shift") event.preventDefault();

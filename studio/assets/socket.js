@@ -21,7 +21,7 @@ class SocketConnection extends Connection {
       if (typeof data === "string") this.tell(JSON.parse(data)); else this.takeFrame(data);
     });
     this.socket.addEventListener("close", () => {
-      this.onState(false, "The studio does not answer. What was trained is saved; the page goes on as soon as the program does.");
+      this.onState(false, "The studio does not answer. What was trained is saved. Begin the program again and open the address it shows.");
       setTimeout(() => this.connect(), this.wait);
       this.wait = Math.min(this.wait * 2, 5000);
     });

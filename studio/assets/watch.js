@@ -31,6 +31,7 @@ class Watch {
     const name = config.creature.title || config.creature.name;
     document.getElementById("arena-title").textContent = `${name} · ${config.movement.name}`;
     document.getElementById("run-command").textContent = command;
+    document.getElementById("run-pace").value = "free";
     document.title = `${name} · Gambol studio`;
     this.clear();
     this.setState(state);
@@ -41,6 +42,7 @@ class Watch {
     this.showVerdict({ usable: undefined, against: [] });
     document.getElementById("fitness-chart").replaceChildren();
     document.getElementById("fitness-legend").replaceChildren();
+    this.chart?.close();
     this.chart = null;
   }
 
@@ -90,10 +92,14 @@ class Watch {
     const each = Math.ceil(this.rows.length / MOST_ROWS);
     if (each <= 1) return this.rows;
     const thin = [];
-    for (let i = 0; i < this.rows.length; i += each) {
-      const stretch = this.rows.slice(i, i + each);
-      const last = stretch[stretch.length - 1];
-      thin.push({ ...last, failures: Math.max(...stretch.map(row => row.failures)) });
+    const greatest = (stretch, field) => stretch.reduce((most, row) => (row[field] > (most ?? -Infinity) ? row[field] : most), undefined);
+    // No stretch reaches from one stage into the next, and the first row of a stage stands alone: the chart begins anew there.
+    const starts = new Set(this.stages.map(stage => stage.row));
+    for (let from = 0, to; from < this.rows.length; from = to) {
+      to = from + 1;
+      if (!starts.has(from)) while (to < Math.min(from + each, this.rows.length) && !starts.has(to)) to++;
+      const stretch = this.rows.slice(from, to);
+      thin.push({ ...stretch[stretch.length - 1], best: greatest(stretch, "best"), failures: greatest(stretch, "failures") });
     }
     return thin;
   }

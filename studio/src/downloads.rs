@@ -1,8 +1,12 @@
 //! What a page can have of a run as a file: its report, its champion, what a champion is exported to.
 
-use crate::library::{Library, LibraryError};
+use crate::{
+    library::{Library, LibraryError},
+    protocol::RunState,
+};
 use gambol_exports::{Format, Options, Picture};
 use gambol_runs::{champion::Champion, run_folder::RunFolder};
+use std::path::PathBuf;
 
 /// What is wanted of a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -102,8 +106,11 @@ impl Library {
     }
 
     fn report(&self, run: &str, folder: &RunFolder) -> Result<Download, Box<dyn std::error::Error>> {
-        // That of a run that was looked at here may be old.
-        if self.state(run).is_some() || !folder.report().is_file() {
+        let modified = |path: PathBuf| std::fs::metadata(path).and_then(|file| file.modified()).ok();
+        // What has ended has the report that was made then, which says why.
+        let is_under_way = matches!(self.state(run), Some(RunState::Running | RunState::Paused));
+        let is_old = modified(folder.report()) < modified(folder.champion()).max(modified(folder.log()));
+        if is_under_way || is_old {
             gambol_reports::report::write_report(folder, self.registry(), None)?;
         }
         Ok(Download { name: None, media: "text/html; charset=utf-8", bytes: std::fs::read(folder.report())? })

@@ -11,12 +11,12 @@ use std::{
     time::{Instant, SystemTime},
 };
 
-/// Judges each new champion of a session from now on, as long as a page looks.
+/// Judges each new champion of a session from now on, as long as this or another page looks.
 pub(crate) fn judge_champions(session: &Arc<Session>, look: &Weak<()>) {
-    if !session.begin_judging() {
+    if !session.begin_judging(look.clone()) {
         return;
     }
-    let judging = Box::new(Judging { session: Arc::clone(session), look: look.clone(), judged: None, asked: None });
+    let judging = Box::new(Judging { session: Arc::clone(session), judged: None, asked: None, is_over: false });
     if let Err(error) = session.means().workers.start("judge", judging) {
         tracing::warn!(%error, "no gait is judged");
     }
@@ -24,11 +24,12 @@ pub(crate) fn judge_champions(session: &Arc<Session>, look: &Weak<()>) {
 
 struct Judging {
     session: Arc<Session>,
-    look: Weak<()>,
     /// When the champion file was written that was judged last.
     judged: Option<SystemTime>,
     /// What a helper judges.
     asked: Option<Ticket>,
+    /// Whether the session knows that it has ended.
+    is_over: bool,
 }
 
 /// Judging takes at most this share of one core.
@@ -61,7 +62,8 @@ impl Judging {
 
 impl Job for Judging {
     fn go_on(&mut self) -> Next {
-        if self.look.strong_count() == 0 {
+        if !self.session.is_looked_at() {
+            self.is_over = true;
             return Next::Done;
         }
         if self.is_asked() {
@@ -84,6 +86,8 @@ impl Drop for Judging {
         if let (Some(ticket), Some(helpers)) = (self.asked, &self.session.means().helpers) {
             helpers.withdraw(ticket);
         }
-        self.session.end_judging();
+        if !self.is_over {
+            self.session.end_judging();
+        }
     }
 }

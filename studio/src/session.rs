@@ -14,9 +14,9 @@ use gambol_runs::{
     strategies::AnyStrategy,
     texts::shell_word,
 };
-use ne_core::{Generation, GenerationReport, StopConditions, StopSignal};
+use ne_core::{Generation, GenerationReport, StopConditions, StopSignal, promotion::Decision};
 use std::{
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError, Weak},
     time::SystemTime,
 };
 
@@ -67,8 +67,11 @@ struct Inner {
     generation: Option<Arc<Told>>,
     verdict: Option<Verdict>,
     robustness: Option<RobustnessState>,
-    /// Whether something waits for verdicts.
+    /// Whether something judges its champions, and who looks at it.
     is_judged: bool,
+    looks: Vec<Weak<()>>,
+    /// Whether the stage that comes first has begun before.
+    resumes_stage: bool,
     /// When the log of a run that is trained elsewhere was last read.
     read: Option<SystemTime>,
 }
@@ -128,6 +131,8 @@ impl Session {
             verdict: None,
             robustness: None,
             is_judged: false,
+            looks: Vec::new(),
+            resumes_stage: false,
             read: None,
         };
         let (inner, ended) = (Mutex::new(inner), Condvar::new());
@@ -222,7 +227,7 @@ impl Session {
     pub(crate) fn longer_by(&self, generations: u64) -> StopConditions {
         let done = self.inner().rows.len() as u64;
         let generations = Some(done.saturating_add(generations));
-        StopConditions { generations, steps: None, tier: None, ..self.config.stop }
+        StopConditions { generations, ..StopConditions::default() }
     }
 
     /// Saves and ends it.
@@ -294,11 +299,13 @@ impl Session {
 
     /// Its training begins.
     pub(crate) fn begin(&self) -> Result<(), SessionError> {
+        let latest = shaping::stage_runs(&self.folder).ok().and_then(|mut stage_runs| stage_runs.pop());
         let mut inner = self.inner();
         if matches!(inner.state, RunState::Running | RunState::Paused) {
             return Err(SessionError::Running);
         }
         (inner.state, inner.pace, inner.signal) = (RunState::Running, Pace::Free, StopSignal::default());
+        inner.resumes_stage = latest.is_some_and(|stage_run| stage_run.decision == Decision::Stay);
         Ok(())
     }
 
@@ -336,8 +343,8 @@ impl Session {
     pub(crate) fn see_stage(&self, planned: &PlannedStage) {
         let mut inner = self.inner();
         let row = inner.rows.len();
-        // One that is resumed has begun before.
-        if inner.stages.last().is_none_or(|(_, name)| *name != planned.name) {
+        // A stage may be tried again: the name does not tell.
+        if !std::mem::take(&mut inner.resumes_stage) {
             inner.stages.push((row, planned.name.clone()));
         }
         inner.stage_config = planned.config.clone();
@@ -361,9 +368,19 @@ impl Session {
         }
     }
 
-    /// Its champions begin to be judged; `false`: they are already.
-    pub(crate) fn begin_judging(&self) -> bool {
-        !std::mem::replace(&mut self.inner().is_judged, true)
+    /// Its champions are to be judged as long as this looks; `false`: they are already.
+    pub(crate) fn begin_judging(&self, look: Weak<()>) -> bool {
+        let mut inner = self.inner();
+        inner.looks.push(look);
+        !std::mem::replace(&mut inner.is_judged, true)
+    }
+
+    /// Whether a page still looks; if none does, nothing judges it any more.
+    pub(crate) fn is_looked_at(&self) -> bool {
+        let mut inner = self.inner();
+        inner.looks.retain(|look| look.strong_count() > 0);
+        inner.is_judged = !inner.looks.is_empty();
+        inner.is_judged
     }
 
     /// Nothing judges it any more.

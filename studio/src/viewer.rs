@@ -233,6 +233,7 @@ impl Viewer {
         let verdict = Event::Verdict(Verdict::of(&champion, registry));
         let replies = vec![Event::Opened(Box::new(opened)).into(), verdict.into()];
         (self.session, self.guest, self.arenas) = (None, Some(Box::new(champion)), [None, None]);
+        (self.look, self.shown) = (Arc::new(()), None);
         (self.population, self.beside) = (None, None);
         Ok(replies)
     }

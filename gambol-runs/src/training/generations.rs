@@ -294,7 +294,8 @@ impl Training {
 
 /// Whether a file is gone that the last save had written.
 fn lacks_files(folder: &RunFolder, checkpoint: &Checkpoint<AnyStrategy>) -> bool {
-    let lacks_champion = checkpoint.champion.is_some() && !folder.champion().is_file();
+    let has_champion = checkpoint.champion.is_some() || !checkpoint.candidates.is_empty();
+    let lacks_champion = has_champion && !folder.champion().is_file();
     lacks_champion || (checkpoint.strategy.front().is_some() && !folder.front().is_file())
 }
 

@@ -1,4 +1,4 @@
-use super::{Outcome, check_image, gait::champion_file, write_output};
+use super::{Outcome, check_ending, check_output, gait::champion_file, write_output};
 use crate::{
     Registry,
     champion::Champion,
@@ -51,7 +51,8 @@ impl Film {
                 return Err(format!("{} is what is to be filmed", file.display()).into());
             }
         }
-        check_image(&self.out, self.force)?;
+        check_output(&self.out, self.force)?;
+        check_ending(&self.out)?;
         let Self { from, seconds, columns, width, height, .. } = self;
         let champions = files.iter().map(|file| Champion::read(file)).collect::<Result<Vec<_>, _>>()?;
         let cut = Cut { from, seconds, columns, width, height };

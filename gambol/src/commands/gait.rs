@@ -1,4 +1,4 @@
-use super::{NOT_USABLE, Outcome, check_image, gait_text, write_output};
+use super::{NOT_USABLE, Outcome, check_ending, check_output, gait_text, write_output};
 use crate::{
     Registry,
     champion::Champion,
@@ -103,12 +103,12 @@ impl Gait {
     /// Nothing may be overwritten unasked, and never what is measured.
     fn check_sheet(&self) -> Result<(), Box<dyn Error>> {
         let Some(sheet) = &self.sheet else { return Ok(()) };
-        check_image(sheet, self.force)?;
+        check_output(sheet, self.force)?;
         let measured = champion_file(&self.gait)?;
         if sheet.canonicalize().ok().is_some_and(|sheet| Some(sheet) == measured.canonicalize().ok()) {
             return Err(format!("{} is what is to be measured", sheet.display()).into());
         }
-        Ok(())
+        Ok(check_ending(sheet)?)
     }
 }
 

@@ -49,7 +49,7 @@ fn a_run_that_is_over_says_how_to_go_on_and_stays_as_it_is() -> Outcome {
         for (more, how) in [
             (&[][..], longer),
             (&["--generations", "3"], longer),
-            (&["--target", "-1000"], "to go on, say a higher --target"),
+            (&["--target", "-1000"], longer),
             (&["--evaluations", "8"], "to go on, say more --evaluations"),
             (&["--steps", "8"], "to go on, say more --steps"),
         ] {

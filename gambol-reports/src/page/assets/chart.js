@@ -20,6 +20,11 @@ function niceTicks(low, high, wanted) {
   return { ticks, step };
 }
 
+// The least and the greatest of any number of values: as arguments of a function there may be too many.
+function extremes(values) {
+  return values.reduce(([low, high], value) => [Math.min(low, value), Math.max(high, value)], [Infinity, -Infinity]);
+}
+
 // The generation axis under a chart.
 function drawGenerations(root, rows, box, x, narrow) {
   const [first, last] = [rows[0].generation, rows[rows.length - 1].generation];
@@ -77,8 +82,15 @@ class FitnessChart {
     this.take(run);
     makeSlider(this.place, this.rows, "Fitness over generations; arrow keys choose a generation");
     this.listen();
-    new ResizeObserver(() => this.build()).observe(this.place);
+    this.observer = new ResizeObserver(() => this.build());
+    this.observer.observe(this.place);
     this.build();
+  }
+
+  // Another run takes its place.
+  close() {
+    this.observer.disconnect();
+    this.listening.abort();
   }
 
   // The history to be drawn: at least a row.
@@ -97,6 +109,7 @@ class FitnessChart {
     this.take(run);
     this.width = 0;
     this.place.setAttribute("aria-valuemin", this.rows[0].generation);
+    this.place.setAttribute("aria-valuemax", this.rows[this.rows.length - 1].generation);
     this.build();
   }
 
@@ -228,7 +241,7 @@ class FitnessChart {
   // Failed evaluations as bars on a line of their own under the axis.
   drawFailures(root, height) {
     const { box, x } = this;
-    const most = Math.max(...this.rows.map(row => row.failures || 0));
+    const most = this.rows.reduce((most, row) => Math.max(most, row.failures || 0), 0);
     const base = height - 2;
     svg("text", { class: "axis", x: box.left, y: base - 24 }, root).textContent = `failed evaluations (at most ${most} a generation)`;
     const wide = Math.max(1.2, Math.min(6, (box.right - box.left) / this.rows.length * 0.7));
@@ -265,19 +278,21 @@ class FitnessChart {
   }
 
   listen() {
+    this.listening = new AbortController();
+    const { signal } = this.listening;
     const nearest = event => {
       this.pick(nearestRow(this.rows, this.x, event.clientX - this.place.getBoundingClientRect().left), true);
     };
-    this.place.addEventListener("pointermove", nearest);
-    this.place.addEventListener("pointerdown", nearest);
+    this.place.addEventListener("pointermove", nearest, { signal });
+    this.place.addEventListener("pointerdown", nearest, { signal });
     this.place.addEventListener("pointerleave", event => {
       if (event.pointerType === "mouse") this.pick(this.rows.length - 1, false);
-    });
+    }, { signal });
     this.place.addEventListener("keydown", event => {
       const to = rowForKey(event.key, this.picked ?? this.rows.length - 1, this.rows);
       if (to === undefined) return;
       event.preventDefault();
       this.pick(to, true);
-    });
+    }, { signal });
   }
 }

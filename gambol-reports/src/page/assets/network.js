@@ -19,10 +19,18 @@ class NetworkView {
     this.stale = true;
     this.frame = 0;
     this.place.append(this.canvas);
-    new ResizeObserver(() => this.layout()).observe(this.place);
-    new IntersectionObserver(entries => { this.visible = entries[entries.length - 1].isIntersecting; }).observe(this.place);
+    this.observers = [
+      new ResizeObserver(() => this.layout()),
+      new IntersectionObserver(entries => { this.visible = entries[entries.length - 1].isIntersecting; }),
+    ];
+    this.observers.forEach(observer => observer.observe(this.place));
     this.layout();
     this.buildLegend();
+  }
+
+  // Another net takes its place.
+  close() {
+    this.observers.forEach(observer => observer.disconnect());
   }
 
   findKinds() {

@@ -92,7 +92,7 @@ function buildFitness(run) {
     : [`From ${withUnit(bests[0], run.unit)} to ${withUnit(bests[bests.length - 1], run.unit)} in ${generations}`];
   // A strategy may change the size of its generations.
   const size = sizes.every(size => size === sizes[0]) ? `${count(sizes[0], "evaluation", "evaluations")} each`
-    : `${fixed(Math.min(...sizes), 0)} to ${fixed(Math.max(...sizes), 0)} evaluations`;
+    : `${extremes(sizes).map(size => fixed(size, 0)).join(" to ")} evaluations`;
   if (sizes[0]) text.push(` of ${size}`);
   const judged = run.summary?.judged ? " The champion is chosen by a champion selection: in a whole episode without variation, in rapier." : "";
   document.getElementById("fitness-intro").textContent = text.join("") + "." + judged;

@@ -48,7 +48,7 @@ class SpeciesChart {
       return below;
     });
     this.total = row => this.below[row][this.species.length];
-    this.most = Math.max(...this.rows.map((_, row) => this.total(row)));
+    this.most = extremes(this.rows.map((_, row) => this.total(row)))[1];
   }
 
   build() {

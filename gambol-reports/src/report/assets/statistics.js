@@ -28,7 +28,7 @@ class StatisticsChart {
   // Drawn in a box of 100 by 40 that is stretched to the tile.
   buildTile({ name, values }) {
     const known = values.filter(value => value !== null);
-    const [low, high] = [Math.min(...known), Math.max(...known)];
+    const [low, high] = extremes(known);
     const x = row => this.rows.length > 1 ? row / (this.rows.length - 1) * 100 : 50;
     const y = value => high > low ? 38 - (value - low) / (high - low) * 36 : 20;
     const tile = element("div", undefined, "statistic");

@@ -34,6 +34,10 @@ def carry_out(of: Recipe, digest: str, run: int) -> str:
     """
     mine = experiment(of)
     if mine.digest != digest:
+        # Files may have changed since it was made.
+        experiment.cache_clear()
+        mine = experiment(of)
+    if mine.digest != digest:
         raise RuntimeError(
             f"this machine makes another experiment of the same words ({mine.digest}, not {digest}): "
             "it has another version of gambol, or other creature or configuration files"
@@ -46,6 +50,8 @@ class Runs:
 
     def __init__(self, of: Recipe, folder: Path) -> None:
         """Begins or goes on in the folder."""
+        # Of the files as they are now.
+        experiment.cache_clear()
         self.experiment = experiment(of)
         self._of, self._folder = of, folder
         self._files: dict[int, Path] = {}

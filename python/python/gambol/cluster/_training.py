@@ -23,7 +23,8 @@ def train(runs: Sequence[Mapping[str, Any]], *, cluster: Any = None) -> list[Run
         cluster: the module ``ray``, initialised as you like; by default it is imported, and this machine is the cluster.
 
     Returns:
-        The runs, in their order. Ctrl-C ends all after the generation under way.
+        The runs, in their order. Ctrl-C ends all after the generation under way and is raised again; what there was is saved, and
+        :func:`gambol.resume` goes on.
 
     Raises:
         ValueError: if an argument is wrong.
