@@ -66,6 +66,18 @@ struct State<E> {
 /// The deepest a creature may start in the ground, m.
 const DEEPEST_START: f32 = 0.1;
 
+/// Checks that a creature does not start inside the ground.
+///
+/// # Errors
+/// [`EnvironmentError::BelowGround`].
+pub fn check_start(blueprint: &Blueprint) -> Result<(), EnvironmentError> {
+    let depth = -blueprint.bounding_box()[1];
+    match depth > DEEPEST_START {
+        true => Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth }),
+        false => Ok(()),
+    }
+}
+
 impl<E: Engine> CreatureEnvironment<E> {
     /// On flat ground: see [`on_ground`](Self::on_ground).
     ///
@@ -143,10 +155,7 @@ impl<E: Engine> CreatureEnvironment<E> {
         let actuated =
             |&hinge: &usize| ActuatedHinge { hinge, parent: hinges[hinge].parent, child: hinges[hinge].child };
         let actuated = blueprint.actuated().iter().map(actuated).collect();
-        let depth = -blueprint.bounding_box()[1];
-        if depth > DEEPEST_START {
-            return Err(EnvironmentError::BelowGround { creature: blueprint.name().into(), depth });
-        }
+        check_start(&blueprint)?;
         let reference = Conditions::reference(motors.len());
         let engine = E::new(&blueprint, &settings, &landscape.ground, &reference)?;
         let settled = Settled::new(engine, &blueprint, &settings, &reference, &landscape)

@@ -62,7 +62,7 @@ pub use body::{RestHinge, RestPose, next_gap};
 pub use bumps::bumps;
 pub use conditions::Conditions;
 pub use engine::Engine;
-pub use environment::{ActuatedHinge, CreatureEnvironment};
+pub use environment::{ActuatedHinge, CreatureEnvironment, check_start};
 pub use error::EnvironmentError;
 pub use ground::{Ground, GroundShape};
 pub use push::{Push, PushSchedule};

@@ -2,7 +2,7 @@
 
 use crate::{
     episodes::Described,
-    errors::wrong,
+    errors::{check_threads, wrong},
     group::{Autoreset, Finished, Group, Rows},
     layout::{Layout, Wanted},
     movements,
@@ -20,7 +20,8 @@ use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use std::sync::{Arc, OnceLock};
 
 /// The most environments: their arrays are then gigabytes.
-const MOST_ENVIRONMENTS: usize = 1 << 24;
+/// Each takes some 6 kB.
+const MOST_ENVIRONMENTS: usize = 1 << 20;
 
 /// Environments of one creature and one movement, stepped together.
 #[pyclass(module = "gambol._gambol")]
@@ -29,8 +30,8 @@ pub(crate) struct Environments {
     together: usize,
     count: usize,
     autoreset: Autoreset,
-    /// None: everything is done on the caller's thread.
-    pool: Option<ThreadPool>,
+    /// One thread: the caller's.
+    pool: Pool,
     described: Described,
     layout: Option<Arc<Layout>>,
     /// Made for the first frame.
@@ -71,6 +72,7 @@ impl Environments {
         if !(1..=MOST_ENVIRONMENTS).contains(&count) {
             return Err(wrong(format!("num_envs = {count}: must be from 1 to {MOST_ENVIRONMENTS}")));
         }
+        check_threads(threads)?;
         let set = steps.map(|steps| format!("movement.steps={steps}")).into_iter().chain(settings).collect();
         let request = Request {
             creature: Some(creature),
@@ -98,10 +100,7 @@ impl Environments {
                 0 => std::thread::available_parallelism().map_or(1, usize::from),
                 threads => threads,
             };
-            let pool = match threads.min(groups.len()) {
-                0 | 1 => None,
-                threads => Some(ThreadPoolBuilder::new().num_threads(threads).build().map_err(failed)?),
-            };
+            let pool = Pool { threads: threads.min(groups.len()), made: None };
             Ok(Self { groups, together, count, autoreset, pool, described, layout, painter: OnceLock::new() })
         })
     }
@@ -121,6 +120,7 @@ impl Environments {
         let (inputs, _) = self.shape();
         let observations = self.rows("observations", observations.as_slice_mut()?, inputs)?;
         let Self { groups, together, pool, .. } = self;
+        let pool = pool.here()?;
         let reset = |(index, (group, rows)): (usize, (&mut Group, &mut [f32]))| {
             for place in 0..group.len() {
                 let environment = index * *together + place;
@@ -171,6 +171,7 @@ impl Environments {
         let terminated = self.rows("terminated", terminated.as_slice_mut()?, 1)?;
         let truncated = self.rows("truncated", truncated.as_slice_mut()?, 1)?;
         let Self { groups, together, autoreset, pool, .. } = self;
+        let pool = pool.here()?;
         let (together, autoreset) = (*together, *autoreset);
         // The same on this thread and on several.
         macro_rules! step_all {
@@ -283,7 +284,7 @@ impl Environments {
     /// How many threads step them.
     #[getter]
     fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, ThreadPool::current_num_threads)
+        self.pool.threads.max(1)
     }
 
     /// The whole configuration, as JSON.
@@ -325,4 +326,23 @@ impl Environments {
 /// Something that no caller did wrong.
 fn failed(error: impl ToString) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
+}
+
+/// Threads of a process: in one that was forked from it they are gone, and others are made.
+struct Pool {
+    threads: usize,
+    made: Option<(u32, ThreadPool)>,
+}
+
+impl Pool {
+    /// Those of this process; `None` if one is enough.
+    fn here(&mut self) -> PyResult<Option<&ThreadPool>> {
+        let process = std::process::id();
+        if self.threads > 1 && self.made.as_ref().is_none_or(|(of, _)| *of != process) {
+            let pool = ThreadPoolBuilder::new().num_threads(self.threads).build().map_err(failed)?;
+            std::mem::forget(self.made.take());
+            self.made = Some((process, pool));
+        }
+        Ok(self.made.as_ref().map(|(_, pool)| pool))
+    }
 }

@@ -25,14 +25,15 @@ pub(crate) fn built() -> Option<&'static Registry> {
     *lock()
 }
 
-/// Adds something of a name of its own; what was added under that name before is replaced.
+/// Adds something of a name of its own; what was added under that name before is replaced. `add` must not call Python, which
+/// may wait for the lock.
 ///
 /// # Errors
 /// If the library has a movement of that name.
 pub(crate) fn register(name: String, add: impl FnOnce(&mut Registry)) -> Result<(), String> {
     static ADDED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
-    let mut changed = registry().clone();
     let mut added = ADDED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut changed = registry().clone();
     if !added.contains(&name) && changed.movements.find(&name).is_some() {
         return Err(format!("name = \"{name}\": the library has a movement of that name"));
     }

@@ -59,10 +59,15 @@ pub(crate) fn register_movement(
     if matches!(steps, Some(0) | Some(1_000_001..)) {
         return Err(wrong(format!("steps = {}: must be from 1 to 1000000", steps.unwrap_or_default())));
     }
-    // Once as a sample, so that an error is told at once.
-    let sample = Written { made: make.call0(py)?, name: name.clone(), unit, make: Arc::new(make) };
-    register(name, |registry| {
-        registry.movements.add_with(steps, description, move || Box::new(sample.clone()));
+    // Once as a sample, so that an error is told at once: it goes to the first that asks.
+    let (made, make) = (make.call0(py)?, Arc::new(make));
+    let of = |made| Written { made, is_broken: false, name: name.clone(), unit: unit.clone(), make: Arc::clone(&make) };
+    let (first, pattern) = (Mutex::new(Some(of(made))), of(py.None()));
+    register(name.clone(), |registry| {
+        registry.movements.add_with(steps, description, move || {
+            let sample = first.lock().unwrap_or_else(PoisonError::into_inner).take();
+            Box::new(sample.unwrap_or_else(|| pattern.clone()))
+        });
     })
     .map_err(wrong)
 }
@@ -82,11 +87,16 @@ struct Written {
     unit: String,
     make: Arc<Py<PyAny>>,
     made: Py<PyAny>,
+    /// Whether it could not be made, or could not begin.
+    is_broken: bool,
 }
 
 impl Written {
     /// What Python answers; the first error is kept to be raised.
     fn ask<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Option<T> {
+        if self.is_broken {
+            return None;
+        }
         Python::attach(|py| ask(self.made.bind(py))).map_err(|error| keep(&self.name, error)).ok()
     }
 }
@@ -99,12 +109,9 @@ impl Clone for Written {
     fn clone(&self) -> Self {
         Python::attach(|py| {
             // A copy begins anew: episodes are independent.
-            let made = self.make.call0(py).unwrap_or_else(|error| {
-                keep(&self.name, error);
-                py.None()
-            });
+            let made = self.make.call0(py).map_err(|error| keep(&self.name, error)).ok();
             let (name, unit, make) = (self.name.clone(), self.unit.clone(), Arc::clone(&self.make));
-            Self { name, unit, make, made }
+            Self { name, unit, make, is_broken: made.is_none(), made: made.unwrap_or_else(|| py.None()) }
         })
     }
 }
@@ -119,10 +126,14 @@ impl Movement for Written {
     }
 
     fn begin(&mut self, start: &tasks::Snapshot) {
-        self.ask(|made| made.call_method1("begin", (Snapshot(start.clone()),)).map(drop));
+        let begun = self.ask(|made| made.call_method1("begin", (Snapshot(start.clone()),)).map(drop));
+        self.is_broken |= begun.is_none();
     }
 
     fn observe(&mut self, now: &tasks::Snapshot) -> Verdict {
+        if self.is_broken {
+            return Verdict::Fail("the movement raised an error");
+        }
         match self.ask(|made| made.call_method1("observe", (Snapshot(now.clone()),))?.is_truthy()) {
             Some(false) => Verdict::GoOn,
             Some(true) => Verdict::End,

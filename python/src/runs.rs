@@ -3,7 +3,7 @@
 use crate::{
     elsewhere,
     episodes::{names_in, registry},
-    errors::wrong,
+    errors::{check_threads, wrong},
     movements,
 };
 use gambol_runs::{
@@ -66,7 +66,7 @@ pub(crate) fn train(
     };
     py.detach(|| {
         let config = request.resolve(registry()).map_err(wrong)?;
-        let run = Run::begin(&config, &folder, resources(threads)).map_err(broken)?;
+        let run = Run::begin(&config, &folder, resources(threads)?).map_err(broken)?;
         until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })
 }
@@ -89,13 +89,14 @@ pub(crate) fn resume(
                 Some(ne_core::StopConditions { generations: Some(generations), ..config.stop })
             }
         };
-        let run = Run::resume(&folder, stop, resources(threads)).map_err(broken)?;
+        let run = Run::resume(&folder, stop, resources(threads)?).map_err(broken)?;
         until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })
 }
 
-fn resources(threads: usize) -> Resources {
-    Resources { threads, registry: registry().clone(), signal: ne_core::StopSignal::default() }
+fn resources(threads: usize) -> PyResult<Resources> {
+    check_threads(threads)?;
+    Ok(Resources { threads, registry: registry().clone(), signal: ne_core::StopSignal::default() })
 }
 
 /// One generation after the other. Between two of them Python is asked whether Ctrl-C was pressed; whatever ends the run, what it has
@@ -134,8 +135,10 @@ fn until_it_ends(mut run: Run, callback: Option<&Py<PyAny>>, elsewhere: Option<&
         match stops {
             Ok(false) => {}
             Err(error) if !interrupted(&error) => {
-                run.finish(StopReason::Interrupted).map_err(broken)?;
-                return Err(error);
+                let finished = run.finish(StopReason::Interrupted).map_err(broken);
+                // The champion was played once more: what it raised then is no news.
+                let _ = movements::raised(&movements);
+                return finished.and(Err(error));
             }
             Ok(true) | Err(_) => return Ok(ended(&run.finish(StopReason::Interrupted).map_err(broken)?)),
         }

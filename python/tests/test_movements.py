@@ -1,5 +1,6 @@
 """Movements written in Python."""
 
+import time
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -116,6 +117,44 @@ def test_what_a_term_raises_is_raised(tmp_path):
     well = gambol.make_vec("biped-1", "running")
     well.reset(seed=1)
     well.step(np.zeros((1, 2)))
+
+
+class Unready(Distance):
+    """Cannot begin."""
+
+    def begin(self, start):
+        """Never."""
+        raise KeyError("no beginning")
+
+
+def test_what_it_raised_once_is_not_raised_again(tmp_path):
+    """Also when it was raised as an episode began, and when the champion was played at the end."""
+    gambol.register_movement("mended", Unready, steps=120)
+    with pytest.raises(KeyError, match="no beginning"):
+        gambol.train("biped-1", "mended", out=tmp_path / "badly", preset="plain", generations=2, population=4)
+    gambol.register_movement("mended", Distance, steps=120)
+    gambol.CreatureEnv("biped-1", "mended").reset(seed=1)
+    gambol.train("biped-1", "mended", out=tmp_path / "well", preset="plain", generations=2, population=4)
+
+
+def test_movements_are_registered_by_several_threads_and_by_each_other():
+    """None waits for ever."""
+
+    def slow(name):
+        def make():
+            time.sleep(0.05)
+            return Distance()
+
+        gambol.register_movement(name, make, steps=120)
+
+    def nested():
+        gambol.register_movement("within", Distance, steps=120)
+        return Distance()
+
+    with ThreadPoolExecutor() as threads:
+        list(threads.map(slow, ["one-of-two", "two-of-two"]))
+    gambol.register_movement("around", nested, steps=120)
+    assert {"one-of-two", "two-of-two", "within", "around"} <= set(gambol.movement_names())
 
 
 def test_each_of_two_trainings_raises_what_is_its_own(tmp_path):

@@ -112,9 +112,13 @@ class Choose {
       input.value = this.choice[name] ?? "";
     }
     input.addEventListener("change", () => {
-      if (input.value === "") delete this.choice[name];
-      else this.choice[name] = number ? Math.max(0, Math.round(Number(input.value))) : input.value;
-      this.ask();
+      const value = number && input.value !== "" ? Number(input.value) : input.value;
+      const isWrong = (number && input.value !== "" && (!Number.isSafeInteger(value) || value < 0)) || input.validity.badInput;
+      input.setCustomValidity(isWrong ? `A whole number from 0 to ${Number.MAX_SAFE_INTEGER}.` : "");
+      if (isWrong) return input.reportValidity();
+      if (value === "") delete this.choice[name];
+      else this.choice[name] = value;
+      return this.ask();
     });
     label.append(input);
     return label;

@@ -19,7 +19,11 @@ class Keep {
     for (const id of ["keep-pack", "keep-link"]) get(id).hidden = !connection.isAlone;
     get("keep-pack").addEventListener("click", () => this.pack());
     get("keep-draw").addEventListener("click", () => draw(this.watch.config.creature));
-    get("keep-file").addEventListener("change", event => this.read(event.target.files[0]));
+    get("keep-file").addEventListener("change", event => {
+      this.read(event.target.files[0]);
+      // The same file may be chosen again.
+      event.target.value = "";
+    });
     document.addEventListener("dragover", event => { event.preventDefault(); get("keep-drop").classList.add("over"); });
     document.addEventListener("dragleave", () => get("keep-drop").classList.remove("over"));
     document.addEventListener("drop", event => {
@@ -80,10 +84,15 @@ class Keep {
 
   say(text) { document.getElementById("keep-result").textContent = text; }
 
+  // An answer, also where there is none: then without `ok`, and its text says so.
+  async get(address) {
+    try { return await this.connection.get(address); } catch (error) { return { ok: false, blob: new Blob([`The studio does not answer: ${error.message}`]) }; }
+  }
+
   // Fetched first, so that what is wrong can be said.
   async export(run, format, file) {
     this.say(`${format} is being made …`);
-    const { ok, name, blob } = await this.connection.get(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
+    const { ok, name, blob } = await this.get(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
     if (!ok) return this.say(await blob.text());
     saveAs(blob, name);
     return this.say(`${name} is saved.`);
@@ -91,7 +100,7 @@ class Keep {
 
   async verify() {
     this.say("The champion is played again …");
-    const { ok, blob } = await this.connection.get(`runs/${encodeURIComponent(this.watch.run)}/verify`);
+    const { ok, blob } = await this.get(`runs/${encodeURIComponent(this.watch.run)}/verify`);
     const text = await blob.text();
     if (!ok) return this.say(text);
     const { identical, diverges_at_step: step } = JSON.parse(text);
@@ -127,7 +136,7 @@ class Keep {
   }
 
   async link() {
-    const { ok, blob } = await this.connection.get(`runs/${encodeURIComponent(this.watch.run)}/champion.json`);
+    const { ok, blob } = await this.get(`runs/${encodeURIComponent(this.watch.run)}/champion.json`);
     const text = await blob.text();
     if (!ok) return this.say(text);
     const address = await linkTo(text);
@@ -153,9 +162,8 @@ class Keep {
   async read(file) {
     if (!file) return;
     if (file.name.endsWith(".tar") && this.connection.isAlone) return this.connection.unpack(file.name, await file.arrayBuffer());
-    const text = await file.text();
-    let parsed;
-    try { parsed = JSON.parse(text); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
+    let text, parsed;
+    try { text = await file.text(); parsed = JSON.parse(text); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
     if (parsed?.format === "gambol creature") this.draw(parsed);
     else this.connection.ask({ do: "open-champion", name: file.name, text });
     return undefined;

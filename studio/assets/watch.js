@@ -18,7 +18,10 @@ class Watch {
     connection.on("verdict", event => this.showVerdict(event));
     const get = name => document.getElementById(name);
     const press = (name, act) => get(name).addEventListener("click", act);
-    press("run-pause", () => connection.ask({ do: this.state === "paused" ? "go-on" : "pause" }));
+    press("run-pause", () => {
+      get("run-pace").value = "free";
+      connection.ask({ do: this.state === "paused" ? "go-on" : "pause" });
+    });
     press("run-step", () => connection.ask({ do: "step" }));
     press("run-stop", () => connection.ask({ do: "stop" }));
     get("run-pace").addEventListener("change", event => connection.ask({ do: event.target.value === "shown" ? "step" : "go-on" }));
@@ -58,11 +61,14 @@ class Watch {
   }
 
   setState(state) {
+    const trained = this.state === "running" || this.state === "paused";
     this.state = state.state;
     const words = { running: "training", paused: "training waits", ended: "", broken: "broke off: " };
     this.stateText = words[state.state] + (state.reason || "");
     const get = name => document.getElementById(name);
     const trains = this.state === "running" || this.state === "paused";
+    // A training begins without a pause between its generations.
+    if (trains && !trained) get("run-pace").value = "free";
     get("run-pause").textContent = this.state === "paused" ? "Train on" : "Pause training";
     for (const name of ["run-pause", "run-step", "run-stop", "run-pace"]) get(name).disabled = !trains;
     for (const name of ["run-go-on", "run-more"]) get(name).disabled = trains || !this.run;

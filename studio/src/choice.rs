@@ -2,6 +2,7 @@
 
 use crate::protocol::{Choice, Described, Mistake};
 use creatures::{Blueprint, Creature, CreatureError, Terrain};
+use envs_core::check_start;
 use gambol_runs::{
     Registry,
     config::RunConfig,
@@ -169,10 +170,16 @@ pub fn check_terrain(terrain: &Value) -> Vec<Mistake> {
 /// What is wrong with a creature, as in a file.
 pub fn check(creature: &Value) -> Vec<Mistake> {
     match Blueprint::from_json(&creature.to_string()) {
-        Ok(_) => Vec::new(),
+        Ok(blueprint) => start_of(&blueprint),
         Err(CreatureError::Invalid(problems)) => problems.iter().map(Mistake::from).collect(),
         Err(error) => vec![Mistake { place: String::new(), message: error.to_string() }],
     }
+}
+
+/// What keeps a valid creature from beginning an episode.
+fn start_of(blueprint: &Blueprint) -> Vec<Mistake> {
+    let start = check_start(blueprint).err().map(|error| Mistake { place: String::new(), message: error.to_string() });
+    start.into_iter().collect()
 }
 
 #[cfg(test)]

@@ -177,6 +177,10 @@ impl Job for TrainingJob {
                     self.run = Some(run);
                     Next::Now
                 }
+                // There was nothing left to do.
+                Err(ShapingError::Train(TrainError::Over { reason, .. })) => {
+                    self.end(RunState::Ended { reason: reason.to_string() })
+                }
                 Err(error) => self.break_off(&error),
             };
         }

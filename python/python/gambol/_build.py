@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from collections.abc import Mapping
 from typing import Any
@@ -33,22 +34,61 @@ def build(
     return Environments(
         os.fspath(_bipedal_walker.FILE if is_walker else creature),
         movement,
-        num_envs,
+        whole("num_envs", num_envs, 1, 2**20),
         preset=preset,
         terrain=terrain,
         variation=variation,
         engine=engine,
-        steps=max_episode_steps,
+        steps=None if max_episode_steps is None else whole("max_episode_steps", max_episode_steps, 1, 1_000_000),
         settings=assignments(settings),
         autoreset=autoreset,
-        threads=threads,
+        threads=whole("threads", threads, 0, 1024),
         layout=_bipedal_walker.LAYOUT if is_walker else None,
     )
 
 
+#: The largest seed.
+MOST_SEED = 2**64 - 1
+
+
 def assignments(settings: Mapping[str, Any] | None) -> list[str]:
     """Settings as a configuration takes them: ``{"physics.gravity": 5}`` is ``physics.gravity=5``."""
-    return [f"{path}={json.dumps(value)}" for path, value in (settings or {}).items()]
+    return [f"{path}={_text(path, value)}" for path, value in (settings or {}).items()]
+
+
+def _text(path: str, value: Any) -> str:
+    try:
+        return json.dumps(value, allow_nan=False, default=_plain)
+    except ValueError as error:
+        raise ValueError(f"{path} = {value}: must be of finite numbers") from error
+
+
+def _plain(value: Any) -> Any:
+    """What NumPy has as Python has it."""
+    if isinstance(value, (np.generic, np.ndarray)):
+        return value.tolist()
+    raise TypeError(f"a setting cannot be of type {type(value).__name__}")
+
+
+def seed_of(value: Any) -> int:
+    """A seed."""
+    return whole("seed", value, 0, MOST_SEED)
+
+
+def whole(name: str, value: Any, least: int, most: int) -> int:
+    """A whole number, NumPy's too.
+
+    Raises:
+        ValueError: if it is out of its range; the error names the argument.
+        TypeError: if it is no whole number.
+    """
+    try:
+        number = operator.index(value)
+    except TypeError as error:
+        raise TypeError(f"{name} must be a whole number, found {value!r}") from error
+    if not least <= number <= most:
+        raise ValueError(f"{name} = {number}: must be from {least} to {most}")
+    return number
 
 
 def single_spaces(

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gambol import _gambol
-from gambol._build import assignments
+from gambol._build import MOST_SEED, assignments, seed_of, whole
 from gambol._champion import Champion
 from gambol._progress import Callback, shown
 
@@ -161,12 +161,12 @@ def train(
             terrain=terrain,
             variation=variation,
             engine=engine,
-            seed=seed,
-            generations=generations,
-            population=population,
+            seed=None if seed is None else seed_of(seed),
+            generations=None if generations is None else whole("generations", generations, 1, MOST_SEED),
+            population=None if population is None else whole("population", population, 1, MOST_SEED),
             config=None if config is None else Path(config),
             settings=assignments(settings),
-            threads=threads,
+            threads=whole("threads", threads, 0, 1024),
             callback=_told(told),
             elsewhere=elsewhere,
         )

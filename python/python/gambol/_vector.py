@@ -14,7 +14,7 @@ from gymnasium.vector import AutoresetMode
 from gymnasium.vector import VectorEnv as GymnasiumVectorEnv
 from gymnasium.vector.utils import batch_space
 
-from gambol._build import build, single_spaces
+from gambol._build import MOST_SEED, build, seed_of, single_spaces, whole
 from gambol._drawing import RENDER_FPS, RENDER_SIZE, Frame, check_drawing, warn_of_no_mode
 
 Floats = npt.NDArray[np.float32]
@@ -85,7 +85,7 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
             autoreset=_NATIVE_MODES[mode],
             threads=threads,
         )
-        self.num_envs = num_envs
+        self.num_envs = int(num_envs)
         fps = round(1 / self._native.time_step)
         self.metadata = {**VectorEnv.metadata, "render_fps": fps, "autoreset_mode": mode}
         self.render_mode = render_mode
@@ -127,6 +127,7 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
                 raise ValueError(f"options['reset_mask'] must be an array bool[{self.num_envs}]")
             if not self._is_reset and not mask.all():
                 raise ValueError("the first reset is one of all environments")
+            mask = np.ascontiguousarray(mask)
         if self._copy:
             self._observations = np.empty_like(self._observations)
         self._native.reset(self._seeds(seed), mask, self._observations)
@@ -135,7 +136,7 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
 
     def _seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
         if isinstance(seed, (int, np.integer)):
-            first = int(seed)
+            first = whole("seed", seed, 0, MOST_SEED + 1 - self.num_envs)
             self._np_random_seed = first
             self._np_random = np.random.default_rng(first)
             return [first + index for index in range(self.num_envs)]
@@ -148,8 +149,8 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
             raise ValueError(f"seed must be of length {self.num_envs}, one for each environment, found {len(seeds)}")
         if not self._is_reset:
             drawn = self.np_random.integers(0, 2**63, self.num_envs)
-            return [int(other) if one is None else int(one) for one, other in zip(seeds, drawn, strict=True)]
-        return [None if one is None else int(one) for one in seeds]
+            return [int(other) if one is None else seed_of(one) for one, other in zip(seeds, drawn, strict=True)]
+        return [None if one is None else seed_of(one) for one in seeds]
 
     def step(self, actions: npt.ArrayLike) -> tuple[Floats, Rewards, Bools, Bools, dict[str, Any]]:
         """A time step of every environment.
