@@ -8,13 +8,13 @@ fn setting_errors_name_field_value_and_range() {
     let message = |result: Result<(), SettingError>| result.expect_err("out of range").to_string();
     assert_eq!(message(RankSelector { pressure: 2.5 }.validate()), "pressure = 2.5: must be from 1 to 2");
     assert_eq!(message(RankSelector { pressure: f64::NAN }.validate()), "pressure = NaN: must be from 1 to 2");
-    assert_eq!(message(Tournament { size: 0 }.validate()), "size = 0: must be at least 1");
+    assert_eq!(message(Tournament { size: 0 }.validate()), "size = 0: must be from 1 to 1000");
     assert_eq!(message(Truncation { share: 0.0 }.validate()), "share = 0: must be above 0 and at most 1");
     assert_eq!(message(Truncation { share: f64::NAN }.validate()), "share = NaN: must be above 0 and at most 1");
     let selection = Selection::Tournament(Tournament { size: 0 });
-    assert_eq!(message(selection.validate()), "tournament.size = 0: must be at least 1");
+    assert_eq!(message(selection.validate()), "tournament.size = 0: must be from 1 to 1000");
     let deep = selection.validate().map_err(|error| error.within("selection").within("strategy"));
-    assert_eq!(message(deep), "strategy.selection.tournament.size = 0: must be at least 1");
+    assert_eq!(message(deep), "strategy.selection.tournament.size = 0: must be from 1 to 1000");
     assert_eq!(message(SettingError::check_range("rate", 2.0, 0.0, 1.0)), "rate = 2: must be from 0 to 1");
     assert_eq!(message(SettingError::check_range("x", -1.0, 0.0, f64::INFINITY)), "x = -1: must be at least 0");
     assert_eq!(

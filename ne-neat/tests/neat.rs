@@ -246,7 +246,7 @@ fn damaged_states_are_errors_that_name_the_field() {
     (1..4).for_each(|number| drop(generation(&mut neat, number)));
     let state = serde_json::to_value(&neat).expect("serialises");
     type Damage = fn(&mut serde_json::Value);
-    let damages: [(Damage, &str); 14] = [
+    let damages: [(Damage, &str); 15] = [
         (|s| s["settings"]["population"] = 1.into(), "population = 1: must be from 2 to 1000000"),
         (|s| s["inputs"] = 0.into(), "inputs = 0: must be from 1 to 4096"),
         (|s| s["settings"]["population"] = 151.into(), "parents: found 150 individuals, the settings say 151"),
@@ -257,9 +257,13 @@ fn damaged_states_are_errors_that_name_the_field() {
         ),
         (
             |s| s["innovations"]["next_innovation"] = 7.into(),
-            "parents[0]: has number 7 of an innovation, the next to be given is 7",
+            "innovations.next_innovation = 7: must be at least 8, the first that is free",
         ),
-        (|s| s["innovations"]["next_node"] = 5.into(), "parents[0]: has number 5 of a node, the next to be given is 5"),
+        (
+            |s| s["innovations"]["next_node"] = 5.into(),
+            "innovations.next_node = 5: must be at least 6, the first that is free",
+        ),
+        (|s| s["innovations"]["next_innovation"] = 8.into(), "parents["),
         (
             |s| s["parents"][3]["genes"]["connections"][0]["to"] = 5.into(),
             "parents[3].connections[1]: leads from 0 to 5, as connections[0] does",
@@ -270,7 +274,7 @@ fn damaged_states_are_errors_that_name_the_field() {
                     s["parents"][3]["genes"]["connections"][gene]["to"] = target.into();
                 }
             },
-            "parents[3]: innovation 0 leads from 0 to 5, elsewhere from 0 to 4",
+            "parents[3]: innovation 0 leads from 0 to 5, must lead from 0 to 4",
         ),
         (|s| s["threshold"] = 0.into(), "threshold = 0: must be above 0 and finite"),
         (|s| s["species"][0]["id"] = 99.into(), "species[0].id = 99: must be below "),

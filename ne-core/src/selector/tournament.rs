@@ -6,15 +6,15 @@ use serde::{Deserialize, Serialize};
 /// Tournament selection: each parent is the best of a few drawn uniformly, with repetition.
 ///
 /// Of equals the one drawn first wins. A failure loses against any fitness; if failures alone were drawn, the best
-/// individual of all is chosen instead.
+/// individual of all is chosen instead, and one of those drawn if all are failures.
 ///
 /// Source: Goldberg & Deb, *A Comparative Analysis of Selection Schemes*, FOGA 1991.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct Tournament {
-    /// How many compete, at least 1 (uniform choice); default 3. More is more selective.
-    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
+    /// How many compete, from 1 (uniform choice) to 1000; default 3. More is more selective.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub size: usize,
 }
 

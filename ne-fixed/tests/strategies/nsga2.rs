@@ -200,7 +200,7 @@ fn errors_of_settings_name_the_field() {
         (|s| s.crossover_rate = f64::NAN, "crossover_rate = NaN: must be from 0 to 1"),
         (
             |s| s.selection = ne_core::Selection::Tournament(ne_core::Tournament { size: 0 }),
-            "selection.tournament.size = 0: must be at least 1",
+            "selection.tournament.size = 0: must be from 1 to 1000",
         ),
         (
             |s| s.mutation = MutationChoice::Gaussian(GaussianMutation { rate: 2.0, deviation: 0.1 }),
