@@ -75,7 +75,9 @@ pub(crate) fn register_movement(
 /// What one of these movements has raised since this was asked last: whatever it was called for is not to be believed.
 pub(crate) fn raised(movements: &[String]) -> PyResult<()> {
     let mut raised = RAISED.lock().unwrap_or_else(PoisonError::into_inner);
-    movements.iter().filter_map(|movement| raised.remove(movement)).fold(Ok(()), |first, error| first.and(Err(error)))
+    // All are forgotten, the first is told.
+    let errors: Vec<PyErr> = movements.iter().filter_map(|movement| raised.remove(movement)).collect();
+    errors.into_iter().next().map_or(Ok(()), Err)
 }
 
 /// By the movement's name, since other threads may train with others.
