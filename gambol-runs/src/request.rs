@@ -131,9 +131,7 @@ impl Request {
         if let Some(entry) = entry.filter(|entry| entry.name() != base.strategy.name()) {
             base.strategy = entry.settings();
         }
-        let budget = self.limits.evaluations.or(self.limits.steps).is_some() || self.limits.minutes.is_some();
-        base.stop.generations = base.stop.generations.filter(|_| !budget);
-        base.stop.steps = base.stop.steps.filter(|_| !budget && self.limits.generations.is_none());
+        base.stop = base.stop.giving_way_to(&self.limits);
         if self.unvaried {
             base.variation = Variation::default();
             base.training_steps = None;

@@ -163,6 +163,16 @@ impl StopConditions {
         }
     }
 
+    /// Without the generations and steps that a budget of `newer` takes the place of. A target or stagnation alone comes on top of
+    /// them, or a run might never end.
+    #[must_use]
+    pub fn giving_way_to(self, newer: &Self) -> Self {
+        let budget = newer.evaluations.or(newer.steps).is_some() || newer.minutes.is_some();
+        let generations = self.generations.filter(|_| !budget);
+        let steps = self.steps.filter(|_| !budget && newer.generations.is_none());
+        Self { generations, steps, ..self }
+    }
+
     /// The first condition that is met, if any.
     pub fn reached(&self, progress: &Progress, best: Option<TieredFitness>, elapsed: Duration) -> Option<StopReason> {
         let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);

@@ -244,6 +244,14 @@ mod tests {
     }
 
     #[test]
+    fn more_genes_than_can_be_counted_are_too_many() {
+        let shape =
+            clock(vec![SharedWeight::Sum(vec![(0, 1.0)]), SharedWeight::Sum(vec![(1, 1.0)])], vec![usize::MAX, 2]);
+        let error = shape.validate().expect_err("too many").to_string();
+        assert!(error.starts_with("groups = "), "{error}");
+    }
+
+    #[test]
     fn a_turned_clock_is_the_clock_put_forward() {
         let (ahead, genes) = (0.7, [0.3, -1.1, 0.4]);
         let mut net = Topology::from(turned(ahead)).network(&genes);

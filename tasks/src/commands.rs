@@ -281,6 +281,16 @@ mod tests {
         all
     }
 
+    /// However long the button is held.
+    #[test]
+    fn drawn_changes_come_one_after_the_other() {
+        let random = RandomCommands { press: 2.0, hold: [0.2, 0.2], jumps: 1.0, ..RandomCommands::default() };
+        for seed in 0..20 {
+            let changes = random.draw(Seed::of_run(seed));
+            assert!(changes.is_sorted_by(|one, next| one.time <= next.time), "{seed}");
+        }
+    }
+
     #[test]
     fn drawn_commands_keep_to_their_ranges() {
         let random = RandomCommands { backwards: 0.5, ..RandomCommands::default() };

@@ -158,22 +158,13 @@ pub(super) struct RunFlags {
 }
 
 impl Limits {
-    /// These limits in place of the planned ones. Another budget takes the place of the planned generations and steps; a target
-    /// or stagnation alone comes on top of them, or a run might never end.
-    fn over(self, planned: StopConditions) -> StopConditions {
-        let limits = self.conditions();
-        let budget = limits.evaluations.or(limits.steps).is_some() || limits.minutes.is_some();
-        let generations = planned.generations.filter(|_| !budget);
-        let steps = planned.steps.filter(|_| !budget && limits.generations.is_none());
-        let planned = StopConditions { generations, steps, ..planned };
-        planned.overlaid(limits)
-    }
-
-    /// As [`over`](Self::over), for a run that may have ended: one whose champion is usable goes on if it is given more
-    /// of anything.
+    /// These limits in place of the planned ones, for a run that may have ended: one whose champion is usable goes on if it is
+    /// given more of anything.
     pub(super) fn beyond(self, planned: StopConditions) -> StopConditions {
-        let more = self.conditions() != StopConditions::default();
-        self.over(StopConditions { tier: planned.tier.filter(|_| !more), ..planned })
+        let limits = self.conditions();
+        let more = limits != StopConditions::default();
+        let planned = StopConditions { tier: planned.tier.filter(|_| !more), ..planned };
+        planned.giving_way_to(&limits).overlaid(limits)
     }
 
     fn conditions(self) -> StopConditions {

@@ -77,6 +77,13 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    #[test]
+    fn what_has_no_deviation_yet_begins_with_the_initial_one() {
+        let mutation = SelfAdaptiveMutation { learning_rate: Some(1e-6), ..Default::default() };
+        let (_, deviation) = mutated(&mutation, vec![0.0; 20], 0.0, 1.0, 7);
+        assert!((deviation - 0.3).abs() < 1e-4, "{deviation}");
+    }
+
     proptest! {
         #[test]
         fn the_deviation_stays_within_its_bounds(start in 0.0..10.0f32, rate in 0.0..10.0f64, seed: u64) {
