@@ -45,4 +45,9 @@ pub trait BodyView {
     fn time_since_press(&self) -> f32 {
         f32::INFINITY
     }
+    /// Time since the stride clock began, s: since the body was last told to move after it had been told to stand, or to jump
+    /// after it had not been; since the clock started, the default, if it never was.
+    fn stride_time(&self) -> f32 {
+        self.time()
+    }
 }

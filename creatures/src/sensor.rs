@@ -76,7 +76,9 @@ pub enum Sensor {
     /// Whether the body is told to jump, as long as the button is held: one channel, 0 or 1.
     JumpCommand,
     /// A clock that swings as far as the body is told to be fast: sine and cosine of its phase, times the commanded speed over
-    /// `top`. Two channels, -1 to 1. Told to stand, a body has no rhythm; told to go backwards, the other one.
+    /// `top`. Two channels, -1 to 1. Told to stand, a body has no rhythm; told to go backwards, the other one. The clock begins
+    /// anew when the body is told to move after it has been told to stand, and when it is told to jump: so it sets off, and goes on
+    /// after a jump, with the same leg each time.
     StrideClock {
         /// Time of one turn, s, 0.02 to 100.
         #[cfg_attr(feature = "schema", schemars(range(min = 0.02, max = 100.0)))]

@@ -77,7 +77,7 @@ pub enum Source {
     CommandedSpeed,
     /// [`BodyView::is_told_to_jump`], as 0 or 1.
     JumpCommand,
-    /// The sine of a clock, times the commanded speed as a share of the top one: see [`clock_phase`].
+    /// The sine of a clock, times the commanded speed as a share of the top one: see [`BodyView::stride_time`].
     StrideSine {
         /// s.
         period: f32,
@@ -142,10 +142,10 @@ impl Source {
             Self::CommandedSpeed => body.commanded_speed(),
             Self::JumpCommand => f32::from(u8::from(body.is_told_to_jump())),
             Self::StrideSine { period, top } => {
-                stride_swing(body.commanded_speed(), top) * libm::sinf(clock_phase(body.time(), period))
+                stride_swing(body.commanded_speed(), top) * libm::sinf(clock_phase(body.stride_time(), period))
             }
             Self::StrideCosine { period, top } => {
-                stride_swing(body.commanded_speed(), top) * libm::cosf(clock_phase(body.time(), period))
+                stride_swing(body.commanded_speed(), top) * libm::cosf(clock_phase(body.stride_time(), period))
             }
             Self::JumpSine { period } => libm::sinf(jump_phase(body.time_since_press(), period)),
             Self::JumpSwell { period } => 0.5 * (1.0 - libm::cosf(jump_phase(body.time_since_press(), period))),

@@ -24,6 +24,7 @@ struct Body {
     gap: [f32; 2],
     distance: f32,
     time: f32,
+    stride_began: f32,
     told: (f32, bool, f32),
 }
 
@@ -77,6 +78,10 @@ impl BodyView for Body {
 
     fn time_since_press(&self) -> f32 {
         self.told.2
+    }
+
+    fn stride_time(&self) -> f32 {
+        self.time - self.stride_began
     }
 }
 
@@ -296,6 +301,8 @@ fn a_stride_clock_swings_with_the_commanded_speed() {
         let swung: Vec<f32> = whole.iter().map(|value| swing * value).collect();
         assert_eq!(at(&stride, speed), swung, "at {speed}");
     }
+    let later = Body { time: 5.5, stride_began: 5.25, told: (2.0, false, 0.0), ..Body::default() };
+    assert_eq!(read(&stride, &later), read(&clock, &Body { time: 0.25, ..Body::default() }), "since it began");
     assert_eq!(stride.channels()[0].name, "sine of 2 s stride clock");
 }
 

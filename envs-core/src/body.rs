@@ -156,4 +156,8 @@ impl<E: Engine> BodyView for Body<'_, E> {
     fn time_since_press(&self) -> f32 {
         self.snapshot.command.since_press
     }
+
+    fn stride_time(&self) -> f32 {
+        self.snapshot.time - self.snapshot.command.stride_began
+    }
 }

@@ -36,6 +36,12 @@ impl<const W: usize> Clocks<'_, W> {
     fn told(&self, what: impl Fn(&Command) -> f32) -> Lanes<W> {
         Lanes(std::array::from_fn(|lane| what(&self.command[lane])))
     }
+
+    /// Seconds since each lane's stride clock began.
+    #[inline(always)]
+    fn stride_time(&self) -> Lanes<W> {
+        *self.time - self.told(|command| command.stride_began)
+    }
 }
 
 impl LaneSenses {
@@ -103,11 +109,11 @@ impl LaneSenses {
             Source::JumpCommand => clocks.told(|command| f32::from(u8::from(command.jump))),
             Source::StrideSine { period, top } => {
                 let swing = clocks.told(|command| stride_swing(command.speed, top));
-                swing * clocks.time.map(|time| libm::sinf(clock_phase(time, period)))
+                swing * clocks.stride_time().map(|time| libm::sinf(clock_phase(time, period)))
             }
             Source::StrideCosine { period, top } => {
                 let swing = clocks.told(|command| stride_swing(command.speed, top));
-                swing * clocks.time.map(|time| libm::cosf(clock_phase(time, period)))
+                swing * clocks.stride_time().map(|time| libm::cosf(clock_phase(time, period)))
             }
             Source::JumpSine { period } => clocks.told(|command| libm::sinf(jump_phase(command.since_press, period))),
             Source::JumpSwell { period } => {

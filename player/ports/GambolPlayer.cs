@@ -828,7 +828,7 @@ namespace Gambol
         private Facing facing;
         /// <summary>Which part and which output takes the place of which; null if it was built to face as it does.</summary>
         private Twins twins;
-        private float ground, landed, sincePress, step;
+        private float ground, landed, sincePress, strideBegan, step;
         private bool touched;
         private double seconds;
         private Command command;
@@ -868,6 +868,7 @@ namespace Gambol
             seconds = 0.0;
             command = default(Command);
             sincePress = float.PositiveInfinity;
+            strideBegan = 0f;
             step = 0f;
         }
 
@@ -1002,7 +1003,9 @@ namespace Gambol
             SenseJoints();
             var time = (float)seconds;
             ObserveLanding(time);
-            sincePress = told.Jump && !command.Jump ? 0f : (float)(sincePress + step);
+            var pressed = told.Jump && !command.Jump;
+            sincePress = pressed ? 0f : (float)(sincePress + step);
+            if (pressed || (told.Speed != 0f && command.Speed == 0f)) strideBegan = time;
             command = told;
             step = frame;
             Sense(outside, time);
@@ -1078,8 +1081,8 @@ namespace Gambol
                 case Source.LandingCosine: return Cos(ClockPhase((float)(time - landed), probe.First));
                 case Source.CommandedSpeed: return command.Speed;
                 case Source.JumpCommand: return command.Jump ? 1f : 0f;
-                case Source.StrideSine: return StrideSwing(probe.Second) * Sin(ClockPhase(time, probe.First));
-                case Source.StrideCosine: return StrideSwing(probe.Second) * Cos(ClockPhase(time, probe.First));
+                case Source.StrideSine: return StrideSwing(probe.Second) * Sin(ClockPhase((float)(time - strideBegan), probe.First));
+                case Source.StrideCosine: return StrideSwing(probe.Second) * Cos(ClockPhase((float)(time - strideBegan), probe.First));
                 case Source.JumpSine: return Sin(JumpPhase(probe.First));
                 case Source.JumpSwell: return 0.5f * (1f - Cos(JumpPhase(probe.First)));
                 default: return float.NaN;

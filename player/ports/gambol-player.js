@@ -479,6 +479,7 @@ export class Player {
   #commandedSpeed;
   #jump;
   #sincePress;
+  #strideBegan;
   #step;
 
   /** A body that stands in its start pose, its clocks at 0. */
@@ -517,7 +518,8 @@ export class Player {
     this.#speeds.fill(0);
     // A body that stands as its clock starts.
     [this.#seconds, this.#landed, this.#touched] = [0, 0, true];
-    [this.#commandedSpeed, this.#jump, this.#sincePress, this.#step] = [0, false, Infinity, 0];
+    [this.#commandedSpeed, this.#jump, this.#step] = [0, false, 0];
+    [this.#sincePress, this.#strideBegan] = [Infinity, 0];
   }
 
   /** How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its torso
@@ -625,8 +627,11 @@ export class Player {
     const time = f32(this.#seconds);
     this.#observeLanding(time);
     const jump = Boolean(command.jump);
-    this.#sincePress = jump && !this.#jump ? 0 : f32(this.#sincePress + this.#step);
-    this.#commandedSpeed = f32(command.speed);
+    const pressed = jump && !this.#jump;
+    const speed = f32(command.speed);
+    this.#sincePress = pressed ? 0 : f32(this.#sincePress + this.#step);
+    if (pressed || (speed !== 0 && this.#commandedSpeed === 0)) this.#strideBegan = time;
+    this.#commandedSpeed = speed;
     this.#jump = jump;
     this.#step = step;
     this.#sense(outside, time);
@@ -693,8 +698,8 @@ export class Player {
       case "landingCosine": return Math.cos(clockPhase(f32(time - this.#landed), first));
       case "commandedSpeed": return this.#commandedSpeed;
       case "jumpCommand": return this.#jump ? 1 : 0;
-      case "strideSine": return this.#strideSwing(second) * Math.sin(clockPhase(time, first));
-      case "strideCosine": return this.#strideSwing(second) * Math.cos(clockPhase(time, first));
+      case "strideSine": return this.#strideSwing(second) * Math.sin(clockPhase(f32(time - this.#strideBegan), first));
+      case "strideCosine": return this.#strideSwing(second) * Math.cos(clockPhase(f32(time - this.#strideBegan), first));
       case "jumpSine": return Math.sin(this.#jumpPhase(first));
       case "jumpSwell": return 0.5 * (1 - Math.cos(this.#jumpPhase(first)));
       default: return NaN;

@@ -727,6 +727,7 @@ class Player:
 	var _commanded_speed = 0.0
 	var _jump = false
 	var _since_press = NEVER
+	var _stride_began = 0.0
 	var _step = 0.0
 
 	# A body that stands in its start pose, its clocks at 0.
@@ -765,6 +766,7 @@ class Player:
 		_commanded_speed = 0.0
 		_jump = false
 		_since_press = NEVER
+		_stride_began = 0.0
 		_step = 0.0
 
 	# How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its torso
@@ -863,7 +865,10 @@ class Player:
 		_sense_joints()
 		var time = Numbers.single(seconds)
 		_observe_landing(time)
-		_since_press = 0.0 if command.jump and not _jump else Numbers.single(_since_press + _step)
+		var pressed = command.jump and not _jump
+		_since_press = 0.0 if pressed else Numbers.single(_since_press + _step)
+		if pressed or (command.speed != 0 and _commanded_speed == 0):
+			_stride_began = time
 		_commanded_speed = command.speed
 		_jump = command.jump
 		_step = step
@@ -955,9 +960,9 @@ class Player:
 			Source.JUMP_COMMAND:
 				return 1.0 if _jump else 0.0
 			Source.STRIDE_SINE:
-				return _stride_swing(probe.second) * sin(Numbers.clock_phase(time, probe.first))
+				return _stride_swing(probe.second) * sin(Numbers.clock_phase(Numbers.single(time - _stride_began), probe.first))
 			Source.STRIDE_COSINE:
-				return _stride_swing(probe.second) * cos(Numbers.clock_phase(time, probe.first))
+				return _stride_swing(probe.second) * cos(Numbers.clock_phase(Numbers.single(time - _stride_began), probe.first))
 			Source.JUMP_SINE:
 				return sin(_jump_phase(probe.first))
 			_:

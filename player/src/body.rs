@@ -60,6 +60,7 @@ pub(crate) struct Body<'a> {
     pub(crate) landings: Landings,
     pub(crate) command: Command,
     pub(crate) since_press: f32,
+    pub(crate) stride_began: f32,
 }
 
 impl BodyView for Body<'_> {
@@ -129,5 +130,9 @@ impl BodyView for Body<'_> {
 
     fn time_since_press(&self) -> f32 {
         self.since_press
+    }
+
+    fn stride_time(&self) -> f32 {
+        self.time - self.stride_began
     }
 }

@@ -30,6 +30,8 @@ pub struct Player {
     landings: Landings,
     command: Command,
     since_press: f32,
+    /// When the stride clock began, s.
+    stride_began: f32,
     /// Of the last frame, s.
     step: f32,
 }
@@ -61,6 +63,7 @@ impl Player {
             landings: Landings::default(),
             command: Command::STAND,
             since_press: f32::INFINITY,
+            stride_began: 0.0,
             step: 0.0,
             character,
         };
@@ -82,7 +85,8 @@ impl Player {
         self.nodes.fill(0.0);
         self.speeds.fill(0.0);
         (self.seconds, self.landings) = (0.0, Landings::default());
-        (self.command, self.since_press, self.step) = (Command::STAND, f32::INFINITY, 0.0);
+        (self.command, self.step) = (Command::STAND, 0.0);
+        (self.since_press, self.stride_began) = (f32::INFINITY, 0.0);
     }
 
     /// What is played.
@@ -213,6 +217,9 @@ impl Player {
         self.landings.observe(self.parts.iter().any(|part| part.touching != 0), time);
         let pressed = command.jump != 0 && self.command.jump == 0;
         self.since_press = if pressed { 0.0 } else { self.since_press + self.step };
+        if pressed || command.speed != 0.0 && self.command.speed == 0.0 {
+            self.stride_began = time;
+        }
         (self.command, self.step) = (command, seconds);
         self.sense(outside, time);
         self.character.net.activate(&mut self.nodes);
@@ -241,6 +248,7 @@ impl Player {
             landings: self.landings,
             command: self.command,
             since_press: self.since_press,
+            stride_began: self.stride_began,
         };
         let mut outside = outside.iter();
         for (input, probe) in self.nodes.iter_mut().zip(&character.inputs) {

@@ -32,20 +32,28 @@ pub struct Command {
     pub jump: bool,
     /// Time since the button was last pressed, s; infinity if it never was.
     pub since_press: f32,
+    /// When the stride clock began, s: when the body was last told to move after it had been told to stand, or to jump after it had
+    /// not; 0 if it never was.
+    pub stride_began: f32,
 }
 
 impl Default for Command {
     /// To stand.
     fn default() -> Self {
-        Self { speed: 0.0, jump: false, since_press: f32::INFINITY }
+        Self { speed: 0.0, jump: false, since_press: f32::INFINITY, stride_began: 0.0 }
     }
 }
 
 impl Command {
-    /// The command of the next time step, which lasts so long, s.
-    pub fn then(&self, speed: f32, jump: bool, time_step: f32) -> Self {
-        let since_press = if jump && !self.jump { 0.0 } else { self.since_press + time_step };
-        Self { speed, jump, since_press }
+    /// The command at this time, s, a time step after this one, which lasts so long, s.
+    pub fn then(&self, speed: f32, jump: bool, time: f32, time_step: f32) -> Self {
+        let (pressed, sets_off) = (jump && !self.jump, speed != 0.0 && self.speed == 0.0);
+        Self {
+            speed,
+            jump,
+            since_press: if pressed { 0.0 } else { self.since_press + time_step },
+            stride_began: if pressed || sets_off { time } else { self.stride_began },
+        }
     }
 }
 
@@ -257,7 +265,7 @@ impl CommandSchedule {
         let next = self.changes.partition_point(|change| change.time <= place);
         let CommandChange { speed, jump, .. } =
             next.checked_sub(1).and_then(|last| self.changes.get(last)).copied().unwrap_or_default();
-        before.then(speed, jump, time_step)
+        before.then(speed, jump, time, time_step)
     }
 
     /// The command at the start of a trial.
@@ -335,6 +343,27 @@ mod tests {
         assert!(commands[51].jump && commands[51].since_press <= 0.021, "{:?}", commands[51]);
         assert_eq!((commands[100].speed, commands[100].jump), (-1.0, false));
         assert!((commands[100].since_press - 1.0).abs() < 0.03, "{:?}", commands[100]);
+    }
+
+    #[test]
+    fn a_stride_clock_begins_where_the_body_sets_off_and_at_a_press() {
+        let change = |time, speed, jump| CommandChange { time, speed, jump };
+        let given = Commands::Given(vec![
+            change(0.5, 1.0, false),
+            change(1.0, 2.0, false),
+            change(1.5, 0.0, false),
+            change(2.0, -1.0, false),
+            change(2.5, -1.0, true),
+            change(2.7, -1.0, false),
+        ]);
+        let commands = played(&given, 0, 3.0);
+        let began = |time: f32| commands[(time / 0.02) as usize].stride_began;
+        let times = [0.4, 0.6, 1.2, 1.8, 2.2, 2.6, 3.0];
+        for (time, expected) in times.into_iter().zip([0.0, 0.5, 0.5, 0.5, 2.0, 2.5, 2.5]) {
+            assert!((began(time) - expected).abs() < 0.021, "{} at {time} s", began(time));
+        }
+        let moving = Commands::Given(vec![change(0.0, 1.0, false)]).draw(Seed::of_run(0), false);
+        assert_eq!(moving.first().stride_began, 0.0);
     }
 
     #[test]

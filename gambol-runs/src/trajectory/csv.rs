@@ -287,8 +287,8 @@ impl Reader<'_> {
             self.seen = vec![false; self.names.len()];
             let parts = vec![PartState::default(); self.names.len()];
             let command = match self.snapshots.last() {
-                Some(before) => before.command.then(speed, jump, time - before.time),
-                None => Command::default().then(speed, jump, 0.0),
+                Some(before) => before.command.then(speed, jump, time, time - before.time),
+                None => Command::default().then(speed, jump, time, 0.0),
             };
             self.snapshots.push(Snapshot { time, parts, motor_work: 0.0, command });
             self.torques.push(vec![0.0; self.names.len()]);

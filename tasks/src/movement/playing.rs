@@ -424,7 +424,7 @@ mod tests {
                 |left: f32| PartState { cos: 1.0, touching: !(left..1.8).contains(&time), ..PartState::default() };
             let torso = PartState { y: height, cos: 1.0, ..PartState::default() };
             let since_press = if time < 1.0 { f32::INFINITY } else { time - 1.0 };
-            let command = Command { speed: 0.0, jump: false, since_press };
+            let command = Command { speed: 0.0, jump: false, since_press, ..Command::default() };
             Snapshot { time, parts: vec![torso, foot(left[0]), foot(left[1])], command, ..Snapshot::default() }
         };
         movement.begin(&snapshot(0));
@@ -452,7 +452,7 @@ mod tests {
             before = if jump && before.is_infinite() { 0.0 } else { before + STEP };
             let place = (time - from) / (to - from);
             let height = if (0.0..1.0).contains(&place) { peak * 4.0 * place * (1.0 - place) } else { 0.0 };
-            (0.0, height, Command { speed: 0.0, jump, since_press: before })
+            (0.0, height, Command { speed: 0.0, jump, since_press: before, ..Command::default() })
         });
         value - played(2.5, |_| (0.0, 0.0, told(0.0)))
     }
@@ -481,7 +481,7 @@ mod tests {
                 let aloft = (0.0..1.0).contains(&place);
                 let height = if aloft { 2.0 * place * (1.0 - place) } else { 0.0 };
                 let speed = if time > 0.9 { 1.0 } else { speed };
-                (speed, height, Command { speed: 1.0, jump: time < 0.2, since_press: time })
+                (speed, height, Command { speed: 1.0, jump: time < 0.2, since_press: time, ..Command::default() })
             })
         };
         let worths = [1.0, 0.3, -0.5].map(flies);
@@ -496,7 +496,7 @@ mod tests {
             played(1.6, |time| {
                 let place = (time - 0.2) / 0.6;
                 let height = if (0.0..1.0).contains(&place) { peak * 4.0 * place * (1.0 - place) } else { 0.0 };
-                (0.0, height, Command { speed: 0.0, jump: time < 0.2, since_press: time })
+                (0.0, height, Command { speed: 0.0, jump: time < 0.2, since_press: time, ..Command::default() })
             })
         };
         assert!(value(0.5) > value(0.0) + 1.4 + 0.6, "{} {}", value(0.5), value(0.0));

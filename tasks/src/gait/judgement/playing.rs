@@ -282,7 +282,7 @@ mod tests {
             let jump = (PRESSED..PRESSED + 0.2).contains(&time);
             since_press = if jump && since_press.is_infinite() { 0.0 } else { since_press + TIME_STEP as f32 };
             let speed = if (MOVES[0]..MOVES[1]).contains(&time) { 1.0 } else { 0.0 };
-            snapshot.command = Command { speed, jump, since_press };
+            snapshot.command = Command { speed, jump, since_press, ..Command::default() };
         }
         let report = GaitReport::measure(&body, &snapshots, Some(&PlayingRules)).expect("a trajectory");
         report.verdict.expect("a verdict").reasons
