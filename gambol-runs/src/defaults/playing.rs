@@ -19,7 +19,11 @@ struct Plan {
     polish: [u64; 2],
     /// Of all stages, those that were given up included: some five minutes on one core.
     most: u64,
-    /// Another stride is searched for if `jump` earns less than this, in s of about 57, after so many steps; so often.
+    /// Another stride is searched for if `move` earns less than this, in s of 40, after so many steps; so often.
+    give_up_move: Option<(f64, u64, u32)>,
+    /// Or if `follow` has nothing usable after so many steps; so often.
+    give_up_follow: Option<(u64, u32)>,
+    /// Or if `jump` earns less than this, in s of about 57, after so many steps; so often.
     give_up_jump: (f64, u64, u32),
     /// And if `polish` has nothing playable after so many steps; so often.
     give_up_polish: Option<(u64, u32)>,
@@ -34,10 +38,12 @@ struct Plan {
 /// earned more six were (docs/playing-experiments.md).
 const PLAN: Plan = Plan {
     move_on: [8_000_000, 16_000_000],
-    follow: [8_000_000, 100_000_000],
+    follow: [8_000_000, 40_000_000],
     jump: [8_000_000, 30_000_000],
     polish: [60_000_000, 120_000_000],
     most: 350_000_000,
+    give_up_move: None,
+    give_up_follow: Some((30_000_000, 3)),
     give_up_jump: (45.0, 15_000_000, 3),
     give_up_polish: Some((40_000_000, 2)),
     starts: 1,
@@ -52,6 +58,8 @@ const BALANCED_PLAN: Plan = Plan {
     jump: [8_000_000, 60_000_000],
     polish: [200_000_000, 400_000_000],
     most: 650_000_000,
+    give_up_move: Some((31.0, 40_000_000, 4)),
+    give_up_follow: None,
     give_up_jump: (36.0, 25_000_000, 2),
     give_up_polish: None,
     starts: 3,
@@ -114,12 +122,14 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
 
 fn move_on(plan: &Plan) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": 0.0 } } });
-    StageSettings { near: true, promotion: usable_within(plan.move_on), ..stage("move", changes) }
+    let give_up = plan.give_up_move.map(|(least, steps, times)| give_up(steps, PromotionRule::Fitness(least), times));
+    StageSettings { near: true, promotion: usable_within(plan.move_on), give_up, ..stage("move", changes) }
 }
 
 fn follow(plan: &Plan) -> StageSettings {
     let changes = json!({ "commands": { "random": { "standing": STANDING } } });
-    StageSettings { near: true, promotion: usable_within(plan.follow), ..stage("follow", changes) }
+    let give_up = plan.give_up_follow.map(|(steps, times)| give_up(steps, PromotionRule::Usable, times));
+    StageSettings { near: true, promotion: usable_within(plan.follow), give_up, ..stage("follow", changes) }
 }
 
 /// With the stride held, jumps are all there is to learn: out of every hold.

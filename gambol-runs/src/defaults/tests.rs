@@ -94,12 +94,17 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
         let starts = if creature == "biped-1" { 3 } else { 1 };
         assert_eq!((settings.restart, settings.starts, settings.start_generations), (Restart::Anew, starts, 40));
-        let gives_up = [2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));
+        let gives_up = [0, 1, 2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));
         let expected = match creature {
-            "biped-1" => {
-                [Some("given up at 25000000 steps and not (fitness ≥ 36), to begin anew at move, 2 times"), None]
-            }
+            "biped-1" => [
+                Some("given up at 40000000 steps and not (fitness ≥ 31), to begin anew at move, 4 times"),
+                None,
+                Some("given up at 25000000 steps and not (fitness ≥ 36), to begin anew at move, 2 times"),
+                None,
+            ],
             _ => [
+                None,
+                Some("given up at 30000000 steps and not (usable), to begin anew at move, 3 times"),
                 Some("given up at 15000000 steps and not (fitness ≥ 45), to begin anew at move, 3 times"),
                 Some("given up at 40000000 steps and not (usable), to begin anew at move, 2 times"),
             ],
