@@ -105,7 +105,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             _ => [
                 None,
                 Some("given up at 30000000 steps and not (usable), to begin anew at move, 3 times"),
-                Some("given up at 15000000 steps and not (usable), to begin anew at move, 4 times"),
+                Some("given up at 15000000 steps and not (fitness ≥ 45), to begin anew at move, 3 times"),
                 Some("given up at 40000000 steps and not (usable), to begin anew at move, 2 times"),
             ],
         };

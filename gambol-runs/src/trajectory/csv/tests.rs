@@ -175,7 +175,8 @@ fn commands_are_written_where_there_are_any_and_read_again() {
     let mut told = recording();
     let mut before = Command::default();
     for (step, snapshot) in told.snapshots.iter_mut().enumerate() {
-        before = before.then(if step < 10 { 0.0 } else { 1.0 / 3.0 }, (5..8).contains(&step), 0.02);
+        let speed = if step < 10 { 0.0 } else { 1.0 / 3.0 };
+        before = before.then(speed, (5..8).contains(&step), snapshot.time, 0.02);
         snapshot.command = before;
     }
     let text = written(&told);
@@ -184,6 +185,7 @@ fn commands_are_written_where_there_are_any_and_read_again() {
     assert!(read.commands_known && !read_csv(&written(&recording()), &odd()).expect("untold").commands_known);
     for (read, was) in read.snapshots.iter().zip(&told.snapshots) {
         assert_eq!((read.command.speed, read.command.jump), (was.command.speed, was.command.jump));
+        assert_eq!(read.command.stride_began, was.command.stride_began);
         let (read, was) = (read.command.since_press, was.command.since_press);
         assert!(read == was || (read - was).abs() < 1e-5, "{read} {was}");
     }
