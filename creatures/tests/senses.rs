@@ -167,6 +167,7 @@ fn ends_of_the_ranges_become_the_input_range() {
                 gap: [raw(18), raw(19)],
                 distance: raw(10),
                 time: quarter,
+                stride_began: 0.0,
                 told: (0.0, false, 0.0),
             };
             let expected = if end == 0 { -range } else { range };
@@ -218,6 +219,7 @@ fn not_a_number_stays_so() {
         gap: [nan; 2],
         distance: nan,
         time: nan,
+        stride_began: 0.0,
         told: (0.0, false, 0.0),
     };
     let inputs = read(&senses, &body);
