@@ -92,18 +92,19 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
         assert_eq!(near, [true, true, true, true, false], "{creature}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
-        let starts = if creature == "biped-1" { 3 } else { 1 };
-        assert_eq!((settings.restart, settings.starts, settings.start_generations), (Restart::Anew, starts, 40));
+        assert_eq!((settings.restart, settings.starts), (Restart::None, 1));
+        let trials = [0, 1, 2, 3].map(|stage| config.stages[stage].changes["trials"]["count"].clone());
+        assert_eq!(trials, if creature == "biped-1" { [1, 3, 6, 8] } else { [6, 6, 6, 8] }, "{creature}");
         let gives_up = [0, 1, 2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));
         let expected = match creature {
             "biped-1" => [
-                Some("given up at 40000000 steps and not (fitness ≥ 31), to begin anew at move, 4 times"),
+                Some("given up at 12000000 steps and not (fitness ≥ 33), to begin anew at move, 4 times"),
                 None,
                 Some("given up at 25000000 steps and not (fitness ≥ 36), to begin anew at move, 2 times"),
                 None,
             ],
             _ => [
-                None,
+                Some("given up at 12000000 steps and not (fitness ≥ 33.5), to begin anew at move, 5 times"),
                 Some("given up at 30000000 steps and not (usable), to begin anew at move, 3 times"),
                 Some("given up at 15000000 steps and not (fitness ≥ 45), to begin anew at move, 3 times"),
                 Some("given up at 40000000 steps and not (usable), to begin anew at move, 2 times"),
