@@ -1,6 +1,6 @@
 use crate::{
     engine::LaneEnvironment,
-    instructions::{Instructions, Work},
+    instructions::{Instructions, Work, Worker, work},
     lanes::Lanes,
     net::LaneNet,
     senses::{Clocks, LaneSenses},
@@ -138,7 +138,7 @@ impl<const W: usize> Batch<W> {
 
     /// What each lane senses; with nets in lanes also what they want.
     pub(crate) fn sense(&mut self) {
-        self.instructions.run(Sense(self));
+        work!(self.instructions, Batch, self, sense_and_think);
     }
 
     /// Everyone senses and decides. `activate`: what the controller of a lane wants when it senses this; only asked where
@@ -185,11 +185,17 @@ impl<const W: usize> Batch<W> {
     }
 
     /// The same, with an eye on the clock.
-    pub(crate) fn step_timed(&mut self, stopwatch: Option<&mut Laps>) {
+    pub(crate) fn step_timed(&mut self, mut stopwatch: Option<&mut Laps>) {
         if self.next_push.at_most(self.time).any() {
             self.push();
         }
-        self.instructions.run(Step(self, stopwatch));
+        let instructions = self.instructions;
+        work!(instructions, Batch, self, act);
+        self.world.step(instructions, stopwatch.as_deref_mut());
+        work!(instructions, Batch, self, measure);
+        if let Some(laps) = stopwatch {
+            laps.lap(Part::Measure);
+        }
         for lane in 0..W {
             // A step the controller could not decide on does not count.
             self.steps[lane] += u32::from(self.unusable[lane].is_none());
@@ -255,30 +261,22 @@ impl<const W: usize> Batch<W> {
     }
 }
 
-struct Sense<'a, const W: usize>(&'a mut Batch<W>);
-
-impl<const W: usize> Work for Sense<'_, W> {
-    type Output = ();
-
+/// What is compiled for every set of instructions.
+impl<const W: usize> Batch<W> {
     #[inline(always)]
-    fn run(self) {
-        let Batch { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, command, .. } = self.0;
+    fn sense_and_think(&mut self) {
+        let Self { world, senses, net, inputs, outputs, time, since_landing, rest_height, gaps, command, .. } = self;
         let clocks = Clocks { time, since_landing, rest_height, gaps, command };
         senses.read(world, &clocks, inputs);
         if let Some(net) = net {
             net.activate(inputs, outputs);
         }
     }
-}
 
-struct Step<'a, const W: usize>(&'a mut Batch<W>, Option<&'a mut Laps>);
-
-impl<const W: usize> Work for Step<'_, W> {
-    type Output = ();
-
+    /// Asks the motors for what the outputs want.
     #[inline(always)]
-    fn run(mut self) {
-        let Batch { world, senses, actuated, motors, outputs, power, fastest, .. } = self.0;
+    fn act(&mut self) {
+        let Self { world, senses, motors, outputs, .. } = self;
         for (drive, output) in motors.drives().iter().zip(outputs) {
             let wanted = output.clamp(-Lanes::ONE, Lanes::ONE);
             let top = Lanes::splat(drive.top_speed);
@@ -293,15 +291,16 @@ impl<const W: usize> Work for Step<'_, W> {
             };
             world.set_motor_speeds(drive.hinge, speeds);
         }
-        world.step(self.1.as_deref_mut());
+    }
+
+    #[inline(always)]
+    fn measure(&mut self) {
+        let Self { world, actuated, power, fastest, .. } = self;
         *fastest = world.fastest();
         *power = Lanes::ZERO;
         for &ActuatedHinge { hinge, parent, child } in actuated.iter() {
             let speed = world.body(child).spin - world.body(parent).spin;
             *power += (world.motor_torques(hinge) * speed).abs();
-        }
-        if let Some(laps) = self.1 {
-            laps.lap(Part::Measure);
         }
     }
 }

@@ -1,4 +1,4 @@
-use crate::solver::LaneWorld;
+use crate::{instructions::Inline, solver::LaneWorld};
 use creatures::Blueprint;
 use envs_core::{Conditions, CreatureEnvironment, Engine, EnvironmentError, Ground, PhysicsSettings};
 use tasks::PartState;
@@ -52,7 +52,7 @@ impl Engine for LaneEngine {
     }
 
     fn step(&mut self) -> bool {
-        self.world.step(None);
+        self.world.step(Inline, None);
         !self.world.fastest().0[0].is_nan()
     }
 

@@ -20,9 +20,42 @@ enum Kind {
 /// Something to be done with one of the instruction sets. `run` must be `#[inline(always)]`, and so must all it calls
 /// that is to profit.
 pub(crate) trait Work {
-    type Output;
+    fn run(self);
+}
 
-    fn run(self) -> Self::Output;
+/// Has a worker do what a method does, on lanes of any width; the method must be `#[inline(always)]`. This is a macro because a
+/// method that is passed as a value is compiled for the baseline.
+macro_rules! work {
+    ($worker:expr, $type:ident, $value:expr, $method:ident) => {{
+        struct Method<'a, const W: usize>(&'a mut $type<W>);
+
+        impl<const W: usize> Work for Method<'_, W> {
+            #[inline(always)]
+            fn run(self) {
+                self.0.$method();
+            }
+        }
+
+        $worker.run(Method($value));
+    }};
+}
+
+pub(crate) use work;
+
+/// Does work, with a set of instructions.
+pub(crate) trait Worker: Copy {
+    fn run(self, work: impl Work);
+}
+
+/// The instructions the rest of the program is compiled for: for a single creature, which wide ones are of no use to.
+#[derive(Clone, Copy)]
+pub(crate) struct Inline;
+
+impl Worker for Inline {
+    #[inline(always)]
+    fn run(self, work: impl Work) {
+        work.run()
+    }
 }
 
 /// Hands [`Work`] to pulp, which compiles it for an instruction set.
@@ -31,11 +64,11 @@ struct Compiled<T>(T);
 
 #[cfg(target_arch = "x86_64")]
 impl<T: Work> WithSimd for Compiled<T> {
-    type Output = T::Output;
+    type Output = ();
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> T::Output {
-        self.0.run()
+    fn with_simd<S: Simd>(self, _: S) {
+        self.0.run();
     }
 }
 
@@ -70,9 +103,11 @@ impl Instructions {
             Kind::Avx512(_) => "avx-512",
         }
     }
+}
 
+impl Worker for Instructions {
     #[inline]
-    pub(crate) fn run<T: Work>(self, work: T) -> T::Output {
+    fn run(self, work: impl Work) {
         match self.0 {
             Kind::Baseline => work.run(),
             #[cfg(target_arch = "x86_64")]

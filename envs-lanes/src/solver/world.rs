@@ -7,6 +7,7 @@ use super::{
     pace::Pace,
 };
 use crate::{
+    instructions::{Work, Worker, work},
     lanes::{Lanes, Mask},
     stopwatch::{Laps, Part},
 };
@@ -236,13 +237,15 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     /// One time step of all lanes.
-    #[inline(always)]
-    pub(crate) fn step(&mut self, mut stopwatch: Option<&mut Laps>) {
-        let Self { plan, bodies, contacts, pace, .. } = self;
-        contacts.find(bodies, plan.settings.prediction_distance, pace);
-        lap(&mut stopwatch, Part::FindContacts);
+    ///
+    /// The worker is given one phase at a time: compiled as one function, with every set of instructions, a step takes the
+    /// compiler several times as long, and is no faster.
+    pub(crate) fn step(&mut self, worker: impl Worker, mut stopwatch: Option<&mut Laps>) {
+        let stopwatch = &mut stopwatch;
+        work!(worker, LaneWorld, self, find_contacts);
+        lap(stopwatch, Part::FindContacts);
         for done in 1..=self.pace.most_substeps {
-            self.substep(&mut stopwatch);
+            self.substep(worker, stopwatch);
             if self.pace.uneven && done < self.pace.most_substeps {
                 self.keep(self.pace.with_substeps(done));
             }
@@ -253,37 +256,80 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     /// One substep of all lanes.
-    #[inline(always)]
-    fn substep(&mut self, stopwatch: &mut Option<&mut Laps>) {
-        let Self { plan, bodies, joints, contacts, pace, .. } = self;
-        for body in bodies.iter_mut() {
-            body.velocity_y += body.fall;
-        }
+    fn substep(&mut self, worker: impl Worker, stopwatch: &mut Option<&mut Laps>) {
+        work!(worker, LaneWorld, self, fall);
         lap(stopwatch, Part::Fall);
-        for joint in joints.iter_mut() {
-            joint.prepare(bodies, pace);
-        }
+        work!(worker, LaneWorld, self, prepare_joints);
         lap(stopwatch, Part::PrepareJoints);
-        contacts.prepare(bodies, pace);
+        work!(worker, LaneWorld, self, prepare_contacts);
         lap(stopwatch, Part::PrepareContacts);
-        for _ in 0..plan.settings.internal_iterations {
-            for joint in joints.iter_mut() {
-                joint.solve::<false>(bodies);
-            }
+        for _ in 0..self.plan.settings.internal_iterations {
+            work!(worker, LaneWorld, self, solve_joints);
             lap(stopwatch, Part::SolveJoints);
-            contacts.solve(bodies);
+            work!(worker, LaneWorld, self, solve_contacts);
             lap(stopwatch, Part::SolveContacts);
         }
-        for body in bodies.iter_mut() {
-            body.advance(pace.substep, pace.top_spin);
-        }
+        work!(worker, LaneWorld, self, advance);
         lap(stopwatch, Part::Move);
-        for joint in joints.iter_mut() {
-            joint.solve::<true>(bodies);
-        }
+        work!(worker, LaneWorld, self, relax_joints);
         lap(stopwatch, Part::RelaxJoints);
-        contacts.relax(bodies, pace);
+        work!(worker, LaneWorld, self, relax_contacts);
         lap(stopwatch, Part::RelaxContacts);
+    }
+
+    #[inline(always)]
+    fn find_contacts(&mut self) {
+        self.contacts.find(&self.bodies, self.plan.settings.prediction_distance, &self.pace);
+    }
+
+    #[inline(always)]
+    fn fall(&mut self) {
+        for body in &mut self.bodies {
+            body.velocity_y += body.fall;
+        }
+    }
+
+    #[inline(always)]
+    fn prepare_joints(&mut self) {
+        for joint in &mut self.joints {
+            joint.prepare(&self.bodies, &self.pace);
+        }
+    }
+
+    #[inline(always)]
+    fn prepare_contacts(&mut self) {
+        self.contacts.prepare(&mut self.bodies, &self.pace);
+    }
+
+    #[inline(always)]
+    fn solve_joints(&mut self) {
+        for joint in &mut self.joints {
+            joint.solve::<false>(&mut self.bodies);
+        }
+    }
+
+    #[inline(always)]
+    fn solve_contacts(&mut self) {
+        self.contacts.solve(&mut self.bodies);
+    }
+
+    #[inline(always)]
+    fn advance(&mut self) {
+        for body in &mut self.bodies {
+            body.advance(self.pace.substep, self.pace.top_spin);
+        }
+    }
+
+    #[inline(always)]
+    fn relax_joints(&mut self) {
+        for joint in &mut self.joints {
+            joint.solve::<true>(&mut self.bodies);
+        }
+    }
+
+    #[inline(always)]
+    fn relax_contacts(&mut self) {
+        self.contacts.relax(&mut self.bodies, &self.pace);
     }
 
     // Not inlined: lanes seldom differ in their substeps.
@@ -316,7 +362,6 @@ impl<const W: usize> LaneWorld<W> {
     }
 }
 
-#[inline(always)]
 fn lap(stopwatch: &mut Option<&mut Laps>, part: Part) {
     if let Some(stopwatch) = stopwatch {
         stopwatch.lap(part);
