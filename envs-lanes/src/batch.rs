@@ -1,6 +1,6 @@
 use crate::{
     engine::LaneEnvironment,
-    instructions::{Instructions, Work, Worker, work},
+    instructions::{Instructions, work},
     lanes::Lanes,
     net::LaneNet,
     senses::{Clocks, LaneSenses},

@@ -29,14 +29,14 @@ macro_rules! work {
     ($worker:expr, $type:ident, $value:expr, $method:ident) => {{
         struct Method<'a, const W: usize>(&'a mut $type<W>);
 
-        impl<const W: usize> Work for Method<'_, W> {
+        impl<const W: usize> $crate::instructions::Work for Method<'_, W> {
             #[inline(always)]
             fn run(self) {
                 self.0.$method();
             }
         }
 
-        $worker.run(Method($value));
+        $crate::instructions::Worker::run($worker, Method($value));
     }};
 }
 

@@ -7,7 +7,7 @@ use super::{
     pace::Pace,
 };
 use crate::{
-    instructions::{Work, Worker, work},
+    instructions::{Worker, work},
     lanes::{Lanes, Mask},
     stopwatch::{Laps, Part},
 };
@@ -238,8 +238,8 @@ impl<const W: usize> LaneWorld<W> {
 
     /// One time step of all lanes.
     ///
-    /// The worker is given one phase at a time: compiled as one function, with every set of instructions, a step takes the
-    /// compiler several times as long, and is no faster.
+    /// The worker is given one phase at a time: as one function, with every set of instructions, a step takes the compiler
+    /// about twice as long, and is no faster.
     pub(crate) fn step(&mut self, worker: impl Worker, mut stopwatch: Option<&mut Laps>) {
         let stopwatch = &mut stopwatch;
         work!(worker, LaneWorld, self, find_contacts);
