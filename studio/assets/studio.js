@@ -85,8 +85,7 @@ class Studio {
     if (runs.length) return this.connection.ask({ do: "open", run: runs[0].run });
     const { stage } = this.arena;
     this.arena.leave();
-    stage.resetTransform();
-    stage.context.clearRect(0, 0, stage.width, stage.height);
+    stage.blank();
     this.readouts.clear();
     this.members.leave();
     document.getElementById("arena-caption").textContent = "";
@@ -316,7 +315,7 @@ class Studio {
         document.body.dataset.frames = Math.round(counted * 1000 / (stamp - since));
         [counted, since] = [0, stamp];
       }
-      if (this.chapter === "watch") this.watch.draw(stamp);
+      this.watch.draw(stamp);
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);

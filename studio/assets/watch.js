@@ -10,7 +10,7 @@ class Watch {
     this.stages = [];
     this.run = null;
     this.contacts = [];
-    this.footfalls = new Stage(document.getElementById("footfalls-live"));
+    this.footfalls = new Stage(document.getElementById("footfalls-live"), 0, { scenery: false });
     connection.on("opened", event => this.open(event));
     connection.on("state", event => this.setState(event));
     connection.on("generations", event => this.take(event.rows));
@@ -27,6 +27,10 @@ class Watch {
     get("run-pace").addEventListener("change", event => connection.ask({ do: event.target.value === "shown" ? "step" : "go-on" }));
     press("run-go-on", () => connection.ask({ do: "go-on", generations: Number(document.getElementById("run-more").value) }));
     arena.onStep = frame => this.note(frame);
+    // What is out of sight is not drawn.
+    this.chartInSight = true;
+    new IntersectionObserver(entries => { this.chartInSight = entries[entries.length - 1].isIntersecting; }, { rootMargin: "80px" })
+      .observe(get("fitness-chart"));
   }
 
   open({ run, config, unit, command, state }) {
@@ -90,7 +94,6 @@ class Watch {
       this.last = row;
     }
     this.stale = true;
-    this.showState();
   }
 
   // The history, thinned where it is longer than can be seen: the best and the failures of each stretch are kept.
@@ -115,6 +118,8 @@ class Watch {
     this.drawFootfalls();
     if (!this.stale || stamp - (this.drawnAt || 0) < 250 || !this.rows.length) return;
     this.drawnAt = stamp;
+    this.showState();
+    if (!this.chartInSight) return;
     this.stale = false;
     const stages = this.stages.map((stage, i) => ({
       name: stage.name, first_generation: stage.row + 1, last_generation: this.stages[i + 1]?.row ?? this.rows.length }));

@@ -245,11 +245,12 @@ class FitnessChart {
     const base = height - 2;
     svg("text", { class: "axis", x: box.left, y: base - 24 }, root).textContent = `failed evaluations (at most ${most} a generation)`;
     const wide = Math.max(1.2, Math.min(6, (box.right - box.left) / this.rows.length * 0.7));
-    for (const row of this.rows) {
-      if (!row.failures) continue;
+    // One shape for all: there may be hundreds.
+    const bars = this.rows.filter(row => row.failures).map(row => {
       const tall = Math.max(2, 18 * row.failures / most);
-      svg("rect", { class: "failed", x: x(row.generation) - wide / 2, y: base - tall, width: wide, height: tall }, root);
-    }
+      return `M${(x(row.generation) - wide / 2).toFixed(1)} ${base}v${-tall.toFixed(1)}h${wide.toFixed(1)}v${tall.toFixed(1)}z`;
+    });
+    svg("path", { class: "failed", d: bars.join("") }, root);
     svg("line", { class: "grid", x1: box.left, x2: box.right, y1: base, y2: base }, root);
   }
 

@@ -95,10 +95,14 @@ function readActivations(stored, neurons) {
   return { frames, values };
 }
 
+// By the number of decimals; to make one takes longer than to write a hundred numbers.
+const NUMBER_FORMATS = [];
+
 // A number with a fixed number of decimals and a true minus sign.
 function fixed(value, decimals) {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const text = Math.abs(value).toLocaleString("en-GB", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
+  NUMBER_FORMATS[decimals] ??= new Intl.NumberFormat("en-GB", { minimumFractionDigits: decimals, maximumFractionDigits: decimals });
+  const text = NUMBER_FORMATS[decimals].format(Math.abs(value));
   return value < 0 && /[1-9]/.test(text) ? "−" + text : text;
 }
 

@@ -29,10 +29,11 @@ function mix(a, b, share) {
 }
 
 class Stage {
-  // `groundShare`: how far down the canvas the ground lies.
-  constructor(canvas, groundShare = 0.78) {
+  // `groundShare`: how far down the canvas the ground lies. `scenery`: whether all of the canvas is painted, which makes it opaque: a
+  // browser without a graphics card draws and shows that in half of the time.
+  constructor(canvas, groundShare = 0.78, { scenery = true } = {}) {
     this.canvas = canvas;
-    this.context = canvas.getContext("2d");
+    this.context = canvas.getContext("2d", { alpha: !scenery });
     this.groundShare = groundShare;
     this.width = this.height = 0;
     this.visible = true;
@@ -49,7 +50,11 @@ class Stage {
       this.ratio = ratio;
       const w = Math.round(this.width * ratio);
       const h = Math.round(this.height * ratio);
-      if (canvas.width !== w || canvas.height !== h) { canvas.width = w; canvas.height = h; }
+      if (canvas.width !== w || canvas.height !== h) {
+        canvas.width = w;
+        canvas.height = h;
+        this.blank();
+      }
       this.stale = true;
     };
     new ResizeObserver(fit).observe(canvas);
@@ -57,6 +62,15 @@ class Stage {
       this.visible = entries[entries.length - 1].isIntersecting;
     }, { rootMargin: "80px" }).observe(canvas);
     fit();
+  }
+
+  // Nothing is shown: of an opaque canvas that would be black.
+  blank() {
+    this.context.resetTransform();
+    this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    if (this.context.getContextAttributes().alpha) return;
+    this.context.fillStyle = getComputedStyle(document.documentElement).getPropertyValue("--sky").trim();
+    this.context.fillRect(0, 0, this.canvas.width, this.canvas.height);
   }
 
   // Where ground at height 0 is.
@@ -80,14 +94,9 @@ class Stage {
   // `bare`: without marks either.
   drawScenery(origin, options = {}) {
     const c = this.context;
-    const { width, height } = this;
-    const groundY = this.groundY;
+    const { width, groundY } = this;
     this.resetTransform();
-    const sky = c.createLinearGradient(0, 0, 0, Math.max(this.ground ? height : groundY, 1));
-    sky.addColorStop(0, theme.sky);
-    sky.addColorStop(1, theme["sky-low"]);
-    c.fillStyle = sky;
-    c.fillRect(0, 0, width, height);
+    this.drawBackdrop();
     if (this.ground?.water) {
       this.drawWater(origin, options.small);
       return;
@@ -96,22 +105,55 @@ class Stage {
       this.drawHills(origin, 0.12, 0.30, 9, theme.hill);
       this.drawHills(origin, 0.30, 0.15, 5, theme["hill-near"]);
     }
-    const horizon = this.height * this.groundShare;
-    const top = this.ground ? horizon : groundY;
-    const ground = c.createLinearGradient(0, top, 0, Math.max(height, top + 1));
-    ground.addColorStop(0, theme.ground);
-    ground.addColorStop(1, theme["ground-deep"]);
     if (this.ground) {
-      drawGround(this, this.ground, ground);
+      drawGround(this, this.ground, this.groundGradient(c, this.height * this.groundShare));
       if (!options.bare) this.drawMarks(origin, options.small);
     } else {
-      c.fillStyle = ground;
-      c.fillRect(0, groundY, width, Math.max(height - groundY, 0));
       if (!options.bare) this.drawMarks(origin, options.small);
       c.fillStyle = theme["ground-line"];
       c.fillRect(0, groundY - 0.5, width, 1.5);
     }
     if (!options.bare) this.drawStart(origin, options.small);
+  }
+
+  // Sky and level ground. To copy them takes less than a gradient does: while the ground stays where it is, they are painted once.
+  drawBackdrop() {
+    const key = [this.canvas.width, this.canvas.height, this.ground ? "uneven" : this.groundY, theme.sky, theme["sky-low"], theme.ground].join();
+    if (key !== this.backdropKey || !window.OffscreenCanvas) {
+      this.backdropKey = key;
+      this.backdrop?.close();
+      this.backdrop = null;
+      return this.paintBackdrop(this.context);
+    }
+    this.backdrop ??= this.pictureOfBackdrop();
+    return this.context.drawImage(this.backdrop, 0, 0, this.backdrop.width / this.ratio, this.backdrop.height / this.ratio);
+  }
+
+  pictureOfBackdrop() {
+    const canvas = new OffscreenCanvas(this.canvas.width, this.canvas.height);
+    const context = canvas.getContext("2d", { alpha: false });
+    context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    this.paintBackdrop(context);
+    return canvas.transferToImageBitmap();
+  }
+
+  paintBackdrop(c) {
+    const { width, height, groundY } = this;
+    const sky = c.createLinearGradient(0, 0, 0, Math.max(this.ground ? height : groundY, 1));
+    sky.addColorStop(0, theme.sky);
+    sky.addColorStop(1, theme["sky-low"]);
+    c.fillStyle = sky;
+    c.fillRect(0, 0, width, height);
+    if (this.ground) return;
+    c.fillStyle = this.groundGradient(c, groundY);
+    c.fillRect(0, groundY, width, Math.max(height - groundY, 0));
+  }
+
+  groundGradient(c, top) {
+    const gradient = c.createLinearGradient(0, top, 0, Math.max(this.height, top + 1));
+    gradient.addColorStop(0, theme.ground);
+    gradient.addColorStop(1, theme["ground-deep"]);
+    return gradient;
   }
 
   // Water: a tint, and the marks along the bottom.

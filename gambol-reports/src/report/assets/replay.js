@@ -194,7 +194,7 @@ class FootfallView {
     this.rows = model.parts.filter(part => contacts.some(mask => inMask(mask, part.index)));
     const canvas = document.getElementById("footfalls-canvas");
     canvas.style.height = `${this.rows.length * 15 + 26}px`;
-    this.stage = new Stage(canvas);
+    this.stage = new Stage(canvas, 0, { scenery: false });
     this.spans = this.rows.map(part => spansOf(contacts, part.index));
     canvas.addEventListener("click", event => {
       this.clock.pause();
