@@ -7,8 +7,9 @@ use std::{collections::BTreeSet, process::Command};
 /// Each crate and those it may use. Fewer is fine; one more is a change of the architecture, to be drawn there first.
 #[rustfmt::skip]
 const ARROWS: &[(&str, &[&str])] = &[
-    ("gambol-creatures",       &[]),
-    ("ne-core",         &[]),
+    ("gambol-field-path", &[]),
+    ("gambol-creatures", &["gambol-field-path"]),
+    ("ne-core",         &["gambol-field-path"]),
     ("ne-net",          &["ne-core"]),
     ("ne-fixed",        &["ne-core", "ne-net"]),
     ("ne-statistics",   &["ne-core"]),

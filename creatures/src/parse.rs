@@ -1,8 +1,9 @@
 //! From text to a creature, with errors that say where.
 
+use field_path::FieldError;
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use serde_json::Value;
-use serde_json::error::Category;
 
 use crate::error::UnknownName;
 use crate::format::{FORMAT, VERSION};
@@ -29,7 +30,7 @@ struct Header {
 }
 
 fn creature(text: &str) -> Result<Creature, CreatureError> {
-    let header: Header = from_json(text, false)?;
+    let header: Header = from_json(text)?;
     match &header.format {
         Some(Value::String(format)) => check_format(format)?,
         Some(other) => return Err(CreatureError::NotACreature { found: shortened(&other.to_string()) }),
@@ -40,7 +41,7 @@ fn creature(text: &str) -> Result<Creature, CreatureError> {
         Some(other) => return Err(CreatureError::Version { found: shortened(&other.to_string()) }),
         None => return Err(CreatureError::Version { found: "none".to_owned() }),
     }
-    from_json(text, true)
+    from_json(text)
 }
 
 /// Checks the header of a creature, wherever it comes from.
@@ -59,27 +60,17 @@ fn check_format(format: &str) -> Result<(), CreatureError> {
     Err(CreatureError::NotACreature { found: format!("{:?}", shortened(format)) })
 }
 
-/// `is_json` says that the text is known to be JSON, so that no fault in it can be one of syntax.
-fn from_json<'a, T: Deserialize<'a>>(text: &'a str, is_json: bool) -> Result<T, CreatureError> {
-    let mut json = serde_json::Deserializer::from_str(text);
-    let value = serde_path_to_error::deserialize(&mut json).map_err(|error| {
-        let path = error.path().to_string();
-        explain(path, error.inner(), is_json)
-    })?;
-    json.end().map_err(|error| explain(String::new(), &error, is_json))?;
-    Ok(value)
+fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, CreatureError> {
+    field_path::from_str(text).map_err(explain)
 }
 
-fn explain(path: String, error: &serde_json::Error, is_json: bool) -> CreatureError {
-    let (line, column) = (error.line(), error.column());
-    let place = format!(" at line {line} column {column}");
-    let message = error.to_string();
-    let message = message.strip_suffix(&place).unwrap_or(&message).to_owned();
+fn explain(error: FieldError) -> CreatureError {
+    let FieldError { path, message, line, column, is_syntax } = error;
     let too_large = message == "number out of range";
-    if error.classify() != Category::Data && !too_large && !is_json {
+    if is_syntax && !too_large {
         return CreatureError::Syntax { line, column, message };
     }
-    let path = if path.is_empty() || path == "." { "the file".to_owned() } else { shortened(&path) };
+    let path = if path == "." { "the file".to_owned() } else { shortened(&path) };
     if too_large {
         let message = "expected a number that fits single precision (at most 3.4e38), found a larger one".to_owned();
         return CreatureError::Field { path, line, column, message };
@@ -114,11 +105,8 @@ fn unknown(message: &str) -> Option<(String, Vec<String>)> {
 
 /// Says in plain words what serde says in Rust's.
 fn plain(message: &str) -> String {
-    match message {
-        // What serde_json calls faults of syntax where it wants a variant of an enum, or the end of a short list.
-        "expected value" => return "expected a name, or an object with one name in it".to_owned(),
-        "trailing characters" => return "too many values in the list".to_owned(),
-        _ => {}
+    if message.ends_with("expected fewer elements in array") {
+        return "too many values in the list".to_owned();
     }
     let Some((found, expected)) = message.rsplit_once(", expected ") else {
         return message.to_owned();
@@ -127,6 +115,7 @@ fn plain(message: &str) -> String {
         "f32" => "a number",
         "i32" | "u32" => "a whole number",
         "a sequence" => "a list",
+        "string or map" | "map with a single key" => "a name, or an object with one name in it",
         other if other.starts_with("struct variant") => "an object with its settings",
         other if other.starts_with("struct ") => "an object",
         "unit" => "no settings: the name alone",

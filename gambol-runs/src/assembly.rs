@@ -126,7 +126,7 @@ impl<'a> Assembly<'a> {
     /// As [`finish`](Self::finish), for a look in between.
     pub(super) fn check(&self) -> Result<RunConfig, ConfigError> {
         self.check_names()?;
-        let config: RunConfig = field_path::read(&self.value)
+        let config: RunConfig = field_path::from_value(&self.value)
             .map_err(|error| ConfigError::Field { field: error.path, message: suggest::explain(&error.message) })?;
         self.registry.strategies.check(&config.strategy)?;
         Ok(config)

@@ -16,7 +16,7 @@ pub use crate::whole_file::{
 use crate::{
     bounded_read::{self, LARGEST_DATA},
     digest::JsonDigest,
-    field_path::{self, without_place},
+    field_path::without_place,
 };
 use serde::{
     Deserialize, Deserializer, Serialize,
@@ -293,7 +293,7 @@ pub fn content<C: DeserializeOwned>(path: &Path, content: Value) -> Result<C, Ar
 }
 
 fn parsed<T: DeserializeOwned>(path: &Path, text: &[u8]) -> Result<T, ArchiveError> {
-    field_path::read(&mut serde_json::Deserializer::from_slice(text)).map_err(|error| {
+    field_path::from_slice(text).map_err(|error| {
         let field = match error.path.as_str() {
             "." => "content",
             field => field.strip_prefix("content.").unwrap_or(field),

@@ -114,8 +114,6 @@ pub mod digest;
 mod evaluator;
 #[cfg(feature = "evolution")]
 mod evolution;
-#[cfg(feature = "fields")]
-pub mod field_path;
 #[cfg(feature = "evolution")]
 mod observer;
 #[cfg(feature = "evolution")]
@@ -136,6 +134,8 @@ mod whole_file;
 pub mod write_points;
 
 pub use evaluation::{Evaluation, Failure};
+#[cfg(feature = "fields")]
+pub use field_path;
 pub use fitness::{Fitness, NotFinite};
 pub use genome::Genome;
 pub use measurements::Measurements;

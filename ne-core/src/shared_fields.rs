@@ -3,7 +3,7 @@
 //! The genomes of a search over weights all have one topology, which can be larger than the weights. In JSON:
 //! `{"shared": {"topology": …}, "each": [{"genome": {"weights": […]}, "fitness": 1.0, "generation": 3}]}`.
 
-use crate::Candidate;
+use crate::{Candidate, field_path};
 use serde::{
     Deserialize, Deserializer, Serialize, Serializer,
     de::{DeserializeOwned, Error as _},
@@ -53,9 +53,7 @@ pub(crate) fn deserialize<'de, G: DeserializeOwned, D: Deserializer<'de>>(
                 genome.entry(name).or_insert_with(|| value.clone());
             }
         }
-        // Through text again: rounding to f64 and then to f32 is not always rounding once.
-        serde_json::from_str(&candidate.to_string())
-            .map_err(|error| D::Error::custom(format!("each[{index}]: {error}")))
+        field_path::from_value(&candidate).map_err(|error| D::Error::custom(format!("each[{index}]: {error}")))
     };
     each.into_iter().enumerate().map(whole).collect()
 }

@@ -53,7 +53,7 @@ struct Lent {
 
 /// What a helper is sent to do.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(tag = "do", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Errand {
     /// Evaluate a piece of a batch.
     Evaluate {
@@ -77,7 +77,7 @@ pub enum Errand {
 
 /// What comes back.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-#[serde(tag = "is", rename_all = "kebab-case", deny_unknown_fields)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Found {
     /// Of a piece.
     Evaluations {

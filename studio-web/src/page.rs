@@ -5,6 +5,7 @@
 #![allow(unsafe_code)]
 
 use crate::{Helper, Host};
+use ne_core::field_path;
 use std::cell::RefCell;
 use studio::{DownloadError, Reply};
 
@@ -122,7 +123,7 @@ pub extern "C" fn helper_goes(helper: u32) {
 /// What a helper has found, in the room.
 #[unsafe(no_mangle)]
 pub extern "C" fn helper_brings(helper: u32) {
-    if let Ok(found) = serde_json::from_slice(&ROOM.take()) {
+    if let Ok(found) = field_path::from_slice(&ROOM.take()) {
         with_host(|host| host.desk().bring(helper, found));
     }
     send_errands();
@@ -137,7 +138,7 @@ fn send_errands() {
 /// In a helper: an errand, in the room.
 #[unsafe(no_mangle)]
 pub extern "C" fn help() {
-    let Ok(errand) = serde_json::from_slice(&ROOM.take()) else { return };
+    let Ok(errand) = field_path::from_slice(&ROOM.take()) else { return };
     if let Some(found) = HELPER.with_borrow_mut(|helper| helper.run(errand)) {
         send_to(0, Kind::Found, &serde_json::to_vec(&found).unwrap_or_default());
     }

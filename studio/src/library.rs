@@ -16,6 +16,7 @@ use gambol_runs::{
 use ne_core::{
     archive,
     bounded_read::{LARGEST_TEXT, read_text},
+    field_path,
 };
 use std::{
     collections::BTreeMap,
@@ -175,7 +176,7 @@ impl Library {
     fn drawn_terrains(&self) -> Vec<(String, Terrain)> {
         let read = |(name, text): (String, String)| {
             let config: serde_json::Value = serde_json::from_str(&text).ok()?;
-            let terrain: Terrain = serde_json::from_value(config.get("terrain")?.clone()).ok()?;
+            let terrain: Terrain = field_path::from_value(config.get("terrain")?).ok()?;
             let is_new = self.registry.terrains.find(&name).is_err();
             (is_new && terrain.validate().is_ok()).then_some((name, terrain))
         };

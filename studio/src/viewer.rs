@@ -12,7 +12,7 @@ use crate::{
 };
 use creatures::{Creature, Terrain};
 use gambol_runs::champion::Champion;
-use ne_core::Seed;
+use ne_core::{Seed, field_path};
 use serde_json::Value;
 use std::{path::Path, sync::Arc};
 
@@ -88,7 +88,7 @@ impl Viewer {
 
     /// Answers a message.
     pub fn answer(&mut self, message: &str) -> Vec<Reply> {
-        let request: Request = match serde_json::from_str(message) {
+        let request: Request = match field_path::from_str(message) {
             Ok(request) => request,
             Err(error) => return vec![refused("", &error)],
         };
@@ -137,7 +137,7 @@ impl Viewer {
             Request::Describe { choice } => Event::Described(Box::new(library.describe(&choice))),
             Request::Check { creature, number } => Event::Checked { number, problems: choice::check(&creature) },
             Request::Keep { creature } => {
-                let creature: Creature = serde_json::from_value(creature)?;
+                let creature: Creature = field_path::from_value(&creature)?;
                 library.keep(&creature)?;
                 Event::Catalogue(Box::new(library.catalogue()))
             }
@@ -145,7 +145,7 @@ impl Viewer {
                 Event::Checked { number, problems: choice::check_terrain(&terrain) }
             }
             Request::KeepTerrain { name, terrain } => {
-                let terrain: Terrain = serde_json::from_value(terrain)?;
+                let terrain: Terrain = field_path::from_value(&terrain)?;
                 library.keep_terrain(&name, &terrain)?;
                 Event::Catalogue(Box::new(library.catalogue()))
             }
@@ -182,7 +182,7 @@ impl Viewer {
                 let scene = self.scene(who, terrain.as_deref(), friction)?;
                 self.show(scene, arena)?
             }
-            Request::Enter { scene, arena } => self.enter(*scene, arena)?,
+            Request::Enter { scene, arena } => self.enter(field_path::from_value(&scene)?, arena)?,
             Request::Leave { arena } => {
                 self.leave(arena);
                 return Ok(Vec::new());

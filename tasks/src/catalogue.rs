@@ -478,7 +478,7 @@ impl MovementCatalogue {
 
 /// Reads settings of their own type from what a file says.
 fn parse<S: DeserializeOwned>(settings: &MovementSettings) -> Result<S, MovementSpecError> {
-    field_path::read(Value::Object(settings.clone())).map_err(|FieldError { path, message }| {
+    field_path::from_value(&Value::Object(settings.clone())).map_err(|FieldError { path, message, .. }| {
         let field = if path == "." { String::new() } else { path };
         MovementSpecError::Settings { field, message }
     })

@@ -44,9 +44,7 @@ impl StrategySettings {
 
     /// Its settings as what they are.
     pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, FieldError> {
-        // Through text: a number is rounded once, to what it becomes.
-        let text = Value::Object(self.settings.clone()).to_string();
-        field_path::read(&mut serde_json::Deserializer::from_slice(text.as_bytes()))
+        field_path::from_value(&Value::Object(self.settings.clone()))
     }
 
     /// Changes one setting.

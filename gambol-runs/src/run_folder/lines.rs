@@ -9,6 +9,7 @@ use ne_core::{
     archive::{self, ArchiveError},
     bounded_read,
     digest::Digest,
+    field_path,
     write_points::{WritePoint, reach},
 };
 use serde::{Serialize, de::DeserializeOwned};
@@ -116,7 +117,7 @@ fn parsed<T: DeserializeOwned>(path: &Path, index: usize, line: &[u8], digest: &
     if line.strip_prefix(fields) != Some(seal(*digest).as_bytes()) {
         return Err(failed("it was changed after it was written: its digest does not fit".into()));
     }
-    serde_json::from_slice(&[fields, b"}"].concat()).map_err(|error| failed(error.to_string()))
+    field_path::from_slice(&[fields, b"}"].concat()).map_err(|error| failed(error.to_string()))
 }
 
 fn contents(path: &Path) -> Result<Vec<u8>, ArchiveError> {

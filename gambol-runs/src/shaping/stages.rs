@@ -217,7 +217,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
     let mut assembly = Assembly::new(before, registry);
     let mut creature = before.creature.clone();
     if let Some(changed) = settings.changes.get("creature") {
-        creature = field_path::read(changed).map_err(|FieldError { path, message }| {
+        creature = field_path::from_value(changed).map_err(|FieldError { path, message, .. }| {
             let field = if path == "." { "creature".into() } else { format!("creature.{path}") };
             ConfigError::Field { field, message }
         })?;

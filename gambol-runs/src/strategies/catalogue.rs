@@ -233,7 +233,7 @@ struct KindOf<S>(PhantomData<fn() -> S>);
 
 impl<S: NetStrategy> KindOf<S> {
     fn parse(settings: &StrategySettings) -> Result<S::Settings, StrategyError> {
-        settings.parse().map_err(|FieldError { path, message }| {
+        settings.parse().map_err(|FieldError { path, message, .. }| {
             let place = if path == "." { String::new() } else { format!(".{path}") };
             let field = format!("strategy.{}{place}", S::NAME);
             StrategyError::Field { field, message: suggest::explain(&message) }

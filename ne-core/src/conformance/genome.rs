@@ -62,8 +62,7 @@ pub(super) fn to_json(value: &impl serde::Serialize) -> Result<String, String> {
 
 /// From text, the way a checkpoint is read.
 pub(super) fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, String> {
-    field_path::read(&mut serde_json::Deserializer::from_slice(text.as_bytes()))
-        .map_err(|error| format!("cannot be read back from JSON: {error}"))
+    field_path::from_str(text).map_err(|error| format!("cannot be read back from JSON: {error}"))
 }
 
 /// The beginning of a long text.

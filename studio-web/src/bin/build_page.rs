@@ -62,9 +62,15 @@ fn build(folder: &Path) -> Result<(), Box<dyn Error>> {
     fs::write(folder.join("index.html"), studio::page::PAGE.replacen(head, &policy, 1))?;
     fs::write(folder.join("studio.css"), studio::page::styles())?;
     fs::write(folder.join("schema.json"), gambol_runs::schema::json_schema(&Registry::default()).to_string())?;
-    fs::write(folder.join("studio.js"), studio::page::scripts(&format!("{MODULE}\n{HOME}")))?;
-    fs::write(folder.join("worker.js"), format!("\"use strict\";\n{}", WORKER.join("\n")))?;
+    fs::write(folder.join("studio.js"), lean(&studio::page::scripts(&format!("{MODULE}\n{HOME}"))))?;
+    fs::write(folder.join("worker.js"), lean(&format!("\"use strict\";\n{}", WORKER.join("\n"))))?;
     Ok(())
+}
+
+/// A script without indents, and without lines that are comments: what is sent through a network, and not read.
+fn lean(script: &str) -> String {
+    let lines = script.lines().map(str::trim_start).filter(|line| !line.is_empty() && !line.starts_with("//"));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// Builds the module, with the cargo that the variable `GAMBOL_CARGO_WASI` names, or the usual one.

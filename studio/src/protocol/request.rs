@@ -1,6 +1,5 @@
 //! What a page asks for.
 
-use crate::scene::Scene;
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -106,8 +105,8 @@ pub enum Request {
     },
     /// Put these into an arena, as another viewer has sent them.
     Enter {
-        /// What is to be shown.
-        scene: Box<Scene>,
+        /// What is to be shown: a [`Scene`](crate::Scene). What a tag stands in is read twice, so it has no large type.
+        scene: Value,
         /// In which of the two arenas, 0 or 1.
         #[serde(default)]
         arena: usize,
