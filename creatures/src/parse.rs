@@ -66,15 +66,10 @@ fn from_json<T: DeserializeOwned>(text: &str) -> Result<T, CreatureError> {
 
 fn explain(error: FieldError) -> CreatureError {
     let FieldError { path, message, line, column, is_syntax } = error;
-    let too_large = message == "number out of range";
-    if is_syntax && !too_large {
+    if is_syntax {
         return CreatureError::Syntax { line, column, message };
     }
     let path = if path == "." { "the file".to_owned() } else { shortened(&path) };
-    if too_large {
-        let message = "expected a number that fits single precision (at most 3.4e38), found a larger one".to_owned();
-        return CreatureError::Field { path, line, column, message };
-    }
     if let Some((found, valid)) = unknown(&message) {
         let what = if message.starts_with("unknown field") { "field" } else { choice_at(&path) };
         let nearest = nearest(&found, valid.iter().map(String::as_str));

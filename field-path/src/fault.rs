@@ -48,7 +48,7 @@ impl Fault {
         self
     }
 
-    pub(crate) fn explain(self, whole: &str) -> FieldError {
+    pub(crate) fn explain(self, whole: &[u8]) -> FieldError {
         let Parts { message, path: steps, address } = *self.0;
         let mut path = String::new();
         for step in steps.iter().rev() {
@@ -64,9 +64,9 @@ impl Fault {
         if path.is_empty() {
             path.push('.');
         }
-        let start = whole.len() - whole.trim_start().len();
+        let start = whole.len() - whole.trim_ascii_start().len();
         let offset = address.map_or(start, |address| address.saturating_sub(whole.as_ptr() as usize));
-        let before = &whole.as_bytes()[..offset.min(whole.len())];
+        let before = &whole[..offset.min(whole.len())];
         let line = 1 + before.iter().filter(|&&byte| byte == b'\n').count();
         let column = 1 + before.iter().rev().take_while(|&&byte| byte != b'\n').count();
         FieldError { path, message, line, column, is_syntax: false }

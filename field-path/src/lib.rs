@@ -42,8 +42,7 @@ pub struct FieldError {
 /// # Errors
 /// [`FieldError`] if it is no JSON, else for the first field that is wrong.
 pub fn from_str<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, FieldError> {
-    let whole: &RawValue = serde_json::from_str(text).map_err(|error| not_json(&error))?;
-    T::deserialize(Reader::new(whole.get())).map_err(|fault| fault.explain(text))
+    from_slice(text.as_bytes())
 }
 
 /// Reads a text as bytes.
@@ -51,20 +50,8 @@ pub fn from_str<'de, T: Deserialize<'de>>(text: &'de str) -> Result<T, FieldErro
 /// # Errors
 /// As [`from_str`].
 pub fn from_slice<'de, T: Deserialize<'de>>(text: &'de [u8]) -> Result<T, FieldError> {
-    match std::str::from_utf8(text) {
-        Ok(text) => from_str(text),
-        // What it is that is wrong, and where, says the parser.
-        Err(_) => Err(serde_json::from_slice::<&RawValue>(text).map_or_else(
-            |error| not_json(&error),
-            |_| FieldError {
-                path: ".".into(),
-                message: "is no text of UTF-8".into(),
-                line: 1,
-                column: 1,
-                is_syntax: true,
-            },
-        )),
-    }
+    let whole: &RawValue = serde_json::from_slice(text).map_err(|error| not_json(&error))?;
+    T::deserialize(Reader::new(whole.get())).map_err(|fault| fault.explain(text))
 }
 
 /// Reads a value, by way of its text: a number is rounded once, to what it becomes.

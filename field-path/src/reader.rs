@@ -15,6 +15,9 @@ use std::{borrow::Cow, marker::PhantomData, vec};
 /// So many lists and objects around each other are read, as `serde_json` does.
 const DEEPEST: u8 = 127;
 
+/// In plainer words than "number out of range".
+const TOO_LARGE: &str = "expected a number that fits single precision (at most 3.4e38), found a larger one";
+
 /// A value.
 #[derive(Clone, Copy)]
 pub(crate) struct Reader<'de> {
@@ -148,12 +151,14 @@ impl<'de> Deserializer<'de> for Reader<'de> {
 
     // Rounded once, from the text.
     fn deserialize_f32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
-        let number = self.number(&visitor)?;
-        if !number.is_f64() {
-            return visit_number(&number, visitor);
+        if !self.text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
+            return visit_number(&self.number(&visitor)?, visitor);
         }
-        let number: f32 = serde_json::from_str(self.text).map_err(|error| Fault::of_part(&error))?;
-        visitor.visit_f32(number)
+        match serde_json::from_str(self.text) {
+            Ok(number) => visitor.visit_f32(number),
+            // It is written as a number is.
+            Err(_) => Err(Fault::custom(TOO_LARGE)),
+        }
     }
 
     // Of an identifier, too: the number of a variant is no name.

@@ -100,7 +100,15 @@ fn whole() -> Value {
 fn by_serde_json(text: &str) -> Result<Whole, (String, String)> {
     let mut reader = serde_json::Deserializer::from_str(text);
     serde_path_to_error::deserialize(&mut reader)
-        .map_err(|error| (error.path().to_string(), without_place(&error.inner().to_string()).to_owned()))
+        .map_err(|error| (error.path().to_string(), plainer(without_place(&error.inner().to_string()))))
+}
+
+/// What it says of a number that is too large for an `f32` is said in other words.
+fn plainer(message: &str) -> String {
+    message.replace(
+        "number out of range",
+        "expected a number that fits single precision (at most 3.4e38), found a larger one",
+    )
 }
 
 fn of_a_value(text: &str) -> Option<String> {
@@ -215,7 +223,7 @@ proptest! {
         for text in texts.iter().map(String::as_str).chain(["-0", "-0.0", "1e400", "7.038531e-26", "18446744073709551616", "1E3"]) {
             let bits = |value: Result<f32, String>| value.map(f32::to_bits);
             let ours = from_str::<f32>(text).map_err(|error| error.message);
-            let theirs = serde_json::from_str::<f32>(text).map_err(|error| without_place(&error.to_string()).to_owned());
+            let theirs = serde_json::from_str::<f32>(text).map_err(|error| plainer(without_place(&error.to_string())));
             prop_assert_eq!(bits(ours), bits(theirs), "{}", text);
             let ours = from_str::<f64>(text).map_err(|error| error.message).map(f64::to_bits);
             let theirs = serde_json::from_str::<f64>(text).map_err(|error| without_place(&error.to_string()).to_owned());

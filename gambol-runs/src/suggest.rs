@@ -21,9 +21,6 @@ pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
 /// Adds the nearest valid name to serde's "unknown field `x`, expected one of `a`, `b`".
 pub(crate) fn explain(message: &str) -> String {
     let message = message.split(" at line ").next().unwrap_or(message);
-    if message == "number out of range" {
-        return "expected a number that fits single precision (at most 3.4e38), found a larger one".to_owned();
-    }
     let mut quoted = message.split('`').skip(1).step_by(2);
     match quoted.next() {
         Some(name) if message.starts_with("unknown") => match nearest(name, quoted) {
