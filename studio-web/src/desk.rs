@@ -114,16 +114,19 @@ const SMALLEST: usize = 4;
 const LOST: Duration = Duration::from_secs(3);
 
 impl Desk {
-    /// A desk without helpers. It wakes `workers` when a helper brings something back.
+    /// A desk without helpers. It wakes `workers` when a helper comes or brings something back.
     pub fn new(workers: Arc<dyn Workers>) -> Self {
         Self { inner: Mutex::default(), workers }
     }
 
     /// A helper comes, or says that it has nothing to do.
     pub fn welcome(&self, helper: u32) {
-        let mut inner = self.inner();
-        inner.helpers.entry(helper).or_default();
-        inner.idle.insert(helper);
+        {
+            let mut inner = self.inner();
+            inner.helpers.entry(helper).or_default();
+            inner.idle.insert(helper);
+        }
+        self.workers.wake();
     }
 
     /// A helper goes, and with it what it was sent.

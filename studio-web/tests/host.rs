@@ -9,6 +9,7 @@ use serde_json::{Value, json};
 use std::{
     fs,
     path::{Path, PathBuf},
+    time::Duration,
 };
 use studio::{
     Reply, Shown,
@@ -155,6 +156,45 @@ fn helpers_change_no_byte() -> Outcome {
     assert!(done > 20, "helpers did {done} pieces");
     assert!(bytes(&helped.path().join("runs/biped-1-running")) == bytes(&alone.path().join("run")));
     Ok(())
+}
+
+#[test]
+fn a_verdict_does_not_hold_up_the_first_picture() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let opened = || {
+        let mut runs = host(folder.path());
+        ask(&mut runs, json!({ "do": "open", "run": "run" }));
+        assert!(runs.work().is_some_and(|wait| wait > Duration::ZERO), "nothing else is to be done");
+        assert!(verdict(&mut runs).is_none(), "it was judged before anything could be shown");
+        runs
+    };
+    trained_alone(&folder.path().join("runs/run"))?;
+
+    // It goes to the first helper that comes.
+    let mut runs = opened();
+    runs.desk().welcome(2);
+    assert_eq!(runs.work().map(|wait| wait > Duration::ZERO), Some(true));
+    let (helper, errand) = runs.desk().errand().ok_or("there is an errand")?;
+    assert!(helper == 2 && matches!(errand, Errand::Judge { .. }), "{errand:?}");
+    runs.desk().bring(helper, Helper::default().run(errand).ok_or("it judges")?);
+    runs.work();
+    let from_the_helper = verdict(&mut runs).ok_or("it was brought")?;
+
+    // Where none comes, it is judged here.
+    let mut runs = opened();
+    let from_here = loop {
+        std::thread::sleep(runs.work().ok_or("it waits for nothing")?);
+        if let Some(verdict) = verdict(&mut runs) {
+            break verdict;
+        }
+    };
+    assert_eq!(from_here, from_the_helper);
+    Ok(())
+}
+
+fn verdict(runs: &mut Host) -> Option<Value> {
+    let told = events(runs.news(PAGE)).into_iter().map(|event| serde_json::to_value(event).expect("an event"));
+    told.into_iter().find(|event| event["is"] == "verdict")
 }
 
 #[test]

@@ -42,6 +42,7 @@ class Studio {
   listen() {
     const { connection } = this;
     connection.on("refused", ({ request, reason }) => {
+      if (request === "show" || request === "enter") this.isShowAsked = false;
       // Before there is anything to show, nothing is wrong.
       if (request !== "show" && request !== "advance") this.refuse(reason);
     });
@@ -49,10 +50,11 @@ class Studio {
     connection.on("opened", event => {
       this.opened = event;
       this.shown = null;
-      this.connection.ask({ do: "look" });
       this.showAgain();
+      this.connection.ask({ do: "look" });
     });
-    connection.on("generations", () => { if (!this.shown && !this.members.pinned) this.showAgain(); });
+    // Asked once, and again where there was nothing to show yet.
+    connection.on("generations", () => { if (!this.shown && !this.isShowAsked && !this.members.pinned) this.showAgain(); });
     connection.onState = (on, problem) => {
       document.body.classList.toggle("offline", !on);
       if (on && this.wasOff) {
@@ -63,6 +65,7 @@ class Studio {
     };
     this.arena.onEnter = event => {
       this.shown = event;
+      this.isShowAsked = false;
       this.play.enter(event);
       this.net.enter(event);
       this.members.enter(event);
@@ -209,6 +212,7 @@ class Studio {
 
   showAgain() {
     if (!this.opened) return;
+    this.isShowAsked = true;
     if (this.chapter === "play") return this.play.begin();
     this.connection.ask({ do: "show", who: this.who });
     return this.beside.show();

@@ -8,7 +8,7 @@ use crate::{
 use gambol_runs::champion::Champion;
 use std::{
     sync::{Arc, Weak},
-    time::{Instant, SystemTime},
+    time::{Duration, Instant, SystemTime},
 };
 
 /// Judges each new champion of a session from now on, as long as this or another page looks.
@@ -16,7 +16,7 @@ pub(crate) fn judge_champions(session: &Arc<Session>, look: &Weak<()>) {
     if !session.begin_judging(look.clone()) {
         return;
     }
-    let judging = Box::new(Judging { session: Arc::clone(session), judged: None, asked: None, is_over: false });
+    let judging = Box::new(Judging { session: Arc::clone(session), judged: None, asked: None, has_waited: false, is_over: false });
     if let Err(error) = session.means().workers.start("judge", judging) {
         tracing::warn!(%error, "no gait is judged");
     }
@@ -28,12 +28,17 @@ struct Judging {
     judged: Option<SystemTime>,
     /// What a helper judges.
     asked: Option<Ticket>,
+    /// Whether helpers had time to come.
+    has_waited: bool,
     /// Whether the session knows that it has ended.
     is_over: bool,
 }
 
 /// Judging takes at most this share of one core.
 const SHARE: u32 = 20;
+
+/// Where there can be helpers, they come after the first picture, which a verdict is not to hold up.
+const UNTIL_HELPERS_COME: Duration = Duration::from_secs(1);
 
 impl Judging {
     /// Judges it here, or has it judged by a helper.
@@ -68,6 +73,10 @@ impl Job for Judging {
         }
         if self.is_asked() {
             return Next::After(PATIENCE);
+        }
+        let must_wait = self.session.means().helpers.as_ref().is_some_and(|helpers| !helpers.are_there());
+        if !std::mem::replace(&mut self.has_waited, true) && must_wait {
+            return Next::After(UNTIL_HELPERS_COME);
         }
         let changed = std::fs::metadata(self.session.folder().champion()).and_then(|file| file.modified()).ok();
         let began = Instant::now();

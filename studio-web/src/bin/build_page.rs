@@ -81,7 +81,8 @@ fn module() -> Result<PathBuf, Box<dyn Error>> {
     let status = Command::new(&cargo)
         .current_dir(root)
         .env("CARGO_BUILD_TARGET", TARGET)
-        .env("RUSTFLAGS", "-C target-feature=+simd128")
+        // Not every cargo passes on that the profile strips all names: they would be a fifth of what is loaded.
+        .env("RUSTFLAGS", "-C target-feature=+simd128 -C strip=symbols")
         .args([
             "build",
             "--locked",

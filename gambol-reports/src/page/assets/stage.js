@@ -36,7 +36,8 @@ class Stage {
     this.context = canvas.getContext("2d", { alpha: !scenery });
     this.groundShare = groundShare;
     this.width = this.height = 0;
-    this.visible = true;
+    // The observer says when it is.
+    this.visible = false;
     this.stale = true;
     this.centreX = 0;
     this.raise = 0;
