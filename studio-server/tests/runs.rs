@@ -183,6 +183,39 @@ fn a_run_is_removed_unless_it_is_trained() -> Outcome {
 }
 
 #[test]
+fn a_drawn_creature_is_removed_and_its_runs_stay() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let library = library(folder.path());
+    let mut page = Page::new(&library);
+    let mut drawn = creatures::find("biped-1")?;
+    drawn.name = "my biped".into();
+    let mut choice = choice(2);
+    choice["drawn"] = serde_json::to_value(&drawn)?;
+    page.ask(json!({ "do": "train", "choice": choice }));
+    page.wait_for("ended");
+    // Another program may call a file as it likes.
+    let creatures = folder.path().join("runs/creatures");
+    fs::copy(creatures.join("my biped.json"), creatures.join("a copy.json"))?;
+    let remove = |page: &mut Page, name: &str| {
+        page.events.clear();
+        page.ask(json!({ "do": "remove-creature", "name": name }));
+        page.refusals().first().map(|&reason| reason.to_owned())
+    };
+    for name in ["biped-1", "a copy", "../creatures/my biped"] {
+        let refused = format!("the creature \"{name}\" cannot be removed: none of this name was drawn here");
+        assert_eq!(remove(&mut page, name), Some(refused));
+    }
+    assert_eq!(remove(&mut page, "my biped"), None);
+    assert_eq!(fs::read_dir(creatures)?.count(), 0);
+    assert!(library.kept().creatures.is_empty());
+    page.events.clear();
+    page.ask(json!({ "do": "go-on", "generations": 1 }));
+    page.wait_for("ended");
+    assert_eq!(library.folder("my biped-running")?.read_config()?.creature.name, "my biped");
+    Ok(())
+}
+
+#[test]
 fn a_drawn_terrain_is_kept_and_trained_on() -> Outcome {
     let folder = tempfile::tempdir()?;
     let library = library(folder.path());
@@ -219,6 +252,19 @@ fn a_drawn_terrain_is_kept_and_trained_on() -> Outcome {
         assert!(page.refusals().iter().any(|found| found.contains(reason)), "{reason}: {:?}", page.refusals());
     }
     assert_eq!(fs::read_dir(folder.path().join("runs/terrains"))?.count(), 1);
+
+    // What was trained on it stays.
+    page.events.clear();
+    page.ask(json!({ "do": "remove-terrain", "name": "my hills" }));
+    assert_eq!(page.refusals(), [""; 0]);
+    assert!(library.kept().terrains.is_empty());
+    assert_eq!(library.folder("biped-1-running")?.read_config()?.terrain.drawn.len(), 2);
+    for name in ["my hills", "gaps", "../biped-1-running/config"] {
+        page.events.clear();
+        page.ask(json!({ "do": "remove-terrain", "name": name }));
+        let refused = format!("the terrain \"{name}\" cannot be removed: none of this name was drawn here");
+        assert_eq!(page.refusals(), [refused]);
+    }
     Ok(())
 }
 

@@ -43,7 +43,7 @@ fn send_to(page: u32, kind: Kind, bytes: &[u8]) {
 }
 
 fn with_host<T>(act: impl FnOnce(&mut Host) -> T) -> T {
-    HOST.with_borrow_mut(|host| act(host.get_or_insert_with(|| Host::new(Default::default(), "/runs".into()))))
+    HOST.with_borrow_mut(|host| act(host.get_or_insert_with(|| Host::new(Default::default(), "runs".into()))))
 }
 
 fn room_as_text() -> String {

@@ -63,6 +63,15 @@ class Choose {
   }
 
   fill(catalogue) {
+    const isGone = (list, name) => {
+      const has = of => of?.[list].some(thing => thing.name === name);
+      return has(this.catalogue) && !has(catalogue);
+    };
+    if (isGone("creatures", this.creature?.name)) {
+      delete this.choice.drawn;
+      this.choice.creature = catalogue.creatures[0]?.name;
+    }
+    if (isGone("terrains", this.choice.terrain)) delete this.choice.terrain;
     this.catalogue = catalogue;
     if (!catalogue.runs.some(({ run }) => run === this.choice.from)) delete this.choice.from;
     const creatures = document.getElementById("choose-creature");

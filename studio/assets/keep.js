@@ -7,12 +7,16 @@ class Keep {
     connection.on("robustness", state => this.showRobustness(state));
     connection.on("catalogue", catalogue => this.fill(catalogue));
     connection.on("opened", event => this.show(event));
+    connection.on("refused", ({ request }) => { if (request === "remove") this.removed = null; });
     connection.on("saved", ({ name }) => this.say(`${name} is saved.`));
     const get = name => document.getElementById(name);
     get("keep-verify").addEventListener("click", () => this.verify());
     get("keep-link").addEventListener("click", () => this.link());
     get("keep-robust").addEventListener("click", () => connection.ask({ do: "robustness" }));
-    get("keep-remove").addEventListener("click", () => this.askToRemove());
+    get("keep-remove").addEventListener("click", () => {
+      const { run } = this.watch;
+      this.askToRemove(run, "Its folder, with champion, log and report, is deleted for good.", { do: "remove", run });
+    });
     get("remove-no").addEventListener("click", () => get("remove-dialog").close());
     get("remove-yes").addEventListener("click", () => this.remove());
     // An address that is served has a secret in it, and leads to this machine.
@@ -33,8 +37,12 @@ class Keep {
     });
   }
 
-  fill({ runs, formats }) {
+  fill({ runs, formats, creatures, terrains, drawn }) {
     this.formats = formats;
+    const bodies = creatures.filter(({ name }) => drawn.includes(name));
+    const grounds = terrains.filter(terrain => terrain.drawn);
+    document.getElementById("keep-drawn").hidden = bodies.length + grounds.length === 0;
+    document.querySelector("#keep-drawn ul").replaceChildren(...bodies.map(body => this.bodyLine(body)), ...grounds.map(({ name }) => this.groundLine(name)));
     document.getElementById("keep-empty").hidden = runs.length > 0;
     document.getElementById("keep-runs").replaceChildren(...runs.map(run => this.card(run)));
     if (this.removed && !runs.some(({ run }) => run === this.removed)) {
@@ -59,6 +67,20 @@ class Keep {
     item.append(button);
     drawPortrait(canvas, creature, () => this.films.of(run, running ? null : fitness));
     return item;
+  }
+
+  bodyLine(creature) {
+    const { name } = creature;
+    return drawnLine(name, `creature, ${count(creature.parts.length, "part", "parts")}`, [
+      ["Change", () => this.draw(creature)],
+      ["Remove", () => this.askToRemove(name, "Its file is deleted for good. Runs of it stay.", { do: "remove-creature", name })],
+    ]);
+  }
+
+  groundLine(name) {
+    return drawnLine(name, "ground", [
+      ["Remove", () => this.askToRemove(name, "Its file is deleted for good. Runs on it stay.", { do: "remove-terrain", name })],
+    ]);
   }
 
   show({ run }) {
@@ -124,15 +146,17 @@ class Keep {
     return undefined;
   }
 
-  askToRemove() {
-    document.getElementById("remove-title").textContent = `Remove ${this.watch.run}?`;
+  askToRemove(name, what, request) {
+    this.removal = request;
+    document.getElementById("remove-title").textContent = `Remove ${name}?`;
+    document.getElementById("remove-text").textContent = what;
     document.getElementById("remove-dialog").showModal();
   }
 
   remove() {
     document.getElementById("remove-dialog").close();
-    this.removed = this.watch.run;
-    this.connection.ask({ do: "remove", run: this.removed });
+    this.removed = this.removal.run;
+    this.connection.ask(this.removal);
   }
 
   async link() {
@@ -168,4 +192,18 @@ class Keep {
     else this.connection.ask({ do: "open-champion", name: file.name, text });
     return undefined;
   }
+}
+
+// Something that was drawn here, and what can be done with it.
+function drawnLine(name, what, actions) {
+  const item = element("li");
+  const buttons = actions.map(([word, act]) => {
+    const button = element("button", word, "small");
+    button.type = "button";
+    button.setAttribute("aria-label", `${word} ${name}`);
+    button.addEventListener("click", act);
+    return button;
+  });
+  item.append(element("b", name), element("span", what), ...buttons);
+  return item;
 }

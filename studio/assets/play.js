@@ -29,7 +29,7 @@ class Play {
       const { terrain } = this.inputs;
       const chosen = terrain.value;
       terrain.replaceChildren(terrain.options[0], ...options);
-      this.setTerrain(chosen);
+      this.setTerrain(terrains.some(({ name }) => name === chosen) ? chosen : "");
     });
   }
 

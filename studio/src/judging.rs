@@ -16,7 +16,13 @@ pub(crate) fn judge_champions(session: &Arc<Session>, look: &Weak<()>) {
     if !session.begin_judging(look.clone()) {
         return;
     }
-    let judging = Box::new(Judging { session: Arc::clone(session), judged: None, asked: None, has_waited: false, is_over: false });
+    let judging = Box::new(Judging {
+        session: Arc::clone(session),
+        judged: None,
+        asked: None,
+        has_waited: false,
+        is_over: false,
+    });
     if let Err(error) = session.means().workers.start("judge", judging) {
         tracing::warn!(%error, "no gait is judged");
     }

@@ -1,22 +1,19 @@
 //! What there is: the folder of all runs, the creatures drawn here, and the runs that are trained here.
 
+mod drawn;
+
 use crate::{
-    choice::{ChoiceError, Kept},
+    choice::ChoiceError,
     protocol::{Catalogue, Choice, Described, ExportFormat, NamedThing, RunEntry, RunState, TerrainChoice},
     session::{Means, Session, SessionError},
     training::{self, Plan},
 };
-use creatures::{Blueprint, Creature, Terrain, is_file_name};
+use creatures::Creature;
 use gambol_exports::Format;
 use gambol_runs::{
     Registry,
     champion::Champion,
     run_folder::{FolderError, NewFolder, RunFolder},
-};
-use ne_core::{
-    archive,
-    bounded_read::{LARGEST_TEXT, read_text},
-    field_path,
 };
 use std::{
     collections::BTreeMap,
@@ -26,12 +23,6 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::SystemTime,
 };
-
-/// Drawn creatures are kept in this folder among the runs.
-const CREATURES: &str = "creatures";
-
-/// Drawn terrains are kept in this folder among the runs, each as a configuration that has nothing but it.
-const TERRAINS: &str = "terrains";
 
 /// The most runs that a gallery shows.
 const MOST_RUNS: usize = 200;
@@ -66,11 +57,13 @@ pub enum LibraryError {
     /// A drawn terrain cannot be kept.
     #[error("the terrain cannot be kept: {0}")]
     KeepTerrain(String),
-    /// A run cannot be removed.
-    #[error("the run \"{run}\" cannot be removed: {reason}")]
+    /// A run, or what was drawn, cannot be removed.
+    #[error("the {what} \"{name}\" cannot be removed: {reason}")]
     Remove {
+        /// "run", "creature" or "terrain".
+        what: &'static str,
         /// Its name.
-        run: String,
+        name: String,
         /// Why.
         reason: String,
     },
@@ -85,19 +78,6 @@ impl Library {
     /// What can be named.
     pub fn registry(&self) -> &Registry {
         &self.registry
-    }
-
-    /// The folder of drawn creatures.
-    fn creatures(&self) -> PathBuf {
-        self.runs.join(CREATURES)
-    }
-
-    /// The creatures and terrains that were drawn and kept.
-    pub fn kept(&self) -> Kept {
-        let creatures = self.drawn_creatures().into_iter().map(|creature| creature.name).collect();
-        let terrains = self.drawn_terrains().into_iter().map(|(name, _)| name).collect();
-        let (creature_folder, terrain_folder) = (self.creatures(), self.runs.join(TERRAINS));
-        Kept { creatures, terrains, creature_folder, terrain_folder, runs: self.runs.clone() }
     }
 
     /// What there is to choose from.
@@ -168,67 +148,13 @@ impl Library {
         shipped.chain(drawn).collect()
     }
 
-    fn drawn_creatures(&self) -> Vec<Creature> {
-        let read = |(_, text): (String, String)| Some(Blueprint::from_json(&text).ok()?.creature().clone());
-        texts_in(&self.creatures()).into_iter().filter_map(read).collect()
-    }
-
-    fn drawn_terrains(&self) -> Vec<(String, Terrain)> {
-        let read = |(name, text): (String, String)| {
-            let config: serde_json::Value = serde_json::from_str(&text).ok()?;
-            let terrain: Terrain = field_path::from_value(config.get("terrain")?).ok()?;
-            let is_new = self.registry.terrains.find(&name).is_err();
-            (is_new && terrain.validate().is_ok()).then_some((name, terrain))
-        };
-        texts_in(&self.runs.join(TERRAINS)).into_iter().filter_map(read).collect()
-    }
-
-    /// The registry with the creatures and terrains that were drawn here.
-    pub fn registry_with_drawn(&self) -> Registry {
-        let mut registry = self.registry.clone();
-        for creature in self.drawn_creatures() {
-            // Each was checked as it was read.
-            let _ = serde_json::to_string(&creature).map(|json| registry.creatures.add_file(&json).map(drop));
-        }
-        for (name, terrain) in self.drawn_terrains() {
-            registry.terrains.add(&name, "drawn here", terrain);
-        }
-        registry
-    }
-
-    /// Keeps a drawn terrain under a name, in place of what was drawn under it before.
-    ///
-    /// # Errors
-    /// If it is not valid, its name is that of one that is shipped or cannot be that of a file, or it cannot be written.
-    pub fn keep_terrain(&self, name: &str, terrain: &Terrain) -> Result<PathBuf, LibraryError> {
-        let failed = |error: &dyn std::fmt::Display| LibraryError::KeepTerrain(error.to_string());
-        terrain.validate().map_err(|error| failed(&error))?;
-        if terrain.drawn.is_empty() {
-            return Err(failed(&"nothing is drawn yet"));
-        }
-        if !is_file_name(name) {
-            return Err(failed(&"its name must begin with a letter or digit, and have only these, spaces, - _ and ."));
-        }
-        if self.registry.terrains.find(name).is_ok() {
-            return Err(failed(&format!("\"{name}\" is the name of another; give it one of its own")));
-        }
-        let folder = self.runs.join(TERRAINS);
-        let path = folder.join(format!("{name}.json"));
-        archive::make_folder(&folder).map_err(|error| failed(&error))?;
-        let json = serde_json::to_string_pretty(&serde_json::json!({ "terrain": terrain }));
-        let json = json.map_err(|error| failed(&error))?;
-        archive::write_whole_together(&[(&*path, format!("{json}\n").as_bytes())]).map_err(|error| failed(&error))?;
-        Ok(path)
-    }
-
     /// Removes a run with all that is in its folder.
     ///
     /// # Errors
     /// If there is none, it is being trained, here or by another process, or its folder cannot be removed.
     pub fn remove(&self, run: &str) -> Result<(), LibraryError> {
         let folder = self.folder(run)?;
-        let failed =
-            |error: &dyn std::fmt::Display| LibraryError::Remove { run: run.into(), reason: error.to_string() };
+        let failed = |error: &dyn std::fmt::Display| cannot_remove("run", run, error);
         let mut sessions = self.sessions();
         if sessions.get(run).is_some_and(|session| session.is_training()) {
             return Err(failed(&"it is being trained; stop it first"));
@@ -238,24 +164,6 @@ impl Library {
         drop(lock);
         sessions.remove(run);
         Ok(())
-    }
-
-    /// Keeps a drawn creature under its name, in place of what was drawn under it before.
-    ///
-    /// # Errors
-    /// If it is not valid, has the name of one that is shipped, or cannot be written.
-    pub fn keep(&self, creature: &Creature) -> Result<PathBuf, LibraryError> {
-        let failed = |error: &dyn std::fmt::Display| LibraryError::Keep(error.to_string());
-        // A valid name is one of a file, and of none elsewhere.
-        let blueprint = Blueprint::new(creature.clone()).map_err(|error| failed(&error))?;
-        if self.registry.creatures.find(blueprint.name()).is_ok() {
-            return Err(failed(&format!("\"{}\" is the name of another; give it one of its own", blueprint.name())));
-        }
-        let path = self.creatures().join(format!("{}.json", blueprint.name()));
-        archive::make_folder(&self.creatures()).map_err(|error| failed(&error))?;
-        let json = serde_json::to_string_pretty(creature).map_err(|error| failed(&error))?;
-        archive::write_whole_together(&[(&*path, format!("{json}\n").as_bytes())]).map_err(|error| failed(&error))?;
-        Ok(path)
     }
 
     /// What a choice comes to, or what is wrong with it.
@@ -352,17 +260,8 @@ impl Library {
     }
 }
 
-/// The JSON files in a folder, each with its name.
-fn texts_in(folder: &Path) -> Vec<(String, String)> {
-    let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
-    let mut files: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();
-    files.sort();
-    let read = |path: &PathBuf| {
-        path.extension().filter(|extension| *extension == "json")?;
-        let name = path.file_stem()?.to_str()?.to_owned();
-        Some((name, read_text(path, LARGEST_TEXT).ok()?))
-    };
-    files.iter().filter_map(read).collect()
+fn cannot_remove(what: &'static str, name: &str, reason: &dyn std::fmt::Display) -> LibraryError {
+    LibraryError::Remove { what, name: name.into(), reason: reason.to_string() }
 }
 
 fn name_of(path: &Path) -> String {

@@ -156,6 +156,14 @@ impl Viewer {
                 }
                 Event::Catalogue(Box::new(library.catalogue()))
             }
+            Request::RemoveCreature { name } => {
+                library.remove_creature(&name)?;
+                Event::Catalogue(Box::new(library.catalogue()))
+            }
+            Request::RemoveTerrain { name } => {
+                library.remove_terrain(&name)?;
+                Event::Catalogue(Box::new(library.catalogue()))
+            }
             Request::Film { run } => library.film(&run),
             Request::Robustness => {
                 robustness::replay(self.session()?, &Arc::downgrade(&self.look))?;

@@ -1,6 +1,6 @@
 //! The two homes of the studio: served by the program, and a static page.
 
-use crate::browser::Browser;
+use crate::{browser::Browser, hands::PATIENCE};
 use std::{
     env, fs,
     io::{BufRead, BufReader, Write},
@@ -8,6 +8,7 @@ use std::{
     path::{Path, PathBuf},
     process::{Child, Command, Stdio},
     thread,
+    time::{Duration, Instant},
 };
 
 /// Where the studio lives.
@@ -63,6 +64,19 @@ impl Studio {
     pub(crate) fn origin(&self) -> &str {
         let end = self.url.match_indices('/').nth(2).map_or(self.url.len(), |(end, _)| end);
         &self.url[..end]
+    }
+
+    /// A file of the studio that there is to be. A browser keeps what is trained a moment after it tells of it.
+    pub(crate) fn kept_file(&self, browser: &mut Browser, path: &str) -> Vec<u8> {
+        let since = Instant::now();
+        loop {
+            let bytes = self.file(browser, path);
+            if !bytes.is_empty() {
+                return bytes;
+            }
+            assert!(since.elapsed() < PATIENCE, "there is no {path}");
+            thread::sleep(Duration::from_millis(50));
+        }
     }
 
     /// A file of the studio, such as *runs/biped-1-running/log.jsonl*; empty if there is none.

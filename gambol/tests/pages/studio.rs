@@ -4,6 +4,7 @@ use crate::{
     browser::{Browser, Key},
     hands::{click, drop_file, generation, is_clean, set, text, train, wait},
     home::{Home, Studio},
+    studio_runs::remove_drawn,
 };
 use serde_json::Value;
 use std::{fs, path::Path, process::Command, thread, time::Duration};
@@ -88,9 +89,10 @@ pub(crate) fn chooses(browser: &mut Browser, folder: &Path, home: &Home) {
     );
     train(browser, "tetrapod-2", "jumping", 3);
     let champion = folder.join("trained.json");
-    fs::write(&champion, studio.file(browser, "runs/tetrapod-2-jumping/champion.json")).expect("a file");
+    fs::write(&champion, studio.kept_file(browser, "runs/tetrapod-2-jumping/champion.json")).expect("a file");
     let verified = Command::new(env!("CARGO_BIN_EXE_gambol")).arg("verify").arg(champion).output().expect("it runs");
-    assert!(verified.status.success(), "what was trained in the studio is verified");
+    let complaint = String::from_utf8_lossy(&verified.stderr);
+    assert!(verified.status.success(), "what was trained in the studio is not verified: {complaint}");
     is_clean(browser, &studio);
 }
 
@@ -130,6 +132,15 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
     wait(browser, "its gait", "document.getElementById('verdict').textContent === 'Usable'");
     assert!(!studio.file(browser, "runs/creatures/my piano.json").is_empty());
     assert!(text(browser, "run-command").contains("runs/creatures/my piano.json'"));
+    // It is removed; another is chosen, and its run stays.
+    remove_drawn(browser, &studio, "my piano", "runs/creatures/my piano.json");
+    assert_eq!(
+        browser.evaluate("[...document.getElementsByName('creature')].some(({ value }) => value === 'my piano')"),
+        false
+    );
+    assert_eq!(browser.evaluate("document.querySelector('[name=creature]:checked')?.value !== undefined"), true);
+    wait(browser, "its run", "document.querySelector(\"[data-run='my piano-running']\") !== null");
+    assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
     is_clean(browser, &studio);
 }
 

@@ -4,6 +4,7 @@ use crate::{
     browser::Browser,
     hands::{click, is_clean, set, text, train, wait},
     home::{Home, Studio},
+    studio_runs::remove_drawn,
 };
 use std::{fs, path::Path, process::Command};
 
@@ -95,6 +96,16 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
     wait(browser, "the champion", "document.getElementById('arena-caption').textContent.startsWith('the champion')");
     assert_eq!(browser.evaluate("document.getElementById('play-terrain').value"), "my hurdles");
     wait(browser, "that it moves", "parseFloat(document.querySelector('#arena-readouts dd').textContent) > 0.5");
+    assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
+    // It is removed, and nothing that could name it is left; the run on it stays.
+    remove_drawn(browser, &studio, "my hurdles", "runs/terrains/my hurdles.json");
+    for list in ["choose-terrain", "play-terrain"] {
+        let named =
+            format!("[...document.getElementById('{list}').options].some(({{ value }}) => value === 'my hurdles')");
+        assert_eq!(browser.evaluate(&named), false, "{list} still offers it");
+        assert_eq!(browser.evaluate(&format!("document.getElementById('{list}').value")), "");
+    }
+    assert_eq!(browser.evaluate(&format!("document.querySelector(\"{run}\") !== null")), true);
     assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
     is_clean(browser, &studio);
 }

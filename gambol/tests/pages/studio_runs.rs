@@ -191,6 +191,24 @@ pub(crate) fn keeps_pictures_still(browser: &mut Browser, folder: &Path, home: &
     is_clean(browser, &studio);
 }
 
+/// Removes something that was drawn, which is all there is of the kind, in the chapter *Keep*.
+pub(crate) fn remove_drawn(browser: &mut Browser, studio: &Studio, name: &str, file: &str) {
+    click(browser, "[data-chapter=keep]");
+    let line = format!("#keep-drawn button[aria-label='Remove {name}']");
+    wait(browser, "its line", &format!("document.querySelector(\"{line}\") !== null"));
+    click(browser, &line);
+    wait(browser, "the question", "document.getElementById('remove-dialog').open");
+    assert_eq!(text(browser, "remove-title"), format!("Remove {name}?"));
+    assert!(!studio.file(browser, file).is_empty());
+    click(browser, "#remove-yes");
+    wait(browser, "that nothing drawn is left", "document.getElementById('keep-drawn').hidden");
+    let since = Instant::now();
+    while !studio.file(browser, file).is_empty() {
+        assert!(since.elapsed() < PATIENCE, "{file} is still there: {}", text(browser, "notice"));
+        thread::sleep(Duration::from_millis(50));
+    }
+}
+
 pub(crate) fn removes(browser: &mut Browser, folder: &Path, home: &Home) {
     let studio = Studio::start(home, folder, &["biped-1"]);
     browser.visit(&studio.url, 1280);

@@ -57,6 +57,16 @@ pub enum Request {
         /// The name of its folder.
         run: String,
     },
+    /// Remove a creature that was drawn here. Runs of it stay.
+    RemoveCreature {
+        /// Its name.
+        name: String,
+    },
+    /// Remove a terrain that was drawn here. Runs on it stay.
+    RemoveTerrain {
+        /// Its name.
+        name: String,
+    },
     /// How a run's champion moves, as a picture for a gallery.
     Film {
         /// The name of its folder.
