@@ -2,6 +2,8 @@
 // what moves on this page.
 
 const OF_THE_ARENA = new Set(["enter", "leave", "advance", "tell", "push", "tilt", "put-box"]);
+// What is done to a world. One that was asked for may not be there yet.
+const DONE_TO_A_WORLD = new Set(["tell", "push", "tilt", "put-box"]);
 
 class WorkerConnection extends Connection {
   constructor() {
@@ -9,6 +11,9 @@ class WorkerConnection extends Connection {
     this.wanted = new Map();
     this.number = 0;
     this.helpers = [];
+    // How many worlds are asked for that have not come, and what is to be done to the last of them.
+    this.coming = 0;
+    this.held = [];
     // Compiled once for all workers that can be handed it; one that is shared between tabs cannot.
     this.module = compiled("studio.wasm");
     this.module.catch(error => this.onState(false, `The studio cannot be loaded: ${error.message}`));
@@ -54,6 +59,8 @@ class WorkerConnection extends Connection {
     else if (event) {
       const told = JSON.parse(event);
       if (told.is === "scene") this.ask({ do: "enter", scene: told.scene, arena: told.arena }); else this.tell(told);
+      const isRefused = told.is === "refused" && ["show", "enter"].includes(told.request);
+      if (isRefused || (told.is === "arena" && told.arena === 0)) this.worldCame();
       // Not before there is something to see.
       if (told.is === "arena") while (this.helpers.length < WorkerConnection.mostHelpers()) this.addHelper();
     }
@@ -66,8 +73,17 @@ class WorkerConnection extends Connection {
     }
   }
 
+  // A world has come, or never will.
+  worldCame() {
+    this.coming = Math.max(this.coming - 1, 0);
+    if (!this.coming) for (const request of this.held.splice(0)) this.ask(request);
+  }
+
   ask(request) {
     if (request.do === "schema") return void this.tellSchema();
+    // One worker is asked for a world, and the other knows nothing of it yet.
+    if (request.do === "show" && !request.arena) this.coming += 1;
+    if (this.coming && DONE_TO_A_WORLD.has(request.do)) return void this.held.push(request);
     const worker = OF_THE_ARENA.has(request.do) ? this.arena : this.runs;
     worker.postMessage({ ask: JSON.stringify(request) });
   }
