@@ -128,8 +128,9 @@ impl Viewer {
 
     fn handle(&mut self, request: Request) -> Result<Vec<Reply>, Refusal> {
         let library = Arc::clone(&self.library);
+        let catalogue = || Event::Catalogue(Box::new(library.catalogue()));
         let event = match request {
-            Request::Look => Event::Catalogue(Box::new(library.catalogue())),
+            Request::Look => catalogue(),
             #[cfg(feature = "schema")]
             Request::Schema => Event::Schema { schema: gambol_runs::schema::json_schema(library.registry()) },
             #[cfg(not(feature = "schema"))]
@@ -139,7 +140,7 @@ impl Viewer {
             Request::Keep { creature } => {
                 let creature: Creature = field_path::from_value(&creature)?;
                 library.keep(&creature)?;
-                Event::Catalogue(Box::new(library.catalogue()))
+                catalogue()
             }
             Request::CheckTerrain { terrain, number } => {
                 Event::Checked { number, problems: choice::check_terrain(&terrain) }
@@ -147,22 +148,22 @@ impl Viewer {
             Request::KeepTerrain { name, terrain } => {
                 let terrain: Terrain = field_path::from_value(&terrain)?;
                 library.keep_terrain(&name, &terrain)?;
-                Event::Catalogue(Box::new(library.catalogue()))
+                catalogue()
             }
             Request::Remove { run } => {
                 library.remove(&run)?;
                 if self.session.as_ref().is_some_and(|session| session.name() == run) {
                     (self.session, self.population, self.told) = (None, None, Told::default());
                 }
-                Event::Catalogue(Box::new(library.catalogue()))
+                catalogue()
             }
             Request::RemoveCreature { name } => {
                 library.remove_creature(&name)?;
-                Event::Catalogue(Box::new(library.catalogue()))
+                catalogue()
             }
             Request::RemoveTerrain { name } => {
                 library.remove_terrain(&name)?;
-                Event::Catalogue(Box::new(library.catalogue()))
+                catalogue()
             }
             Request::Film { run } => library.film(&run),
             Request::Robustness => {

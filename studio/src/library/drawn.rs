@@ -59,6 +59,7 @@ impl Library {
         archive::write_whole_together(&[(&*path, format!("{json}\n").as_bytes())]).map_err(|error| failed(&error))?;
         Ok(path)
     }
+
     /// Keeps a drawn terrain under a name, in place of what was drawn under it before.
     ///
     /// # Errors
