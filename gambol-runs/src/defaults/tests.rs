@@ -92,22 +92,22 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
         assert_eq!(near, [true, true, true, true, false], "{creature}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
-        assert_eq!((settings.restart, settings.starts), (Restart::None, 1));
+        assert_eq!((settings.restart, settings.starts, settings.step_size), (Restart::None, 1, 0.2));
         let trials = [0, 1, 2, 3].map(|stage| config.stages[stage].changes["trials"]["count"].clone());
         assert_eq!(trials, if creature == "biped-1" { [1, 3, 6, 8] } else { [6, 6, 6, 8] }, "{creature}");
         let gives_up = [0, 1, 2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));
         let expected = match creature {
             "biped-1" => [
-                Some("given up at 12000000 steps and not (fitness ≥ 33), to begin anew at move, 4 times"),
+                Some("given up at 8000000 steps and not (fitness ≥ 33), to begin anew at move, 4 times"),
                 None,
-                Some("given up at 25000000 steps and not (fitness ≥ 36), to begin anew at move, 2 times"),
+                Some("given up at 12000000 steps and not (fitness ≥ 40), to begin anew at move, 4 times"),
                 None,
             ],
             _ => [
                 Some("given up at 12000000 steps and not (fitness ≥ 33.5), to begin anew at move, 5 times"),
                 Some("given up at 30000000 steps and not (usable), to begin anew at move, 3 times"),
-                Some("given up at 15000000 steps and not (fitness ≥ 45), to begin anew at move, 3 times"),
-                Some("given up at 40000000 steps and not (usable), to begin anew at move, 2 times"),
+                Some("given up at 8000000 steps and not (fitness ≥ 45), to begin anew at jump, 7 times"),
+                Some("given up at 40000000 steps and not (usable or fitness ≥ 60), to begin anew at move, 2 times"),
             ],
         };
         assert_eq!(gives_up, expected.map(|given_up| given_up.map(str::to_owned)), "{creature}");
