@@ -3,7 +3,7 @@
 use super::{BodyFacts, MovementDefaults, terms, with};
 use crate::config::{GiveUp, StageSettings, Transferred};
 use creatures::Sensor;
-use ne_core::promotion::PromotionRule;
+use ne_core::promotion::PromotionRule::{self, Any, Fitness, Usable};
 use serde_json::{Map, Value, json};
 use tasks::{Commands, RandomCommands, TermSpec};
 
@@ -43,39 +43,22 @@ fn search(trials: u32, steps: [u64; 2], give_up: Option<Anew>) -> StagePlan {
     StagePlan { trials, steps, give_up }
 }
 
-/// Another stride is searched for, unless this one earns so much.
-fn earning(least: f64, after: u64, times: u32) -> Option<Anew> {
-    Some(Anew { from: "move", after, unless: PromotionRule::Fitness(least), times })
-}
-
-/// Another stride is searched for, unless this one is usable.
-fn usable(after: u64, times: u32) -> Option<Anew> {
-    Some(Anew { from: "move", after, unless: PromotionRule::Usable, times })
-}
-
-/// Another stride is searched for, unless this one is usable, or earns so much that it soon will be.
-fn usable_or_earning(least: f64, after: u64, times: u32) -> Option<Anew> {
-    let unless = PromotionRule::Any(vec![PromotionRule::Usable, PromotionRule::Fitness(least)]);
-    Some(Anew { from: "move", after, unless, times })
-}
-
-/// Another jump is searched for, of the same stride, unless this one earns so much.
-fn jumping(least: f64, after: u64, times: u32) -> Option<Anew> {
-    Some(Anew { from: "jump", after, unless: PromotionRule::Fitness(least), times })
+fn anew(from: &'static str, unless: PromotionRule, after: u64, times: u32) -> Option<Anew> {
+    Some(Anew { from, after, unless, times })
 }
 
 /// Of CMA-ES: where worlds and commands differ from trial to trial the search stays about as coarse as it begins. With 0.5 strides are
-/// found later and are worse; with 0.1 a body stands still, whatever it is told (docs/playing-experiments.md).
+/// found later and are worse; with 0.1 biped-2 stands still, whatever it is told (docs/playing-experiments.md).
 const STEP_SIZE: f64 = 0.2;
 
 /// The least that a stride or a jump has to earn is of what became playable, and what did not (docs/playing-experiments.md): of 40 s in
 /// `move`, of about 57 s in `jump`.
 fn plan() -> Plan {
     Plan {
-        move_on: search(6, [8_000_000, 16_000_000], earning(33.5, 12_000_000, 5)),
-        follow: search(6, [8_000_000, 40_000_000], usable(30_000_000, 3)),
-        jump: search(6, [8_000_000, 30_000_000], jumping(45.0, 8_000_000, 7)),
-        polish: search(8, [60_000_000, 120_000_000], usable_or_earning(60.0, 40_000_000, 2)),
+        move_on: search(6, [8_000_000, 16_000_000], anew("move", Fitness(33.5), 12_000_000, 5)),
+        follow: search(6, [8_000_000, 40_000_000], anew("move", Usable, 30_000_000, 3)),
+        jump: search(6, [8_000_000, 30_000_000], anew("jump", Fitness(45.0), 8_000_000, 7)),
+        polish: search(8, [60_000_000, 120_000_000], anew("move", Any(vec![Usable, Fitness(60.0)]), 40_000_000, 2)),
         most: 350_000_000,
         polished_jump: 10.0,
     }
@@ -85,9 +68,9 @@ fn plan() -> Plan {
 /// often playable afterwards.
 fn balanced_plan() -> Plan {
     Plan {
-        move_on: search(1, [8_000_000, 24_000_000], earning(33.0, 8_000_000, 4)),
+        move_on: search(1, [8_000_000, 24_000_000], anew("move", Fitness(33.0), 8_000_000, 4)),
         follow: search(3, [10_000_000, 40_000_000], None),
-        jump: search(6, [8_000_000, 60_000_000], earning(40.0, 12_000_000, 4)),
+        jump: search(6, [8_000_000, 60_000_000], anew("move", Fitness(40.0), 12_000_000, 4)),
         polish: search(8, [200_000_000, 400_000_000], None),
         most: 650_000_000,
         polished_jump: 4.0,
