@@ -106,7 +106,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             _ => [
                 Some("given up at 12000000 steps and not (fitness ≥ 33.5), to begin anew at move, 5 times"),
                 Some("given up at 30000000 steps and not (usable), to begin anew at move, 3 times"),
-                Some("given up at 8000000 steps and not (fitness ≥ 45), to begin anew at jump, 7 times"),
+                Some("given up at 12000000 steps and not (fitness ≥ 44), to begin anew at move, 4 times"),
                 Some("given up at 40000000 steps and not (usable or fitness ≥ 60), to begin anew at move, 2 times"),
             ],
         };

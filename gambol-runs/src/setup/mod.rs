@@ -10,7 +10,7 @@ use crate::{
     reference::ReferenceEpisode,
     topology::{
         self,
-        limbs::{self, LimbCopies, Limbs},
+        limbs::{self, LimbCopies},
     },
     training_task::TrainingTask,
 };
@@ -36,6 +36,8 @@ pub struct Setup {
     pub topology: Topology,
     /// What each weight of the topology is for; equal names in two topologies mean the same.
     pub weight_names: Vec<String>,
+    /// What each weight is if it is added to what has been learned without it.
+    pub(crate) by_hand: Vec<f32>,
     /// The names of the inputs and of the outputs of the net that is searched for: of a limb's, if a strategy that finds
     /// topologies finds one for all limbs.
     pub(crate) searched: [Vec<String>; 2],
@@ -94,7 +96,7 @@ impl Setup {
         let entry = registry.strategies.of(&config.strategy)?;
         let names = |channels: &[Channel]| channels.iter().map(|channel| channel.name.clone()).collect::<Vec<_>>();
         let mut searched = [names(senses), names(motors)];
-        let mut weight_names = None;
+        let (mut weight_names, mut by_hand) = (None, None);
         let topology = match &config.topology {
             None => match config.controller.modular {
                 None => shape.into(),
@@ -112,21 +114,22 @@ impl Setup {
                 }
                 Some(phases) => {
                     let environment = episode.environment();
-                    let Limbs { topology, names } = limbs::topology(
+                    let limbs = limbs::topology(
                         environment.blueprint(),
                         environment.senses(),
                         environment.motors(),
                         &config.controller,
                         phases,
                     );
-                    weight_names = Some(names);
-                    topology.into()
+                    (weight_names, by_hand) = (Some(limbs.names), Some(limbs.by_hand));
+                    limbs.topology.into()
                 }
             },
             Some(_) if entry.finds_topology() => return Err(SetupError::Evolving { strategy: entry.name().into() }),
             Some(frozen) => frozen.fitting(senses, motors)?,
         };
         let weight_names = weight_names.unwrap_or_else(|| topology::weight_names(&topology, senses, motors));
+        let by_hand = by_hand.unwrap_or_else(|| vec![0.0; weight_names.len()]);
         registry.strategies.validate(&config.strategy, &topology)?;
         check_size(&config.strategy, &topology)?;
         let unit = registry.movements.build(&config.movement)?.unit().to_owned();
@@ -163,7 +166,7 @@ impl Setup {
         };
         RungSettings::validate(&config.rungs, task.steps(), config.trials.count)?;
         let rungs = config.rungs.clone();
-        Ok(Self { task, rungs, episode, reference, topology, weight_names, searched, unit, objectives })
+        Ok(Self { task, rungs, episode, reference, topology, weight_names, by_hand, searched, unit, objectives })
     }
 
     /// The rungs that come before the task of training, the first one first.

@@ -3,6 +3,7 @@
 use super::*;
 use crate::Registry;
 use crate::{
+    champion::Champion,
     config::{FrozenTopology, GeneRecord, RunConfig, Transferred},
     setup::Setup,
     training::{TrainError, TrainOptions, train},
@@ -12,6 +13,7 @@ use envs_rapier::Variation;
 use ne_core::{EvolutionError, Phenotype, Progress, StopConditions, StopReason, StopSignal, promotion::Decision};
 use ne_net::{Activation, GraphNeuron, GraphShape, TopologyMap};
 use serde_json::json;
+use std::path::Path;
 
 fn config(creature: &str) -> RunConfig {
     Registry::default().config("default", creatures::find(creature).expect("shipped"), "running").expect("a preset")
@@ -111,24 +113,26 @@ fn a_frozen_net_does_the_same_with_more_senses() {
     assert_eq!(grown.remapped(bare.inputs(), bare.outputs(), false), grown);
 }
 
+/// The champion of a run in this folder, which goes on from what the run `first` has found, if it says how.
+fn champion_of(folder: &Path, config: &RunConfig, from: Option<Transferred>, name: &str) -> Champion {
+    let options = TrainOptions {
+        threads: 1,
+        registry: Registry::default(),
+        signal: StopSignal::default(),
+        on_generation: &mut |_| {},
+    };
+    let outcome = match from {
+        None => train(config, &folder.join(name), options).map_err(ShapingError::from),
+        from => train_from(config, &folder.join("first"), from, false, &folder.join(name), options),
+    };
+    outcome.expect("it runs").champion.expect("a champion")
+}
+
 /// Steps so wide that all it samples is worse.
 #[test]
 fn what_a_search_goes_on_from_is_champion_until_it_finds_something_better() {
     let folder = tempfile::tempdir().expect("a folder");
-    let path = |name: &str| folder.path().join(name);
-    let run = |config: &RunConfig, from: Option<Transferred>, name: &str| {
-        let options = TrainOptions {
-            threads: 1,
-            registry: Registry::default(),
-            signal: StopSignal::default(),
-            on_generation: &mut |_| {},
-        };
-        let outcome = match from {
-            None => train(config, &path(name), options).map_err(ShapingError::from),
-            from => train_from(config, &path("first"), from, false, &path(name), options),
-        };
-        outcome.expect("it runs").champion.expect("a champion")
-    };
+    let run = |config: &RunConfig, from, name: &str| champion_of(folder.path(), config, from, name);
     let mut config = config("apod");
     config.stop = StopConditions { generations: Some(10), ..StopConditions::default() };
     let first = run(&config, None, "first");
@@ -140,6 +144,42 @@ fn what_a_search_goes_on_from_is_champion_until_it_finds_something_better() {
         assert_eq!(next.network, first.network, "{name}");
     }
     assert_ne!(run(&config, Some(Transferred::Nothing), "nothing").fitness, first.fitness);
+}
+
+/// A search with steps so fine that its champion does what it begins with.
+#[test]
+fn a_jump_that_is_added_begins_as_one_that_is_made_by_hand() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = |config: &RunConfig, from, name: &str| champion_of(folder.path(), config, from, name);
+    let body = creatures::find("tetrapod-2").expect("shipped");
+    let mut config = Registry::default().config("default", body.clone(), "playing").expect("a preset");
+    let fine = json!({ "cma-es": { "population": 4, "step_size": 1e-6, "least_deviation": 1e-9 } });
+    config.strategy = serde_json::from_value(fine).expect("settings");
+    config.stop = StopConditions { generations: Some(1), ..StopConditions::default() };
+    (config.stages, config.movement.steps) = (Vec::new(), Some(20));
+    run(&config, None, "first");
+    config.sensors.as_mut().expect("the preset names them").push(Sensor::JumpClock { period: 0.4 });
+    let sensors = config.sensors.clone().expect("named");
+    let blueprint = creatures::Blueprint::new(body).expect("valid");
+    let senses = creatures::Senses::new(&blueprint, &sensors, config.controller.input_range).expect("it has them");
+    // A quarter of the turn after the press it crouches.
+    let heard = |probe: &creatures::Probe| match probe.source {
+        creatures::Source::JumpSine { .. } => probe.scale(1.0, config.controller.input_range),
+        creatures::Source::JumpSwell { .. } => probe.scale(0.5, config.controller.input_range),
+        _ => 0.0,
+    };
+    let inputs: Vec<f32> = senses.probes().iter().map(heard).collect();
+    for transferred in [Transferred::Held, Transferred::Champion] {
+        let mut jumps = run(&config, Some(transferred), &format!("{transferred:?}"));
+        let mut outputs = vec![0.0; 8];
+        jumps.network.activate(&inputs, &mut outputs);
+        for leg in outputs.chunks(2) {
+            // Hips hang a little within the ends of the body, and hind legs are mirror images: all lean to the front. Knees stay
+            // as they are.
+            let leans = leg[0] / libm::tanhf(1.0);
+            assert!((0.75..=1.001).contains(&leans) && leg[1].abs() < 1e-3, "{transferred:?}: {outputs:?}");
+        }
+    }
 }
 
 fn stages(stages: serde_json::Value) -> Result<Stages, String> {

@@ -51,6 +51,12 @@ pub enum TransferError {
 /// How losses are allowed.
 const ALLOW_LOSS: &str = "--allow-loss, or \"allow_loss\": true in the stage";
 
+/// The weights of a net in that of a new search; what is new is as it is by hand.
+fn carried(genes: &TopologyMap, net: &ChampionNet, setup: &Setup) -> Vec<f32> {
+    let old = net.weights.iter().copied().map(Some).collect::<Vec<_>>();
+    genes.transfer(&old, None).into_iter().zip(&setup.by_hand).map(|(old, &by_hand)| old.unwrap_or(by_hand)).collect()
+}
+
 /// How it is to be transferred.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct TransferOptions {
@@ -72,7 +78,7 @@ pub(crate) struct PreparedTransfer {
     genes: TopologyMap,
     inputs: TopologyMap,
     outputs: TopologyMap,
-    /// The champion's weights in the new net, unless a population is transferred.
+    /// The champion's weights in the new net, unless a population is transferred; of one that is held, those that are new.
     weights: Vec<f32>,
 }
 
@@ -143,7 +149,7 @@ impl PreparedTransfer {
             (Kind::Run { setup: old, .. }, None) => TopologyMap::by_name(&old.weight_names, &setup.weight_names),
             (Kind::Champion(_), None) => TopologyMap::none(setup.topology.weight_count()),
         };
-        let weights = net.as_ref().map_or_else(Vec::new, |net| genes.transfer(&net.weights, 0.0));
+        let mut weights = net.as_ref().map_or_else(Vec::new, |net| carried(&genes, net, &setup));
         let finds_topology = entry.finds_topology();
         if transferred == Transferred::Held {
             check_new(&genes)?;
@@ -156,6 +162,8 @@ impl PreparedTransfer {
                 held: (!is_new(gene)).then_some(weight),
             });
             config.topology = Some(FrozenTopology { inputs, outputs, net, genes: records.collect() });
+            weights =
+                weights.into_iter().enumerate().filter(|&(gene, _)| is_new(gene)).map(|(_, weight)| weight).collect();
             setup = Setup::new(&config, registry)?;
         }
         let mut departure =
@@ -185,7 +193,10 @@ impl PreparedTransfer {
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
             (Transferred::Nothing, _) => strategies.build(settings, topology),
-            (Transferred::Held, _) => strategies.build(settings, topology),
+            (Transferred::Held, _) if self.weights.iter().all(|&weight| weight == 0.0) => {
+                strategies.build(settings, topology)
+            }
+            (Transferred::Held, _) => strategies.begin_about(settings, topology, &self.weights),
             _ => strategies.begin_at(settings, topology, &self.weights),
         };
         Ok(begun.map_err(SetupError::from)?)
@@ -202,7 +213,7 @@ impl PreparedTransfer {
             Transferred::Champion | Transferred::Topology => self.weights.clone(),
             Transferred::Population if self.finds_topology => return Ok(None),
             Transferred::Population => match self.source.champion(false) {
-                Ok(net) => TopologyMap::by_name(&net.names, &self.setup.weight_names).transfer(&net.weights, 0.0),
+                Ok(net) => carried(&TopologyMap::by_name(&net.names, &self.setup.weight_names), &net, &self.setup),
                 Err(TransferError::NoChampion { .. }) => return Ok(None),
                 Err(error) => return Err(error),
             },

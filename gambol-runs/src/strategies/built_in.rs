@@ -97,6 +97,10 @@ weight_search!(HillClimbing, HillClimbingSettings, "hill-climbing");
 weight_search!(
     CmaEs, CmaEsSettings, "cma-es"
 
+    fn begin_about(settings: &CmaEsSettings, topology: &Topology, guess: &[f32]) -> Result<Self, SettingError> {
+        Self::build(settings, topology)?.with_guess(guess)
+    }
+
     fn has_begun_anew(&self) -> bool {
         self.has_begun_anew()
     }

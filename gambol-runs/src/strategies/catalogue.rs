@@ -147,6 +147,19 @@ impl StrategyCatalogue {
         self.of(settings)?.kind.begin_at(settings, topology, weights)
     }
 
+    /// As [`NetStrategy::begin_about`].
+    ///
+    /// # Errors
+    /// As [`NetStrategy::begin_about`], and as [`check`](Self::check).
+    pub fn begin_about(
+        &self,
+        settings: &StrategySettings,
+        topology: &Topology,
+        guess: &[f32],
+    ) -> Result<AnyStrategy, StrategyError> {
+        self.of(settings)?.kind.begin_about(settings, topology, guess)
+    }
+
     /// As [`NetStrategy::genome`]; `None` too for a strategy that there is not.
     pub fn genome(&self, settings: &StrategySettings, topology: &Topology, weights: &[f32]) -> Option<AnyGenome> {
         self.of(settings).ok()?.kind.genome(topology, weights)
@@ -223,6 +236,12 @@ trait Kind: Send + Sync {
         topology: &Topology,
         weights: &[f32],
     ) -> Result<AnyStrategy, StrategyError>;
+    fn begin_about(
+        &self,
+        settings: &StrategySettings,
+        topology: &Topology,
+        guess: &[f32],
+    ) -> Result<AnyStrategy, StrategyError>;
     fn genome(&self, topology: &Topology, weights: &[f32]) -> Option<AnyGenome>;
     fn read_checkpoint(&self, path: &Path) -> Result<Checkpoint<AnyStrategy>, ArchiveError>;
     #[cfg(feature = "schema")]
@@ -269,6 +288,15 @@ impl<S: NetStrategy> Kind for KindOf<S> {
         weights: &[f32],
     ) -> Result<AnyStrategy, StrategyError> {
         Ok(AnyStrategy::new(S::begin_at(&Self::parse(settings)?, topology, weights)?))
+    }
+
+    fn begin_about(
+        &self,
+        settings: &StrategySettings,
+        topology: &Topology,
+        guess: &[f32],
+    ) -> Result<AnyStrategy, StrategyError> {
+        Ok(AnyStrategy::new(S::begin_about(&Self::parse(settings)?, topology, guess)?))
     }
 
     fn genome(&self, topology: &Topology, weights: &[f32]) -> Option<AnyGenome> {

@@ -56,6 +56,14 @@ pub trait NetStrategy:
         Err(SettingError::new("strategy", Self::NAME, "one that can begin at a given net"))
     }
 
+    /// A search that begins about weights that are but a guess; by default as at those of a good net.
+    ///
+    /// # Errors
+    /// As of [`begin_at`](Self::begin_at).
+    fn begin_about(settings: &Self::Settings, topology: &Topology, guess: &[f32]) -> Result<Self, SettingError> {
+        Self::begin_at(settings, topology, guess)
+    }
+
     /// The search that goes on with what this one has learned: with other settings, on another task, with nets that may
     /// have grown. What they do is the same until evolution changes it.
     ///

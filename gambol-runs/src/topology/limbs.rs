@@ -34,6 +34,7 @@ type Sources = Vec<(usize, SharedWeight)>;
 struct Genes {
     groups: Vec<usize>,
     names: Vec<String>,
+    by_hand: Vec<f32>,
 }
 
 impl Genes {
@@ -42,6 +43,7 @@ impl Genes {
         let first = self.names.len();
         self.names.extend(names);
         let size = self.names.len() - first;
+        self.by_hand.resize(self.names.len(), 0.0);
         if size > 0 {
             self.groups.push(size);
         }
@@ -55,6 +57,8 @@ pub(crate) struct Limbs {
     pub(crate) topology: SharedShape,
     /// The name of each gene: equal names in two topologies mean the same, whatever else is in them.
     pub(crate) names: Vec<String>,
+    /// What each gene is if it is added to what has been learned without it: 0, but for those of a jump that is made by hand.
+    pub(crate) by_hand: Vec<f32>,
 }
 
 /// The topology of a controller for this creature: for each limb a copy of one net.
@@ -85,13 +89,20 @@ pub(crate) fn topology(
     for kind in 0..kinds {
         let copies: Vec<(usize, &Limb)> = limbs.iter().enumerate().filter(|(_, limb)| limb.kind == kind).collect();
         let kind = Kind::new(&copies, &modules, senses, answers, &mut genes);
+        if !blueprint.is_legless() && copies[0].1.arm.is_none() {
+            kind.jump_by_hand(feet, &mut genes);
+        }
         for (place, &(index, limb)) in copies.iter().enumerate() {
             net.add_copy(&kind, place, index, limb, motors, controller);
         }
     }
     let Net { inputs, neurons, weights, output_of, .. } = net;
     let net = GraphShape { inputs, recurrent: false, neurons, outputs: output_of };
-    Limbs { topology: SharedShape { net: net.into(), groups: genes.groups, weights }, names: genes.names }
+    Limbs {
+        topology: SharedShape { net: net.into(), groups: genes.groups, weights },
+        names: genes.names,
+        by_hand: genes.by_hand,
+    }
 }
 
 /// Limbs that share one net: its genes, and what each limb sees.
@@ -125,7 +136,7 @@ impl<'a> Kind<'a> {
         };
         let mut hidden = Vec::new();
         for &module in modules {
-            let slots = slots[usize::from(module.jumps)];
+            let slots = slots[usize::from(module.phase.is_some())];
             hidden.extend(module.neurons().map(|name| (genes.group(named(&name, slots)), module)));
         }
         let heard: Vec<String> =
@@ -136,6 +147,16 @@ impl<'a> Kind<'a> {
         Self { modules, sights, hidden, joints }
     }
 
+    /// Has a leg of a body with so many feet begin with a jump that is made by hand.
+    fn jump_by_hand(&self, feet: usize, genes: &mut Genes) {
+        let Some(joint) = self.joints.first() else { return };
+        let mut own = joint + 2 + self.hidden.len();
+        for phase in self.modules.iter().filter_map(|module| module.phase) {
+            genes.by_hand[own..own + 2].copy_from_slice(&phase.by_hand(feet));
+            own += 2;
+        }
+    }
+
     /// The joint whose genes begin at `first`: its threshold, and what it hears of the hidden neurons.
     fn joint(&self, first: usize, hidden: &[usize], limb: &Limb) -> (Terms, Sources) {
         let (sign, by_place) = (limb.sign, limb.sign * limb.place);
@@ -144,8 +165,8 @@ impl<'a> Kind<'a> {
         let mut thresholds = vec![(first, sign), (first + 1, by_place)];
         let (mut neurons, mut own) = (first + 2, first + 2 + hidden.len());
         for module in self.modules {
-            let threshold = if module.jumps { own } else { first };
-            if module.jumps {
+            let threshold = if module.phase.is_some() { own } else { first };
+            if module.phase.is_some() {
                 thresholds.extend([(own, sign), (own + 1, by_place)]);
                 own += 2;
             }
@@ -187,7 +208,8 @@ impl Net {
         let [of_stride, of_jump] = &kind.sights[place];
         let mut nodes = Vec::with_capacity(kind.hidden.len());
         for &(first, module) in &kind.hidden {
-            let mut sources = self.seen(if module.jumps { of_jump } else { of_stride }, first, 1.0, index, limb);
+            let mut sources =
+                self.seen(if module.phase.is_some() { of_jump } else { of_stride }, first, 1.0, index, limb);
             sources.extend(module.silenced_by.map(|gate| (gate, SharedWeight::fixed(SILENCE))));
             let threshold = vec![(first, 1.0), (first + 1, limb.place)];
             nodes.push(self.add(controller.hidden_activation, threshold, sources));

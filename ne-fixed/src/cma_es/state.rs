@@ -18,6 +18,8 @@ pub(super) struct State {
     settings: CmaEsSettings,
     topology: Topology,
     start: Option<Vec<f32>>,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    is_guess: bool,
     restarts: Restarts,
     history: History,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -54,6 +56,7 @@ impl From<CmaEs> for State {
             settings: strategy.settings,
             topology: strategy.topology,
             start: strategy.start,
+            is_guess: strategy.is_guess,
             restarts: strategy.restarts,
             history: strategy.history,
             kept: strategy.kept.map(|kept| KeptState {
@@ -91,6 +94,7 @@ impl TryFrom<State> for CmaEs {
         let mut strategy = Self::new(state.settings, state.topology)?;
         if let Some(start) = state.start {
             strategy = strategy.with_start(&[start])?;
+            strategy.is_guess = state.is_guess;
         }
         state.restarts.check().map_err(|error| error.within("restarts"))?;
         strategy.restarts = state.restarts;

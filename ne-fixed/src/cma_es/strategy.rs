@@ -52,6 +52,8 @@ pub struct CmaEs {
     pub(super) topology: Topology,
     /// Where the first search begins, if the settings do not say it.
     pub(super) start: Option<Vec<f32>>,
+    /// Whether it is but a guess.
+    pub(super) is_guess: bool,
     pub(super) restarts: Restarts,
     pub(super) history: History,
     /// The best search that has ended, while others are tried.
@@ -106,6 +108,7 @@ impl CmaEs {
             settings,
             topology,
             start: None,
+            is_guess: false,
             history: History::default(),
             kept: None,
             distribution: None,
@@ -122,7 +125,16 @@ impl CmaEs {
     pub fn with_start(self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
         check_start(start, &self.topology)?;
         let has_begun = self.asked || self.distribution.is_some() || self.kept.is_some() || self.restarts.count > 0;
-        Ok(if has_begun { self } else { Self { start: start.first().cloned(), ..self } })
+        Ok(if has_begun { self } else { Self { start: start.first().cloned(), is_guess: false, ..self } })
+    }
+
+    /// As [`with_start`](Self::with_start), but with the whole of the first step size: weights that are likely to be near good ones, and
+    /// are not good yet.
+    ///
+    /// # Errors
+    /// As of [`with_start`](Self::with_start).
+    pub fn with_guess(self, guess: &[f32]) -> Result<Self, SettingError> {
+        Ok(Self { is_guess: true, ..self.with_start(&[guess.to_vec()])? })
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
@@ -154,7 +166,7 @@ impl CmaEs {
             restarts.starts = next.settings.starts;
             restarts.carried = true;
         }
-        Ok(Self { start, restarts, distribution, ..next })
+        Ok(Self { start, is_guess: self.is_guess, restarts, distribution, ..next })
     }
 
     /// The settings.
@@ -195,7 +207,8 @@ impl CmaEs {
         };
         let covariance = Covariance::identity(self.settings.covariance, mean.len(), 1.0);
         // What is good already is not thrown away by the first generation.
-        let near = if self.start.is_some() && self.restarts.count == 0 { REVIVED } else { 1.0 };
+        let is_good = self.start.is_some() && !self.is_guess && self.restarts.count == 0;
+        let near = if is_good { REVIVED } else { 1.0 };
         Distribution::new(mean.into_iter().map(f64::from).collect(), near * self.restarts.step_size, covariance)
     }
 

@@ -55,6 +55,13 @@ fn goes_on_to_the_bit_after_a_save() {
     assert_resumes(new(CmaEsSettings::default()), 8);
     assert_resumes(new(full()), 8);
     assert_resumes(new(CmaEsSettings::default()).with_start(&[vec![0.5; 26]]).expect("26 weights"), 3);
+    let guessing = || new(CmaEsSettings::default()).with_guess(&[0.5; 26]).expect("26 weights");
+    assert_resumes(guessing(), 3);
+    // Before its first generation as well.
+    let saved = serde_json::to_string(&guessing()).expect("it can be saved");
+    let mut again: CmaEs = serde_json::from_str(&saved).expect("it can be read");
+    let asked = |search: &mut CmaEs| search.ask(Seed::of_run(1)).to_vec();
+    assert_eq!(asked(&mut again), asked(&mut guessing()));
     assert_resumes(new(restarting(Restart::Bipop)), 40);
     assert_resumes(new(CmaEsSettings { starts: 3, start_generations: 4, ..restarting(Restart::Returning) }), 60);
 }
@@ -367,7 +374,7 @@ fn a_long_run_has_no_larger_checkpoint() {
     assert!(long as f64 <= 1.2 * short as f64, "{short} bytes after 100 generations, {long} after 10,000");
 }
 
-/// A champion is not thrown away by the first generation.
+/// A champion is not thrown away by the first generation; about a guess there is nothing to keep.
 #[test]
 fn a_search_that_begins_at_a_champion_begins_with_shorter_steps() {
     let begun = |mut search: CmaEs| -> Option<f64> {
@@ -378,4 +385,12 @@ fn a_search_that_begins_at_a_champion_begins_with_shorter_steps() {
     let at_champion = new(CmaEsSettings::default()).with_start(&[vec![0.5; 26]]).expect("26 weights");
     assert_eq!(begun(new(CmaEsSettings::default())), Some(first));
     assert_eq!(begun(at_champion), Some(0.3 * first));
+    let about_a_guess = new(CmaEsSettings::default()).with_guess(&[0.5; 26]).expect("26 weights");
+    assert_eq!(begun(about_a_guess.clone()), Some(first));
+    // What the guess was is known: its first generation lies about it.
+    let mut about_a_guess = about_a_guess;
+    about_a_guess.ask(Seed::of_run(1));
+    assert_eq!(about_a_guess.mean(), Some(&[0.5; 26][..]));
+    let error = new(CmaEsSettings::default()).with_guess(&[0.0; 3]).expect_err("three weights").to_string();
+    assert!(error.starts_with("start[0]"), "{error}");
 }

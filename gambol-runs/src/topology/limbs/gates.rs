@@ -15,6 +15,7 @@
 //! | push-off | the rest of that turn |
 //! | landing | the rest of the turn of the longest; none if there is one clock |
 
+use super::modules::Phase;
 use crate::config::ControllerSettings;
 use creatures::{Senses, Source};
 use ne_net::{Activation, GraphNeuron, SharedWeight};
@@ -25,7 +26,7 @@ pub(super) struct Gates {
     /// Of the jump.
     pub(super) jumping: usize,
     /// The phases of the jump, in order, each with the gate that is open while it is not its turn.
-    pub(super) phases: Vec<(&'static str, usize)>,
+    pub(super) phases: Vec<(Phase, usize)>,
 }
 
 /// What is added to the sum of a neuron that is to be silent: more than any sum it could have.
@@ -90,13 +91,13 @@ impl Gates {
         let not_crouching = gate(CLOSED, &unless(begins, striding));
         let Some(ends) = ends else {
             let not_pushing = gate(-CLOSED, &any(&[striding, begins]));
-            return Some(Self { jumping, phases: vec![("crouch", not_crouching), ("push-off", not_pushing)] });
+            return Some(Self { jumping, phases: vec![(Phase::Crouch, not_crouching), (Phase::PushOff, not_pushing)] });
         };
         let not_pushing = gate(-CLOSED, &any(&[striding, begins, ends]));
         let not_landing = gate(CLOSED, &unless(ends, striding));
         Some(Self {
             jumping,
-            phases: vec![("crouch", not_crouching), ("push-off", not_pushing), ("landing", not_landing)],
+            phases: vec![(Phase::Crouch, not_crouching), (Phase::PushOff, not_pushing), (Phase::Landing, not_landing)],
         })
     }
 }

@@ -46,7 +46,7 @@ impl Sights {
 
 /// Of more feet than these, which all come down at another moment, legs that act together feel the mean: each would fall out
 /// of step if it answered its own.
-const FEET_FELT_ALONE: usize = 4;
+pub(super) const FEET_FELT_ALONE: usize = 4;
 
 /// How a limb answers what is felt of the whole body.
 #[derive(Clone, Copy, Debug)]

@@ -46,7 +46,7 @@ impl Made {
         let motors = Motors::new(blueprint);
         let config = Registry::default().config("default", blueprint.creature().clone(), "running").expect("a preset");
         let controller = ControllerSettings { hidden: vec![2, 1], ..config.controller };
-        let Limbs { topology: shape, names } = topology(blueprint, &senses, &motors, &controller, phases);
+        let Limbs { topology: shape, names, .. } = topology(blueprint, &senses, &motors, &controller, phases);
         let limbs = limbs(blueprint, &senses, phases);
         Self { name: blueprint.name().into(), senses, motors, limbs, shape, names }
     }
@@ -418,7 +418,7 @@ fn jumping(creature: &str, clocks: &[f32]) -> (Senses, Motors, Limbs) {
 
 /// What the motors are asked for so long after the press, s, with genes for which `changed` holds drawn anew.
 fn jumper(clocks: &[f32], time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
-    let (senses, motors, Limbs { topology: shape, names }) = jumping("tetrapod-2", clocks);
+    let (senses, motors, Limbs { topology: shape, names, .. }) = jumping("tetrapod-2", clocks);
     let gene = |(index, name): (usize, &String)| {
         let of = index as f32 * 0.9 + if changed(name) { 2.0 } else { 0.0 };
         libm::sinf(of)
@@ -488,5 +488,26 @@ fn a_jump_of_many_legs_does_not_hear_the_stride() {
             assert!(!has(phase, "jump clock"), "{creature}, {phase}: gates hear it");
         }
         assert!(has("hidden 0", "stride clock") && !has("hidden 0", ", by place"), "{creature}");
+    }
+}
+
+/// Hips alone; of many legs those in the middle would stay straight by place.
+#[test]
+fn a_jump_begins_as_one_that_is_made_by_hand() {
+    let by_place: &[(&str, f32)] = &[("crouch place", 1.0), ("push-off place", -1.0), ("landing place", 1.0)];
+    let alike: &[(&str, f32)] = &[("crouch threshold", 0.7), ("push-off threshold", -0.7)];
+    for (creature, kind, wanted) in [
+        ("biped-1", "1 joints", by_place),
+        ("biped-2", "2 joints", by_place),
+        ("tetrapod-2", "2 joints", by_place),
+        ("decapod-1", "1 joints", alike),
+        ("decapod-2", "2 joints", alike),
+        ("apod", "", &[]),
+    ] {
+        let (_, _, Limbs { names, by_hand, .. }) = jumping(creature, &[0.4, 0.8]);
+        let found = names.iter().zip(&by_hand).filter(|&(_, &value)| value != 0.0);
+        let found: Vec<(String, f32)> = found.map(|(name, &value)| (name.clone(), value)).collect();
+        let named = |&(what, value): &(&str, f32)| (format!("{kind}, joint 0: {what}"), value);
+        assert_eq!(found, wanted.iter().map(named).collect::<Vec<_>>(), "{creature}");
     }
 }
