@@ -169,8 +169,16 @@ fn a_jump_that_is_added_begins_as_one_that_is_made_by_hand() {
         _ => 0.0,
     };
     let inputs: Vec<f32> = senses.probes().iter().map(heard).collect();
-    for transferred in [Transferred::Held, Transferred::Champion] {
-        let mut jumps = run(&config, Some(transferred), &format!("{transferred:?}"));
+    // About the jump a held search looks with all of its first step; what goes on from a champion keeps near it.
+    for (transferred, step) in [(Transferred::Held, 1e-6), (Transferred::Champion, 0.3e-6)] {
+        let name = format!("{transferred:?}");
+        let mut jumps = run(&config, Some(transferred), &name);
+        let log = std::fs::read_to_string(folder.path().join(&name).join("log.jsonl")).expect("a log");
+        let generation: serde_json::Value = serde_json::from_str(log.lines().next().expect("a line")).expect("JSON");
+        let statistics = generation["strategy"].as_array().expect("statistics").iter();
+        let found = statistics.filter(|one| one["name"] == "step_size").find_map(|one| one["value"].as_f64());
+        let share = found.expect("a step size") / step;
+        assert!((0.6..1.6).contains(&share), "{name}: {share} of {step} after a generation");
         let mut outputs = vec![0.0; 8];
         jumps.network.activate(&inputs, &mut outputs);
         for leg in outputs.chunks(2) {

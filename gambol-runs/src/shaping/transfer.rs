@@ -193,6 +193,7 @@ impl PreparedTransfer {
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);
             }
             (Transferred::Nothing, _) => strategies.build(settings, topology),
+            // Nothing is known of what is new: the strategy begins where it likes.
             (Transferred::Held, _) if self.weights.iter().all(|&weight| weight == 0.0) => {
                 strategies.build(settings, topology)
             }

@@ -1,6 +1,6 @@
 //! Modules: the hidden neurons of a limb that have the body together, for a while.
 
-use super::{gates::Gates, sight::FEET_FELT_ALONE};
+use super::{gates::Gates, sight::MOST_OF_FEW_FEET};
 
 /// Hidden neurons of a limb that drive its joints while it is their turn.
 #[derive(Clone, Copy, Debug)]
@@ -68,7 +68,7 @@ impl Phase {
     /// the latter are mirror images. Of many legs those in the middle would stay straight, and carry the body: they all have one
     /// threshold, with which the mirror images go to the back.
     pub(super) fn by_hand(self, feet: usize) -> [f32; 2] {
-        match (self, feet > FEET_FELT_ALONE) {
+        match (self, feet > MOST_OF_FEW_FEET) {
             (Self::Crouch | Self::Landing, false) => [0.0, 1.0],
             (Self::PushOff, false) => [0.0, -1.0],
             (Self::Crouch, true) => [0.7, 0.0],

@@ -44,9 +44,9 @@ impl Sights {
     }
 }
 
-/// Of more feet than these, which all come down at another moment, legs that act together feel the mean: each would fall out
-/// of step if it answered its own.
-pub(super) const FEET_FELT_ALONE: usize = 4;
+/// A body with more feet than these has many. They all come down at another moment, so legs that act together feel the mean: each would
+/// fall out of step if it answered its own.
+pub(super) const MOST_OF_FEW_FEET: usize = 4;
 
 /// How a limb answers what is felt of the whole body.
 #[derive(Clone, Copy, Debug)]
@@ -65,14 +65,14 @@ impl Answers {
     /// Of limbs with these phases.
     pub(super) fn new(phases: LimbPhases, feet: usize, gated: bool) -> Self {
         let together = phases == LimbPhases::Together;
-        let feet_as_one = (together && feet > FEET_FELT_ALONE).then_some(feet);
+        let feet_as_one = (together && feet > MOST_OF_FEW_FEET).then_some(feet);
         Self { tilt_by_place: together, feet_as_one, deaf_to_stride: false, gated }
     }
 
     /// In a jump all legs do the same: those before and behind the middle answer a tilt each in their way. Of many legs it does not
     /// matter which is where in its stride, and without it a net of ten is a tenth smaller.
     pub(super) fn of_jump(self, feet: usize) -> Self {
-        Self { tilt_by_place: true, deaf_to_stride: feet > FEET_FELT_ALONE, ..self }
+        Self { tilt_by_place: true, deaf_to_stride: feet > MOST_OF_FEW_FEET, ..self }
     }
 }
 
