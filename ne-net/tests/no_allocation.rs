@@ -1,34 +1,7 @@
-//! `activate` allocates nothing. In a binary of its own, since it counts the allocations of the whole program.
+//! `activate` allocates nothing. In a binary of its own, since the allocator that counts is the program's.
 
 use ne_core::Phenotype;
 use ne_net::{Activation, DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network};
-use std::{
-    alloc::{GlobalAlloc, Layout, System},
-    sync::atomic::{AtomicUsize, Ordering},
-};
-
-struct Counting;
-
-static ALLOCATIONS: AtomicUsize = AtomicUsize::new(0);
-
-// The trait is unsafe to implement; each method hands its call on to the system's allocator as it came.
-#[allow(unsafe_code)]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        unsafe { System.alloc(layout) }
-    }
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        unsafe { System.dealloc(pointer, layout) }
-    }
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.fetch_add(1, Ordering::Relaxed);
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 fn dense(activation: Activation) -> Network {
     let shape = DenseShape { hidden_activation: activation, ..DenseShape::new(9, vec![10, 17], 8) };
@@ -53,14 +26,17 @@ fn activate_and_reset_allocate_nothing() {
     let mut nets: Vec<_> =
         Activation::ALL.into_iter().flat_map(|activation| [dense(activation), graph(activation)]).collect();
     let mut outputs = [0.0; 8];
-    // The test harness' other thread may allocate while we count; it does not do so a hundred times in a row.
-    let quiet = (0..100).any(|_| {
-        let before = ALLOCATIONS.load(Ordering::Relaxed);
+    let counted = allocation_counter::measure(|| {
         for net in &mut nets {
             net.activate(&[0.5; 9], &mut outputs);
             net.reset();
         }
-        ALLOCATIONS.load(Ordering::Relaxed) == before
     });
-    assert!(quiet, "each of a hundred rounds allocated");
+    assert_eq!(counted.count_total, 0);
+}
+
+#[test]
+fn the_counter_counts() {
+    let counted = allocation_counter::measure(|| drop(dense(Activation::Tanh)));
+    assert!(counted.count_total > 0);
 }

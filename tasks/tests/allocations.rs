@@ -1,42 +1,14 @@
 //! Steps allocate nothing: an episode of a thousand allocates what one of ten does.
 //!
-//! In a program of its own, because it counts every allocation of the thread.
+//! In a program of its own, because the allocator that counts is the program's.
 
 mod common;
 
 use common::{Constant, PointMass};
 use ne_core::{Evaluation, Seed, Task};
-use std::{
-    alloc::{GlobalAlloc, Layout, System},
-    cell::Cell,
-};
 use tasks::{
     Combine, Energy, Episode, FallEnds, Jumping, Movement, Objectives, Rollovers, Running, Sum, TimeAloft, Trials,
 };
-
-thread_local! {
-    static COUNT: Cell<u64> = const { Cell::new(0) };
-}
-
-struct Counting;
-
-// SAFETY: hands everything on to the system's allocator; the count is a thread's own and allocates nothing.
-#[allow(unsafe_code, reason = "an allocator cannot be written without")]
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.set(COUNT.get() + 1);
-        // SAFETY: as our caller promises.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: as our caller promises.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
 
 fn allocations(steps: u32, trials: u32) -> (u64, Evaluation) {
     let movement = Sum::of(Running::default())
@@ -49,9 +21,10 @@ fn allocations(steps: u32, trials: u32) -> (u64, Evaluation) {
     let movement: Box<dyn Movement> = Box::new(objectives.and(1.0, Box::new(Running::default())));
     let trials = Trials { count: trials, combine: Combine::Mean, lessons: false };
     let episode = Episode::new(PointMass::new(), movement, steps, trials).expect("settings in range");
-    let before = COUNT.get();
-    let evaluation = episode.evaluate(&mut Constant(0.5), Seed::of_run(1));
-    (COUNT.get() - before, evaluation)
+    let mut evaluation = None;
+    let counted =
+        allocation_counter::measure(|| evaluation = Some(episode.evaluate(&mut Constant(0.5), Seed::of_run(1))));
+    (counted.count_total, evaluation.expect("evaluated"))
 }
 
 #[test]
