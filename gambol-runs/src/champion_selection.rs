@@ -27,12 +27,14 @@ pub(crate) struct ReferenceSelection {
     /// In how many perturbed worlds it is, if training varies the world.
     steadiness: Option<Box<Steadiness>>,
     steps: Vec<(Trial, usize)>,
+    /// The trial that the usable candidates of a re-evaluation are compared in, if they are.
+    compared: Option<Trial>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
 
-/// Says which of these controllers is the first whose gait is usable.
-type FirstUsable = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
+/// Says which of these controllers are the first whose gaits are usable, at most so many.
+type FirstUsable = dyn Fn(&[&dyn Phenotype], usize) -> Vec<usize> + Send + Sync;
 
 /// Says in how many perturbed worlds of a trial the gait of a controller is usable; any smaller number will do if it is so in
 /// fewer than are given.
@@ -52,19 +54,23 @@ const STEPS: [(Trial, usize); 8] = [
     (Trial::Long, Trial::Long.worlds() - 1),
 ];
 
-/// Before these, the same of a gait that is told what to do: that it does so whatever it is told comes before that it does so in any
-/// world. One of some thousand candidates that has passed nine schedules of commands may yet fail in every fourth.
-const STEPS_OF_COMMANDS: [(Trial, usize); 4] =
-    [(Trial::Commands, 12), (Trial::Commands, 14), (Trial::Commands, 15), (Trial::Commands, Trial::Commands.worlds())];
+/// In how many schedules of commands a gait that is told what to do must be usable for the first tiers above [`USABLE`]: that it does
+/// so whatever it is told comes before that it does so in any world. One of some thousand candidates that has passed nine schedules
+/// may yet fail in every second.
+const SCHEDULES: [usize; 9] = [8, 16, 20, 24, 26, 28, 30, 31, Trial::MoreCommands.worlds()];
 
 /// All steps, in their order, of a gait that is told what to do or is not.
 fn steps(commanded: bool) -> Vec<(Trial, usize)> {
-    let first: &[_] = if commanded { &STEPS_OF_COMMANDS } else { &[] };
+    let schedules = SCHEDULES.map(|schedules| (Trial::MoreCommands, schedules));
+    let first: &[_] = if commanded { &schedules } else { &[] };
     [first, &STEPS].concat()
 }
 
 /// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
 const JUDGED: usize = 8;
+
+/// So many of those that are told what to do, all of them: what they earn says little of how often they fail.
+const COMPARED: usize = 16;
 
 /// How much of its fitness a candidate keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
 /// be shorter there, and episodes are, so what keeps all of its speed may keep only half of its distance.
@@ -110,10 +116,10 @@ impl ReferenceSelection {
             proof: reference.proof.clone().map(|proof| Box::new(proof) as Box<dyn Task>),
             usable: reference.judge.clone().map(|judge| {
                 let evaluator = evaluator.clone();
-                let first_usable = move |phenotypes: &[&dyn Phenotype]| {
+                let first_usable = move |phenotypes: &[&dyn Phenotype], most| {
                     // All are nets, or none is.
                     let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network(*net)).collect();
-                    evaluator.install(|| judge.first_usable(&networks))
+                    evaluator.install(|| judge.first_usable(&networks, most))
                 };
                 Box::new(first_usable) as Box<FirstUsable>
             }),
@@ -126,6 +132,7 @@ impl ReferenceSelection {
                 Box::new(steadiness) as Box<Steadiness>
             }),
             steps: steps(commanded),
+            compared: commanded.then_some(Trial::Commands),
             seed: reference.seed,
             evaluator,
         }
@@ -143,8 +150,9 @@ impl ReferenceSelection {
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
-    /// Gaits are judged, the most promising first, until one is usable, and this one is tried in the perturbed worlds; one that
-    /// would not become champion whatever came of it is not looked at.
+    /// Gaits are judged, the most promising first, until one is usable, or all of them and those that are usable
+    /// [compared](Self::compared). This one is tried in the perturbed worlds. One that would not become champion whatever came of it is
+    /// not looked at.
     fn tiers<G: Genome>(
         &self,
         candidates: &[G],
@@ -161,19 +169,38 @@ impl ReferenceSelection {
         // Those that keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-        let first = &able[..able.len().min(JUDGED)];
-        let fittest = fittest.iter().take(JUDGED).filter(|index| !first.contains(index));
+        let (judged, most) = if self.compared.is_some() { (COMPARED, COMPARED) } else { (JUDGED, 1) };
+        let first = &able[..able.len().min(judged)];
+        let fittest = fittest.iter().take(judged).filter(|index| !first.contains(index));
         let tried: Vec<usize> = first.iter().chain(fittest).copied().collect();
         let controllers: Vec<G::Phenotype> = tried.iter().map(|&index| candidates[index].express()).collect();
         let controllers: Vec<&dyn Phenotype> = controllers.iter().map(|net| net as &dyn Phenotype).collect();
-        let first = tracing::debug_span!("gaits", candidates = controllers.len()).in_scope(|| usable(&controllers));
-        if let Some(first) = first {
-            let best = tried[first];
+        let usable =
+            tracing::debug_span!("gaits", candidates = controllers.len()).in_scope(|| usable(&controllers, most));
+        if let Some(best) = self.steadiest(&controllers, &usable) {
+            let best = tried[best];
             let hoped = self.hoped(kept[best], standing);
             let enough = (USABLE..=hoped).find(|&tier| place(best, tier) > standing).unwrap_or(hoped);
             tiers[best] = self.steady(&candidates[best], enough, hoped);
         }
         tiers
+    }
+
+    /// Of these usable controllers the one that is usable in most worlds of the trial they are compared in; of equals the first.
+    fn steadiest(&self, controllers: &[&dyn Phenotype], usable: &[usize]) -> Option<usize> {
+        let (&first, others) = usable.split_first()?;
+        let (Some(trial), Some(steadiness), false) = (self.compared, &self.steadiness, others.is_empty()) else {
+            return Some(first);
+        };
+        let _span = tracing::debug_span!("compared", candidates = usable.len()).entered();
+        let (mut best, mut most) = (first, 0);
+        for &index in usable {
+            let worlds = steadiness(controllers[index], trial, most + 1);
+            if worlds > most {
+                (best, most) = (index, worlds);
+            }
+        }
+        Some(best)
     }
 
     /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
@@ -256,6 +283,10 @@ impl ReferenceSelection {
 impl<G: Genome> ChampionSelection<G> for ReferenceSelection {
     fn seed(&self) -> Seed {
         self.seed
+    }
+
+    fn takes_recommendation(&self) -> bool {
+        self.compared.is_some()
     }
 
     fn judge(&self, candidates: &[G], standing: Option<TieredFitness>) -> ReEvaluation {

@@ -256,7 +256,7 @@ impl PerturbedReplays {
         self.unperturbed.as_ref().map_or(0.0, GaitReport::progress)
     }
 
-    /// Replays it in the worlds of these indices.
+    /// Replays it in the worlds of these indices, which follow each other. Each has commands of its own.
     fn replay(&self, indices: &[u32]) -> Vec<PerturbedTrial> {
         let Perturbations { seed, variation, .. } = self.perturbations;
         let reach = self.progress_unperturbed().abs() as f32 + BEYOND;
@@ -266,7 +266,9 @@ impl PerturbedReplays {
         };
         let worlds: Vec<World> = indices.iter().map(draw).collect();
         let places: Vec<_> = worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
-        let reports = Worlds::new(&self.judge, &places).judge(&self.network);
+        let judge = self.judge.clone().drawing_from(Seed::of_run(seed));
+        let first = indices.first().copied().unwrap_or_default();
+        let reports = Worlds::new(&judge, &places).from_trial(first).judge(&self.network);
         worlds.into_iter().zip(reports).map(|(world, report)| PerturbedTrial::new(&world, report)).collect()
     }
 }
@@ -334,11 +336,33 @@ impl PerturbedTrial {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::robustness_check::tests::champion;
+    use ne_core::StopConditions;
 
     #[test]
     fn medians_are_in_the_middle() {
         assert_eq!(median(vec![3.0, 1.0, 2.0]), 2.0);
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
+    }
+
+    /// In worlds that nothing else tells apart.
+    #[test]
+    fn every_world_has_commands_of_its_own() {
+        let registry = Registry::default();
+        let stop = StopConditions { generations: Some(1), ..StopConditions::default() };
+        let champion = champion("tetrapod-1", "playing", 1, stop);
+        let ways = |seed, count| -> Vec<u64> {
+            let perturbations = Perturbations { count, seed, variation: Some(Variation::default()) };
+            let robustness = robustness(&champion, &registry, &perturbations).expect("it is judged");
+            robustness.trials.iter().map(|trial| trial.progress.to_bits()).collect()
+        };
+        // More than lanes play at once.
+        let (mut all, others) = (ways(1, 40), ways(2, 2));
+        assert_eq!(all[..20], ways(1, 20));
+        assert!(others.iter().all(|way| !all.contains(way)), "another seed, other commands");
+        all.sort_unstable();
+        all.dedup();
+        assert_eq!(all.len(), 40);
     }
 
     #[test]

@@ -24,16 +24,19 @@ pub(crate) enum Trial {
     Long,
     /// Near worlds, each with commands of its own, for as long as a gait is judged.
     Commands,
+    /// The same with other commands: enough to tell a candidate that seldom fails from one that was lucky.
+    MoreCommands,
 }
 
 impl Trial {
-    const ALL: [Self; 3] = [Self::Short, Self::Long, Self::Commands];
+    const ALL: [Self; 4] = [Self::Short, Self::Long, Self::Commands, Self::MoreCommands];
 
-    /// In how many worlds: no more than lanes play at once.
+    /// In how many worlds: no more than lanes play at once, or twice as many.
     pub(crate) const fn worlds(self) -> usize {
         match self {
             Self::Short => 15,
             Self::Long | Self::Commands => 16,
+            Self::MoreCommands => 32,
         }
     }
 
@@ -41,7 +44,7 @@ impl Trial {
     fn seconds(self) -> f64 {
         match self {
             Self::Short => 15.0,
-            Self::Long | Self::Commands => f64::INFINITY,
+            Self::Long | Self::Commands | Self::MoreCommands => f64::INFINITY,
         }
     }
 
@@ -53,7 +56,7 @@ impl Trial {
         match self {
             Self::Short => Some((index, 15.0)),
             Self::Long => Some((Self::Short.worlds() as u32 + causes * index + causes - 1, 60.0)),
-            Self::Commands => None,
+            Self::Commands | Self::MoreCommands => None,
         }
     }
 }
@@ -87,16 +90,21 @@ impl RobustnessCheck {
     /// What is told where a gait was found usable is not told again where it is to be told something else.
     fn judge_of(&self, trial: Trial) -> Judge {
         let judge = self.judge.clone();
-        if trial == Trial::Commands { judge.of_training(self.lot()) } else { judge }
+        match trial {
+            Trial::Short | Trial::Long => judge,
+            Trial::Commands | Trial::MoreCommands => judge.drawing_from(self.lot(trial)),
+        }
     }
 
     /// Other worlds than those robustness is measured in, whatever the run's seed.
-    fn lot(&self) -> Seed {
-        Seed::of_run(self.seed.stream(ROBUSTNESS_CHECK).random())
+    fn lot(&self, trial: Trial) -> Seed {
+        let mut stream = self.seed.stream(ROBUSTNESS_CHECK);
+        let [first, second] = [stream.random(), stream.random()];
+        Seed::of_run(if trial == Trial::MoreCommands { second } else { first })
     }
 
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
-        let (environment, lot) = (self.judge.environment(), self.lot());
+        let (environment, lot) = (self.judge.environment(), self.lot(trial));
         let world = |index| match trial.perturbed(index) {
             Some((number, reach)) => {
                 let reach = reach * environment.blueprint().body_length();
@@ -121,7 +129,7 @@ fn without_short_steps(variation: Variation) -> Variation {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
     use crate::Registry;
     use crate::{
@@ -134,13 +142,12 @@ mod tests {
     use envs_core::Ground;
     use ne_core::{StopConditions, StopSignal};
 
-    /// A champion that has just become usable.
-    fn champion(seed: u64) -> Champion {
-        let names = (Some("biped-1".into()), Some("jumping".into()));
+    /// The champion of a short run without stages.
+    pub(crate) fn champion(creature: &str, movement: &str, seed: u64, stop: StopConditions) -> Champion {
+        let names = (Some(creature.into()), Some(movement.into()));
         let request = Request { creature: names.0, movement: names.1, ..Request::default() };
         let mut config = request.resolve(&Registry::default()).expect("shipped");
-        config.seed = seed;
-        config.stop = StopConditions { generations: Some(40), tier: Some(USABLE), ..StopConditions::default() };
+        (config.seed, config.stop, config.stages) = (seed, stop, Vec::new());
         let options = TrainOptions {
             threads: 1,
             registry: Registry::default(),
@@ -157,7 +164,10 @@ mod tests {
         let counts: Vec<usize> = (1..=3)
             .flat_map(|seed| Trial::ALL.map(|trial| (seed, trial)))
             .map(|(seed, trial)| {
-                let (champion, registry) = (champion(seed), Registry::default());
+                let as_soon_as_usable =
+                    StopConditions { generations: Some(40), tier: Some(USABLE), ..StopConditions::default() };
+                let champion = champion("biped-1", "jumping", seed, as_soon_as_usable);
+                let registry = Registry::default();
                 let judge = Judge::new(champion.episode_parts(), &registry).expect("builds");
                 let robustness_check = RobustnessCheck::new(judge.clone(), Seed::of_run(seed));
                 let count = robustness_check.usable(&champion.network, trial, 0);
@@ -165,7 +175,8 @@ mod tests {
                 assert_eq!(known, count, "as many as are needed");
                 assert!(robustness_check.usable(&champion.network, trial, count + 1) <= count);
                 let judge = judge.in_rapier();
-                let one_by_one = robustness_check.draw(trial).into_iter().map(|world| Worlds::new(&judge, &[world]));
+                let worlds = (0..).zip(robustness_check.draw(trial));
+                let one_by_one = worlds.map(|(index, world)| Worlds::new(&judge, &[world]).from_trial(index));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network, 0)).sum::<usize>(), count);
                 count
             })
@@ -181,7 +192,10 @@ mod tests {
         assert_eq!(seed(1, Trial::Short), judge.seed());
         assert_ne!(seed(1, Trial::Commands), judge.seed());
         assert_ne!(seed(1, Trial::Commands), seed(2, Trial::Commands));
-        for (conditions, landscape) in check(1).draw(Trial::Commands) {
+        assert_ne!(seed(1, Trial::Commands), seed(1, Trial::MoreCommands));
+        for (conditions, landscape) in
+            [Trial::Commands, Trial::MoreCommands].iter().flat_map(|&trial| check(1).draw(trial))
+        {
             assert!((conditions.friction - 1.0).abs() <= 0.01 + 1e-6 && conditions.pushes.is_empty(), "{conditions:?}");
             assert_eq!(landscape, Ground::flat().into());
         }

@@ -16,6 +16,12 @@ pub trait ChampionSelection<G: Genome>: Send + Sync {
     /// The seed of the champion selection's world: with it a champion's fitness can be had again.
     fn seed(&self) -> Seed;
 
+    /// Whether what the strategy [recommends](crate::Strategy::recommendation) is a candidate, too; no by default. It is worth its
+    /// evaluation where what single individuals earn is largely luck.
+    fn takes_recommendation(&self) -> bool {
+        false
+    }
+
     /// Evaluates the candidates. Only one that is better than the present champion, whose fitness is given, can take its place.
     fn judge(&self, candidates: &[G], champion: Option<TieredFitness>) -> ReEvaluation;
 }

@@ -286,9 +286,16 @@ impl<S: Strategy> Evolution<S> {
             None => best.for_each(|best| selection.re_evaluations.keep(&mut self.candidates, best)),
         }
         let Some(span) = span else { return Ok((false, None)) };
+        self.candidates.extend(self.recommended(selection));
         let (report, best) = selection.re_evaluate(&self.candidates, self.champion.as_ref().map(Champion::standing))?;
         self.candidates.clear();
         Ok((self.make_champion(best, span), Some(report)))
+    }
+
+    /// What the strategy recommends, if the champion selection asks for it.
+    fn recommended(&self, selection: &ScheduledSelection<S::Genome>) -> Option<Candidate<S::Genome>> {
+        let genome = selection.champion_selection.takes_recommendation().then(|| self.strategy.recommendation())??;
+        Some(Candidate { genome, fitness: None, generation: self.progress.generations })
     }
 
     /// The best so far, if any evaluation succeeded.
@@ -307,7 +314,8 @@ impl<S: Strategy> Evolution<S> {
             return Ok(present);
         };
         let standing = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
-        let re_evaluated = selection.re_evaluate(&self.candidates, standing(&present));
+        let candidates: Vec<_> = self.candidates.iter().cloned().chain(self.recommended(selection)).collect();
+        let re_evaluated = selection.re_evaluate(&candidates, standing(&present));
         let (_, best) = re_evaluated.map_err(|wrong| wrong.into_error(self.progress.generations))?;
         Ok(if standing(&best) > standing(&present) { best } else { present })
     }

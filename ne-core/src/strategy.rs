@@ -50,6 +50,13 @@ pub trait Strategy: Serialize + Send {
         &[]
     }
 
+    /// What the strategy would answer with after `tell`, where that is none of the individuals it asks for: of a search by a
+    /// distribution the mean, in which the luck of single individuals averages out. `None`, the default: it has none, or nothing was
+    /// told yet. A candidate of [champion selections](crate::champion_selection::ChampionSelection::takes_recommendation) that ask for it.
+    fn recommendation(&self) -> Option<Self::Genome> {
+        None
+    }
+
     /// The best compromises between several objectives after `tell`, for strategies that look for them: none
     /// [dominates](crate::pareto::dominates) another, and no two are equal in all objectives. From the best in the
     /// first objective to the worst. `None`, the default: the strategy knows no front.

@@ -60,6 +60,12 @@ impl WeightVector {
         Self { topology, weights, mutation_deviation: 0.0 }
     }
 
+    /// Genes of a valid topology, each to the nearest finite `f32`.
+    pub(crate) fn rounded(topology: &Topology, genes: &[f64]) -> Self {
+        debug_assert_eq!(genes.len(), topology.weight_count());
+        Self::checked(topology.clone(), genes.iter().copied().map(finite).collect(), 0.0)
+    }
+
     /// The same individual in a net that has grown: what is new begins at 0.
     pub(crate) fn remapped(&self, topology: &Topology, growth: &TopologyMap) -> Self {
         let weights = growth.transfer(&self.weights, 0.0);
@@ -124,6 +130,11 @@ impl TryFrom<UncheckedWeightVector> for WeightVector {
     fn try_from(unchecked: UncheckedWeightVector) -> Result<Self, WeightVectorError> {
         Self::new(unchecked.topology, unchecked.weights, unchecked.mutation_deviation)
     }
+}
+
+/// To the nearest finite `f32`.
+pub(crate) fn finite(x: f64) -> f32 {
+    (x as f32).clamp(f32::MIN, f32::MAX)
 }
 
 #[cfg(test)]

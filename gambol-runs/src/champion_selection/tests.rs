@@ -13,8 +13,8 @@ struct Candidate {
     usable: bool,
     /// In how many perturbed worlds of the short and the long trial its gait is usable.
     steady: [usize; 2],
-    /// In how many near worlds with other commands.
-    commanded: usize,
+    /// In how many near worlds with other commands, of the trial that candidates are compared in and of that with more.
+    commanded: [usize; 2],
 }
 
 /// The highest tier of a gait that is told nothing.
@@ -80,23 +80,25 @@ impl ScheduledSelection {
     fn new(lanes: Engine, rapier: Option<Engine>) -> Self {
         let seen: Arc<Mutex<Vec<Candidate>>> = Arc::default();
         let register = seen.clone();
-        let usable = move |phenotypes: &[&dyn Phenotype]| {
-            phenotypes.iter().position(|phenotype| {
-                let candidate = candidate(*phenotype);
+        let usable = move |phenotypes: &[&dyn Phenotype], most: usize| {
+            let is_usable = |phenotype: &dyn Phenotype| {
+                let candidate = candidate(phenotype);
                 register.lock().expect("no test panics here").push(candidate.clone());
                 candidate.usable
-            })
+            };
+            (0..phenotypes.len()).filter(|&index| is_usable(phenotypes[index])).take(most).collect()
         };
         let tried: Arc<Mutex<Vec<Trial>>> = Arc::default();
         let register = tried.clone();
         let steadiness = move |phenotype: &dyn Phenotype, trial: Trial, needed: usize| {
             register.lock().expect("no test panics here").push(trial);
             let candidate = candidate(phenotype);
-            let [short, long] = candidate.steady;
+            let ([short, long], [commands, more_commands]) = (candidate.steady, candidate.commanded);
             let worlds = match trial {
                 Trial::Short => short,
                 Trial::Long => long,
-                Trial::Commands => candidate.commanded,
+                Trial::Commands => commands,
+                Trial::MoreCommands => more_commands,
             };
             // What is too little need not be counted.
             if worlds < needed { 0 } else { worlds }
@@ -108,6 +110,7 @@ impl ScheduledSelection {
             usable: Some(Box::new(usable)),
             steadiness: Some(Box::new(steadiness)),
             steps: STEPS.into(),
+            compared: None,
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
@@ -144,7 +147,7 @@ fn candidates(all: &[(f64, f64, bool)]) -> Vec<Candidate> {
             varied,
             usable,
             steady: steady(usable),
-            commanded: 0,
+            commanded: [0, 0],
         })
         .collect()
 }
@@ -215,7 +218,7 @@ fn the_first_usable_champion_is_not_tried() {
 fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     let selection = ScheduledSelection::new(reference, None);
     let tier = |steady| {
-        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: 0 };
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: [0, 0] };
         selection.tiers(&[one], slow()).0[0]
     };
     let short: Vec<u8> = (0..=15).map(|worlds| tier([worlds, 0])).collect();
@@ -225,7 +228,7 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     selection.tried();
     // A candidate less fit than the champion must be steadier, or it counts as usable and no more.
     let against = |champion: u8, steady| {
-        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: 0 };
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: [0, 0] };
         (selection.tiers(&[one], standing(champion, 2.0)).0[0], selection.tried())
     };
     assert_eq!(
@@ -242,23 +245,53 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     assert_eq!(against(HIGHEST, [15, 16]), (0, vec![]), "it could not become champion");
 }
 
+/// A champion selection of gaits that are told what to do.
+fn of_commanded() -> ScheduledSelection {
+    let mut selection = ScheduledSelection::new(reference, None);
+    selection.champion_selection.steps = steps(true);
+    selection.champion_selection.compared = Some(Trial::Commands);
+    selection
+}
+
 /// That it does as it is told comes first: what fails at it is not tried in perturbed worlds.
 #[test]
 fn a_gait_that_is_told_what_to_do_is_told_more_before_it_is_tried_in_perturbed_worlds() {
-    let mut selection = ScheduledSelection::new(reference, None);
-    selection.champion_selection.steps = steps(true);
-    let tier = |commanded, steady| {
-        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded };
+    let selection = of_commanded();
+    let tier = |schedules, steady| {
+        let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: [0, schedules] };
         selection.tiers(&[one], slow()).0[0]
     };
-    let told: Vec<u8> = (0..=16).map(|worlds| tier(worlds, [15, 16])).collect();
-    assert_eq!(told, [vec![1; 12], vec![2, 2, 3, 4, 13]].concat());
-    assert_eq!([[3, 16], [4, 0], [15, 0]].map(|steady| tier(16, steady)), [5, 6, 9]);
+    let told: Vec<u8> =
+        [7, 8, 15, 16, 20, 24, 25, 26, 28, 30, 31, 32].map(|schedules| tier(schedules, [15, 16])).into();
+    assert_eq!(told, [1, 2, 2, 3, 4, 5, 5, 6, 7, 8, 9, 18]);
+    assert_eq!([[3, 16], [4, 0], [15, 0]].map(|steady| tier(32, steady)), [10, 11, 14]);
     selection.tried();
-    tier(15, [15, 16]);
-    assert_eq!(selection.tried(), [Trial::Commands]);
-    tier(16, [15, 16]);
-    assert_eq!(selection.tried(), [Trial::Commands, Trial::Short, Trial::Long]);
+    tier(31, [15, 16]);
+    assert_eq!(selection.tried(), [Trial::MoreCommands]);
+    tier(32, [15, 16]);
+    assert_eq!(selection.tried(), [Trial::MoreCommands, Trial::Short, Trial::Long]);
+}
+
+/// What a gait earns says little of how often it fails.
+#[test]
+fn of_gaits_that_are_told_what_to_do_all_that_are_usable_are_compared() {
+    let selection = of_commanded();
+    let of = |reference, usable, schedules| Candidate {
+        reference,
+        varied: reference,
+        usable,
+        steady: [0, 0],
+        commanded: [schedules, 24],
+    };
+    let all = [of(9.0, true, 8), of(8.0, true, 14), of(7.0, false, 16), of(6.0, true, 14), of(5.0, true, 13)];
+    assert_eq!(selection.tiers(&all, slow()), (vec![0, 5, 0, 0, 0], vec![9.0, 8.0, 7.0, 6.0, 5.0]));
+    let compared = [Trial::Commands; 4];
+    assert_eq!(selection.tried(), [&compared[..], &[Trial::MoreCommands]].concat());
+    selection.tiers(&all[..1], slow());
+    assert_eq!(selection.tried(), [Trial::MoreCommands], "with nothing else to be compared with");
+    // So many, the fittest.
+    let many: Vec<Candidate> = (0..=COMPARED).map(|index| of(100.0 + index as f64, true, COMPARED - index)).collect();
+    assert_eq!(selection.tiers(&many, slow()).0[..3], [0, 5, 0]);
 }
 
 #[test]

@@ -51,6 +51,9 @@ fn anew(from: &'static str, unless: PromotionRule, after: u64, times: u32) -> Op
 /// found later and are worse; with 0.1 biped-2 stands still, whatever it is told (docs/playing-experiments.md).
 const STEP_SIZE: f64 = 0.2;
 
+/// Of CMA-ES: with 0.1, as other gaits have it, what is polished wanders about where it would settle (docs/playing-experiments.md).
+const LEAST_DEVIATION: f64 = 0.03;
+
 /// The least that a stride or a jump has to earn is of what became playable, and what did not (docs/playing-experiments.md): of 40 s in
 /// `move`, of about 57 s in `jump`.
 fn plan() -> Plan {
@@ -112,8 +115,12 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
     let plan = if is_biped { balanced_plan() } else { plan() };
     let clocks = if is_biped && body.joints > 1 { BALANCED_JUMP_CLOCKS } else { JUMP_CLOCKS };
     // By one search, and not by several as gaits are: a stride that comes to nothing is given up instead.
-    let strategy: [(&str, Value); 3] =
-        [("restart", "none".into()), ("starts", 1.into()), ("step_size", STEP_SIZE.into())];
+    let strategy: [(&str, Value); 4] = [
+        ("restart", "none".into()),
+        ("starts", 1.into()),
+        ("step_size", STEP_SIZE.into()),
+        ("least_deviation", LEAST_DEVIATION.into()),
+    ];
     MovementDefaults {
         steps: STEPS.0,
         training_steps: STEPS.1,

@@ -93,6 +93,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         assert_eq!(near, [true, true, true, true, false], "{creature}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
         assert_eq!((settings.restart, settings.starts, settings.step_size), (Restart::None, 1, 0.2));
+        assert_eq!(settings.least_deviation, 0.03);
         let trials = [0, 1, 2, 3].map(|stage| config.stages[stage].changes["trials"]["count"].clone());
         assert_eq!(trials, if creature == "biped-1" { [1, 3, 6, 8] } else { [6, 6, 6, 8] }, "{creature}");
         let gives_up = [0, 1, 2, 3].map(|stage| config.stages[stage].give_up.as_ref().map(ToString::to_string));

@@ -41,7 +41,7 @@ pub struct Judge {
 }
 
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
-/// perturbed worlds too has up to 8 more, of one that is told what to do up to 12; a champion that is not usable has 0.
+/// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
 const TRAINING: Purpose = Purpose::new("judge of training");
@@ -67,9 +67,9 @@ impl Judge {
         Ok(Self { episode, movement, rules, lanes, seed: Seed::of_run(0), near: Arc::default() })
     }
 
-    /// The same judge, whose worlds draw from another seed than those in which a saved champion is judged: a champion is not
-    /// to be chosen by the commands it is judged by.
-    pub(crate) fn of_training(self, seed: Seed) -> Self {
+    /// The same judge, whose worlds draw from this seed, and not from the one of the worlds in which a saved champion is judged: a champion
+    /// is not to be chosen by the commands it is judged by.
+    pub(crate) fn drawing_from(self, seed: Seed) -> Self {
         Self { seed: Seed::of_run(seed.stream(TRAINING).next_u64()), near: Arc::default(), ..self }
     }
 
@@ -151,22 +151,23 @@ impl Judge {
         self.judge(network).is_some_and(|report| is_usable(&report))
     }
 
-    /// The first of these controllers whose gait is usable, on the threads of the current pool. All are played at once, in
-    /// lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the champion selection to ask: it
-    /// has a champion's episode played again by rapier.
-    pub fn first_usable(&self, networks: &[Network]) -> Option<usize> {
+    /// The first of these controllers whose gaits are usable, at most so many, on the threads of the current pool. All are played at
+    /// once, in lanes where they can; only what is usable is tried in near worlds. Whether lanes are right is for the champion
+    /// selection to ask: it has a champion's episode played again by rapier.
+    pub fn first_usable(&self, networks: &[Network], most: usize) -> Vec<usize> {
         let Some(reference) = Worlds::reference(self) else {
-            return networks.iter().position(|network| self.is_usable(network));
+            return (0..networks.len()).filter(|&index| self.is_usable(&networks[index])).take(most).collect();
         };
         let verdicts = reference.verdicts(networks).into_iter().map(|verdicts| verdicts.into_iter().next()?);
-        networks.iter().zip(verdicts).position(|(network, verdict)| {
+        let is_usable = |(index, verdict): (usize, Option<Judgement>)| {
             if verdict.is_none_or(|verdict| !verdict.usable) {
-                return false;
+                return None;
             }
             let near = self.near();
             let required = NearWorlds::required(near.len());
-            near.usable(network, required) >= required
-        })
+            (near.usable(&networks[index], required) >= required).then_some(index)
+        };
+        verdicts.enumerate().filter_map(is_usable).take(most).collect()
     }
 
     /// The same judge, where nothing is played in lanes.

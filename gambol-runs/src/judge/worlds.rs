@@ -21,8 +21,9 @@ pub struct Worlds {
     rules: Option<Arc<dyn Rules>>,
     /// How long gaits are played, s.
     seconds: f64,
-    /// Each world draws commands from a trial of it.
+    /// Each world draws commands from a trial of it, the first from the trial with this index.
     seed: Seed,
+    first: u32,
     /// `None`: the creature does not come to rest there.
     worlds: Vec<Option<World>>,
 }
@@ -53,7 +54,13 @@ impl Worlds {
     pub fn new(judge: &Judge, worlds: &[(Conditions, Landscape)]) -> Self {
         let build = |(conditions, landscape): &(Conditions, Landscape)| World::new(judge, conditions, landscape);
         let worlds = worlds.par_iter().map(build).collect();
-        Self { rules: judge.rules().cloned(), seconds: judge.seconds(), seed: judge.seed(), worlds }
+        Self { rules: judge.rules().cloned(), seconds: judge.seconds(), seed: judge.seed(), first: 0, worlds }
+    }
+
+    /// The same worlds, of which the first draws from the trial with this index: for those that are a part of more.
+    #[must_use]
+    pub(crate) fn from_trial(self, first: u32) -> Self {
+        Self { first, ..self }
     }
 
     /// The same worlds, in which gaits are played for at most so many seconds: enough to choose between candidates, and too
@@ -70,6 +77,7 @@ impl Worlds {
             rules: judge.rules().cloned(),
             seconds: judge.seconds(),
             seed: judge.seed(),
+            first: 0,
             worlds: vec![Some(world)],
         })
     }
@@ -127,7 +135,7 @@ impl Worlds {
 
     /// What the world at this place among plays draws from.
     fn seed_of(&self, place: usize) -> Seed {
-        self.seed.trial((place % self.len()) as u32)
+        self.seed.trial(self.first + (place % self.len()) as u32)
     }
 
     /// In how many worlds nothing but its length speaks against the gait of a controller; fewer than `needed`, how many does

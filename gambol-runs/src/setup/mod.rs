@@ -142,7 +142,7 @@ impl Setup {
             true => {
                 let reference = parts.reference();
                 let (episode, task) = reference.build_both(config.engine, registry)?;
-                let judge = Judge::new(parts, registry)?.of_training(Seed::of_run(config.seed));
+                let judge = Judge::new(parts, registry)?.drawing_from(Seed::of_run(config.seed));
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),

@@ -79,6 +79,7 @@ trait Erased: erased_serde::Serialize + Send {
     fn species(&self) -> Vec<SpeciesReport>;
     fn memberships(&self) -> Vec<u64>;
     fn origins(&self) -> &[Origin];
+    fn recommendation(&self) -> Option<AnyGenome>;
     fn front(&self) -> Option<&[Compromise]>;
     fn has_settings(&self, settings: &StrategySettings) -> bool;
     fn transfer(self: Box<Self>, settings: &StrategySettings, to: &Transfer<'_>) -> Result<AnyStrategy, SettingError>;
@@ -159,6 +160,10 @@ impl<S: NetStrategy> Erased for Held<S> {
         self.strategy.origins()
     }
 
+    fn recommendation(&self) -> Option<AnyGenome> {
+        self.strategy.recommendation().map(AnyGenome::new::<S>)
+    }
+
     fn front(&self) -> Option<&[Compromise]> {
         self.front.as_deref()
     }
@@ -216,6 +221,10 @@ impl Strategy for AnyStrategy {
 
     fn origins(&self) -> &[Origin] {
         self.0.origins()
+    }
+
+    fn recommendation(&self) -> Option<AnyGenome> {
+        self.0.recommendation()
     }
 
     fn front(&self) -> Option<Vec<FrontPoint<'_, AnyGenome>>> {

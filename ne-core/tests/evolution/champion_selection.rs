@@ -27,6 +27,7 @@ struct Known {
     tiers: Vec<Vec<u8>>,
     heard: Arc<Mutex<Vec<Vec<Puppet>>>>,
     diverged: bool,
+    takes_recommendation: bool,
 }
 
 fn genome(generation: u64, index: u64) -> Puppet {
@@ -36,6 +37,10 @@ fn genome(generation: u64, index: u64) -> Puppet {
 impl ChampionSelection<Puppet> for Known {
     fn seed(&self) -> Seed {
         WORLD
+    }
+
+    fn takes_recommendation(&self) -> bool {
+        self.takes_recommendation
     }
 
     fn judge(&self, candidates: &[Puppet], _: Option<TieredFitness>) -> ReEvaluation {
@@ -104,6 +109,31 @@ fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     assert_eq!((next.genome, next.fitness, next.trained), (genome(4, 0), fitness(5.0), Some(fitness(9.0))));
     assert_eq!(evolution.champion(), Some(&champion), "it was only asked");
     assert_eq!(evolution.candidates().len(), 1);
+}
+
+/// What the strategy recommends has no fitness of its own: it is heard last, and where the champion selection asks for it alone.
+#[test]
+fn what_the_strategy_recommends_is_heard_where_it_is_asked_for() {
+    let heard = |takes_recommendation, every| {
+        let worth = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 9.0]];
+        let known = Known { worth, takes_recommendation, ..Known::default() };
+        let mut evolution = Script::evolution(&[&[1.0, 3.0], &[2.0, 1.0]], StopConditions::default());
+        evolution = evolution.with_champion_selection(ReEvaluations { every, candidates: 1 }, known.clone());
+        let prompter = Prompter::of(&evolution);
+        for _ in 0..2 {
+            evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        }
+        let champion = evolution.champion_if_re_evaluated().expect("as many evaluations as candidates");
+        let champion = champion.expect("a champion");
+        let heard = known.heard.lock().expect("no test panics here").clone();
+        (heard, champion.genome, champion.fitness.get(), champion.generation, champion.trained)
+    };
+    let [first, second, recommended] = [genome(1, 1), genome(2, 0), genome(2, 2)];
+    let all = vec![vec![first.clone(), second.clone(), recommended.clone()]];
+    for every in [2, 3] {
+        assert_eq!(heard(true, every), (all.clone(), recommended.clone(), 9.0, 2, None), "after {every} generations");
+    }
+    assert_eq!(heard(false, 2), (vec![vec![first, second.clone()]], second, 4.0, 2, Some(fitness(2.0))));
 }
 
 #[test]

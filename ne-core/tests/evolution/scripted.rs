@@ -6,12 +6,14 @@ use ne_core::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Asks for as many genomes as the script of the generation is long; genome k of generation g has character 100 g + k.
+/// Asks for as many genomes as the script of the generation is long; genome k of generation g has character 100 g + k. Then it
+/// recommends the next of these characters.
 #[derive(Debug, Serialize, Deserialize)]
 pub(crate) struct Script {
     /// Fitnesses generation by generation; NaN fails. The last line is repeated for ever.
     pub(crate) lines: Vec<Vec<f64>>,
     asked: Vec<Puppet>,
+    recommended: Option<Puppet>,
 }
 
 impl Script {
@@ -22,7 +24,7 @@ impl Script {
 
     pub(crate) fn evolution(lines: &[&[f64]], stop: StopConditions) -> Evolution<Self> {
         let lines = lines.iter().map(|line| line.to_vec()).collect();
-        Evolution::new(Self { lines, asked: Vec::new() }, Seed::of_run(1), stop)
+        Evolution::new(Self { lines, asked: Vec::new(), recommended: None }, Seed::of_run(1), stop)
     }
 }
 
@@ -36,11 +38,17 @@ impl Strategy for Script {
     fn ask(&mut self, seed: Seed) -> &[Puppet] {
         let generation = seed.generation_index();
         let count = self.line(generation).len() as u64;
-        self.asked = (0..count).map(|index| Puppet::new(0, 1, 100 * generation + index)).collect();
+        let genome = |index| Puppet::new(0, 1, 100 * generation + index);
+        self.asked = (0..count).map(genome).collect();
+        self.recommended = Some(genome(count));
         &self.asked
     }
 
     fn tell(&mut self, _: &[Evaluation], _: Seed) {}
+
+    fn recommendation(&self) -> Option<Puppet> {
+        self.recommended.clone()
+    }
 }
 
 /// Reads the fitnesses from the script; each evaluation takes 10 steps.

@@ -1,6 +1,7 @@
 use super::{ArsSettings, state::State};
 use crate::{
     WeightVector,
+    genome::finite,
     nets::{Nets, check_growth},
     normal::Normal,
 };
@@ -162,6 +163,10 @@ impl Strategy for Ars {
         self.step(&rewards(&evaluations[1..]));
     }
 
+    fn recommendation(&self) -> Option<WeightVector> {
+        (!self.centre.is_empty()).then(|| WeightVector::rounded(&self.nets.topology, &self.centre))
+    }
+
     fn statistics(&self) -> Vec<Statistic> {
         let square: f64 = self.centre.iter().map(|x| x * x).sum();
         vec![
@@ -170,10 +175,6 @@ impl Strategy for Ars {
             Statistic::new("centre_length", (square / self.centre.len().max(1) as f64).sqrt()),
         ]
     }
-}
-
-fn finite(x: f64) -> f32 {
-    (x as f32).clamp(f32::MIN, f32::MAX)
 }
 
 /// What each came to, failures with the worst of all that did not fail.

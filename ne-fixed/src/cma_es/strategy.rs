@@ -4,6 +4,7 @@ use super::{
 };
 use crate::{
     WeightVector,
+    genome::finite,
     nets::{check_growth, check_start},
     normal::Normal,
     ranking::best_first,
@@ -312,7 +313,6 @@ impl Strategy for CmaEs {
         self.population.resize_with(samples.len(), || WeightVector::zero(self.topology.clone()));
         for (individual, sample) in self.population.iter_mut().zip(&samples) {
             let (genes, _) = individual.genes_mut();
-            let finite = |x: f64| (x as f32).clamp(f32::MIN, f32::MAX);
             genes.iter_mut().zip(sample).for_each(|(gene, &x)| *gene = finite(x));
         }
         self.distribution = Some(distribution);
@@ -353,6 +353,10 @@ impl Strategy for CmaEs {
             self.revive(&mut distribution);
             self.distribution = Some(distribution);
         }
+    }
+
+    fn recommendation(&self) -> Option<WeightVector> {
+        self.mean().map(|mean| WeightVector::rounded(&self.topology, mean))
     }
 
     fn statistics(&self) -> Vec<Statistic> {

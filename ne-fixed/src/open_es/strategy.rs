@@ -1,6 +1,7 @@
 use super::{OpenEsSettings, adam::AdamMemory, state::State};
 use crate::{
     WeightVector,
+    genome::finite,
     nets::{Nets, check_growth},
     normal::Normal,
     ranking::best_first,
@@ -171,6 +172,10 @@ impl Strategy for OpenEs {
         self.deviation = decayed.max(self.settings.least_deviation);
     }
 
+    fn recommendation(&self) -> Option<WeightVector> {
+        (!self.centre.is_empty()).then(|| WeightVector::rounded(&self.nets.topology, &self.centre))
+    }
+
     fn statistics(&self) -> Vec<Statistic> {
         let square: f64 = self.centre.iter().map(|x| x * x).sum();
         vec![
@@ -179,10 +184,6 @@ impl Strategy for OpenEs {
             Statistic::new("centre_length", (square / self.centre.len().max(1) as f64).sqrt()),
         ]
     }
-}
-
-fn finite(x: f64) -> f32 {
-    (x as f32).clamp(f32::MIN, f32::MAX)
 }
 
 /// For each score its rank, from −½ for the worst to ½ for the best; equals share the mean of theirs.

@@ -210,8 +210,9 @@ fn the_population_follows_the_number_of_weights() {
 fn begins_where_it_is_told() {
     let settings = CmaEsSettings { step_size: 1e-3, ..Default::default() };
     let mut strategy = new(settings.clone()).with_start(&[vec![2.5; 26]]).expect("26 weights");
-    assert_eq!(strategy.mean(), None);
+    assert_eq!((strategy.mean(), strategy.recommendation()), (None, None));
     let first = strategy.ask(Seed::of_run(1)).to_vec();
+    assert_eq!(strategy.recommendation().expect("asked").weights(), [2.5; 26], "the mean");
     assert!(first.iter().flat_map(|genome| genome.weights()).all(|weight| (weight - 2.5).abs() < 0.01));
     let mut strategy = new(CmaEsSettings { initial_mean: Initialization::Uniform { limit: 1.0 }, ..settings });
     strategy.ask(Seed::of_run(1));

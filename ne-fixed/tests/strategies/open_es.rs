@@ -99,7 +99,9 @@ fn damaged_states_are_errors_that_name_the_field() {
 #[test]
 fn samples_lie_opposite_each_other_around_the_centre() {
     let mut strategy = new(OpenEsSettings { population: 1000, ..Default::default() });
+    assert_eq!(strategy.recommendation(), None);
     let population = strategy.ask(Seed::of_run(1)).to_vec();
+    assert_eq!(strategy.recommendation().as_ref(), Some(&population[0]), "the centre");
     assert_eq!(population.len(), 1001);
     let mut square = 0.0;
     for pair in population[1..].chunks_exact(2) {

@@ -18,8 +18,9 @@ use serde::Deserialize;
 /// ground within 0.5 s and its centre of mass rises by 0.42 start heights above its start (0.3 body lengths if it has no legs),
 /// in proportion to the rise below that. While a foot is on the ground 0.4 of the rise counts that its speed would take it to,
 /// so that a search is drawn towards a push-off before anything leaves the ground; of a jump that comes too late 0.15, and nothing of
-/// one for which a leg leaves the ground less than 0.2 s after the press. A jump that goes
-/// nowhere near the commanded speed counts 0.2 of one that goes on at it. Of legs that leave the ground one after the other less counts: nothing where they do so
+/// one for which a leg leaves the ground less than 0.2 s after the press. Of a jump that is off the
+/// commanded speed by 1 body length a second plus that speed 0.2 counts, and all of one that is off by 0.4 of this or less: a jump out
+/// of a run may cost some speed. Of legs that leave the ground one after the other less counts: nothing where they do so
 /// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
 #[derive(Clone, Debug)]
 pub struct Playing {
@@ -93,8 +94,10 @@ const ENOUGH_LEGLESS: f64 = 0.3;
 const LEAST_RISE: f64 = 0.06;
 /// What counts of the rise that is promised on the ground.
 const PROMISED: f64 = 0.4;
-/// What counts of a jump that goes nowhere near the commanded speed.
+/// What counts of a jump that goes nowhere near the commanded speed...
 const ONWARDS: f64 = 0.2;
+/// ...and all of it counts from so near on: where each bit of speed counts, jumps out of a fast run are too low.
+const NEAR_ENOUGH: f64 = 0.6;
 /// What counts of a jump that comes too late.
 const LATE: f64 = 0.15;
 /// What leaves the ground sooner after the press does not count, s: a body hops off its legs as they are, and a search that has found that
@@ -181,6 +184,11 @@ impl Playing {
         (1.0 - self.error() / (1.0 + f64::from(self.command.speed).abs())).max(0.0)
     }
 
+    /// What counts of a jump at this speed, 0.2 to 1.
+    fn onwards(&self) -> f64 {
+        ONWARDS + (1.0 - ONWARDS) * (self.near() / NEAR_ENOUGH).min(1.0)
+    }
+
     /// How far off the commanded speed is, body lengths/s.
     fn error(&self) -> f64 {
         (self.speed / self.body_length - f64::from(self.command.speed)).abs()
@@ -213,7 +221,7 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
-        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, ONWARDS + (1.0 - ONWARDS) * self.near());
+        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, self.onwards());
         let Some(jump) = &mut self.jump else { return };
         let is_early = |left: f64| left - jump.pressed < CROUCH;
         let late = time - jump.pressed > ANSWER;
@@ -488,6 +496,17 @@ mod tests {
         assert!(worths.is_sorted_by(|one, other| one > other), "{worths:?}");
         // 0.8 of its 1.5 s are for the speed.
         assert!(worths[0] - worths[2] > 1.0, "{worths:?}");
+    }
+
+    /// Of a jump at a commanded speed of 1 body length a second.
+    #[test]
+    fn a_jump_out_of_a_run_may_cost_some_speed() {
+        let counts = |speed: f64| {
+            Playing { speed, command: Command { speed: 1.0, ..Command::default() }, ..Playing::default() }.onwards()
+        };
+        assert_eq!([1.0, 0.25, 1.75].map(counts), [1.0; 3]);
+        assert!((counts(0.0) - (0.2 + 0.8 * 0.5 / 0.6)).abs() < 1e-9);
+        assert_eq!([counts(-1.0), counts(-3.0)], [0.2, 0.2]);
     }
 
     #[test]
