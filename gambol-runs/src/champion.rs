@@ -82,8 +82,10 @@ pub struct Champion {
 pub struct Training {
     /// The engine it was trained in.
     pub engine: EngineChoice,
-    /// Its fitness there, in the worlds of its generation; its own for one from before the run, which had none there.
-    pub fitness: Fitness,
+    /// Its fitness there, in the worlds of its generation; `None` for one that no generation evaluated: one from before the run, or
+    /// what the strategy recommended.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fitness: Option<Fitness>,
     /// Trials that fitness is made of.
     pub trials: Trials,
     /// How those trials differed.
@@ -167,7 +169,7 @@ impl Champion {
         };
         let training = (config.engine != EngineChoice::Rapier || setup.reference.is_some()).then(|| Training {
             engine: config.engine,
-            fitness: trained.unwrap_or(fitness),
+            fitness: trained,
             trials: config.trials,
             variation: config.variation,
             bodies: config.bodies(),
@@ -199,7 +201,7 @@ impl Champion {
 
     /// Its fitness in training, if that is another than the champion's own.
     pub fn fitness_in_training(&self) -> Option<Fitness> {
-        self.trained.map(|trained| trained.fitness).filter(|&fitness| fitness != self.fitness)
+        self.trained.and_then(|trained| trained.fitness).filter(|&fitness| fitness != self.fitness)
     }
 
     /// Whether the engine of training and rapier disagree about it.

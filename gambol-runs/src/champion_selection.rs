@@ -69,7 +69,8 @@ fn steps(commanded: bool) -> Vec<(Trial, usize)> {
 /// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
 const JUDGED: usize = 8;
 
-/// So many of those that are told what to do, all of them: what they earn says little of how often they fail.
+/// So many of those that are told what to do, and as many that are usable are compared: what they earn says little of how often they
+/// fail.
 const COMPARED: usize = 16;
 
 /// How much of its fitness a candidate keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
@@ -150,8 +151,7 @@ impl ReferenceSelection {
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
-    /// Gaits are judged, the most promising first, until one is usable, or all of them and those that are usable
-    /// [compared](Self::compared). This one is tried in the perturbed worlds. One that would not become champion whatever came of it is
+    /// Gaits are judged, the most promising first, until one is usable, or enough to be [compared](Self::steadiest). This one is tried in the perturbed worlds. One that would not become champion whatever came of it is
     /// not looked at.
     fn tiers<G: Genome>(
         &self,
@@ -177,6 +177,10 @@ impl ReferenceSelection {
         let controllers: Vec<&dyn Phenotype> = controllers.iter().map(|net| net as &dyn Phenotype).collect();
         let usable =
             tracing::debug_span!("gaits", candidates = controllers.len()).in_scope(|| usable(&controllers, most));
+        // Those that may get no high tier are not compared with those that may.
+        let most_hoped = usable.iter().map(|&place| self.hoped(kept[tried[place]], standing)).max();
+        let usable: Vec<usize> =
+            usable.into_iter().filter(|&place| Some(self.hoped(kept[tried[place]], standing)) == most_hoped).collect();
         if let Some(best) = self.steadiest(&controllers, &usable) {
             let best = tried[best];
             let hoped = self.hoped(kept[best], standing);

@@ -16,7 +16,7 @@ use crate::{
 };
 use envs_core::{Conditions, Variation};
 use envs_lanes::LANES;
-use ne_core::{Seed, SettingError};
+use ne_core::{Purpose, Seed, SettingError};
 use ne_net::Network;
 use rayon::prelude::*;
 use serde::Serialize;
@@ -158,6 +158,9 @@ impl Default for Perturbations {
     }
 }
 
+/// For the commands in perturbed worlds: other ones than those by which a champion was chosen, whatever the seed.
+const ROBUSTNESS: Purpose = Purpose::new("commands of robustness");
+
 /// Replays a champion in perturbed worlds, on the threads of the current pool. What comes out is a function of champion and
 /// perturbations, whatever the threads.
 ///
@@ -266,7 +269,7 @@ impl PerturbedReplays {
         };
         let worlds: Vec<World> = indices.iter().map(draw).collect();
         let places: Vec<_> = worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
-        let judge = self.judge.clone().drawing_from(Seed::of_run(seed));
+        let judge = self.judge.clone().drawing_from(Seed::of_run(seed), ROBUSTNESS);
         let first = indices.first().copied().unwrap_or_default();
         let reports = Worlds::new(&judge, &places).from_trial(first).judge(&self.network);
         worlds.into_iter().zip(reports).map(|(world, report)| PerturbedTrial::new(&world, report)).collect()
@@ -359,6 +362,13 @@ mod tests {
         // More than lanes play at once.
         let (mut all, others) = (ways(1, 40), ways(2, 2));
         assert_eq!(all[..20], ways(1, 20));
+        let perturbations = Perturbations { count: 40, seed: 1, variation: Some(Variation::default()) };
+        let mut replays = PerturbedReplays::new(&champion, &registry, &perturbations).expect("it is judged");
+        while replays.progress()[0] < 40 {
+            replays.go_on();
+        }
+        let in_steps = replays.robustness().trials;
+        assert_eq!(in_steps.iter().map(|trial| trial.progress.to_bits()).collect::<Vec<_>>(), all, "a few at a time");
         assert!(others.iter().all(|way| !all.contains(way)), "another seed, other commands");
         all.sort_unstable();
         all.dedup();

@@ -1,7 +1,7 @@
 //! Where it is tried whether a candidate's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
-    judge::{Judge, worlds::Worlds},
+    judge::{Judge, TRAINING, worlds::Worlds},
     perturbation::{Cause, World},
 };
 use envs_core::{Conditions, Landscape, Variation};
@@ -31,7 +31,7 @@ pub(crate) enum Trial {
 impl Trial {
     const ALL: [Self; 4] = [Self::Short, Self::Long, Self::Commands, Self::MoreCommands];
 
-    /// In how many worlds: no more than lanes play at once, or twice as many.
+    /// In how many worlds: as many as lanes play in one turn or in two.
     pub(crate) const fn worlds(self) -> usize {
         match self {
             Self::Short => 15,
@@ -92,7 +92,7 @@ impl RobustnessCheck {
         let judge = self.judge.clone();
         match trial {
             Trial::Short | Trial::Long => judge,
-            Trial::Commands | Trial::MoreCommands => judge.drawing_from(self.lot(trial)),
+            Trial::Commands | Trial::MoreCommands => judge.drawing_from(self.lot(trial), TRAINING),
         }
     }
 
@@ -174,7 +174,7 @@ pub(crate) mod tests {
                 let known = robustness_check.usable(&champion.network, trial, count);
                 assert_eq!(known, count, "as many as are needed");
                 assert!(robustness_check.usable(&champion.network, trial, count + 1) <= count);
-                let judge = judge.in_rapier();
+                let judge = robustness_check.judge_of(trial).in_rapier();
                 let worlds = (0..).zip(robustness_check.draw(trial));
                 let one_by_one = worlds.map(|(index, world)| Worlds::new(&judge, &[world]).from_trial(index));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network, 0)).sum::<usize>(), count);

@@ -10,7 +10,7 @@ pub struct Champion<G> {
     pub genome: G,
     /// Its fitness.
     pub fitness: Fitness,
-    /// The generation it was evaluated in, from 1; 0 for one from before the run.
+    /// The generation it was evaluated in, or recommended after, from 1; 0 for one from before the run.
     pub generation: u64,
     /// The seed it was evaluated with: with it the task, or the champion selection, gives the fitness again.
     pub seed: Seed,
@@ -60,7 +60,7 @@ pub struct Candidate<G> {
     pub genome: G,
     /// The fitness it had in its generation; `None` for one that was not evaluated there.
     pub fitness: Option<Fitness>,
-    /// The generation it was evaluated in, from 1; 0 for [one from before the
+    /// The generation it was evaluated in, or recommended after, from 1; 0 for [one from before the
     /// run](crate::Evolution::with_candidate).
     pub generation: u64,
 }

@@ -286,16 +286,22 @@ impl<S: Strategy> Evolution<S> {
             None => best.for_each(|best| selection.re_evaluations.keep(&mut self.candidates, best)),
         }
         let Some(span) = span else { return Ok((false, None)) };
-        self.candidates.extend(self.recommended(selection));
-        let (report, best) = selection.re_evaluate(&self.candidates, self.champion.as_ref().map(Champion::standing))?;
+        let (report, best) = self.re_evaluate(selection)?;
         self.candidates.clear();
         Ok((self.make_champion(best, span), Some(report)))
     }
 
-    /// What the strategy recommends, if the champion selection asks for it.
-    fn recommended(&self, selection: &ScheduledSelection<S::Genome>) -> Option<Candidate<S::Genome>> {
-        let genome = selection.champion_selection.takes_recommendation().then(|| self.strategy.recommendation())??;
-        Some(Candidate { genome, fitness: None, generation: self.progress.generations })
+    /// Re-evaluates those that wait and, if the champion selection asks for it, what the strategy recommends.
+    fn re_evaluate(
+        &self,
+        selection: &ScheduledSelection<S::Genome>,
+    ) -> Result<(ReEvaluationReport, Option<Champion<S::Genome>>), WrongCount> {
+        let asked = selection.champion_selection.takes_recommendation();
+        let recommended = asked.then(|| self.strategy.recommendation()).flatten();
+        let generation = self.progress.generations;
+        let recommended = recommended.map(|genome| Candidate { genome, fitness: None, generation });
+        let candidates: Vec<_> = self.candidates.iter().cloned().chain(recommended).collect();
+        selection.re_evaluate(&candidates, self.champion.as_ref().map(Champion::standing))
     }
 
     /// The best so far, if any evaluation succeeded.
@@ -314,9 +320,7 @@ impl<S: Strategy> Evolution<S> {
             return Ok(present);
         };
         let standing = |champion: &Option<Champion<S::Genome>>| champion.as_ref().map(Champion::standing);
-        let candidates: Vec<_> = self.candidates.iter().cloned().chain(self.recommended(selection)).collect();
-        let re_evaluated = selection.re_evaluate(&candidates, standing(&present));
-        let (_, best) = re_evaluated.map_err(|wrong| wrong.into_error(self.progress.generations))?;
+        let (_, best) = self.re_evaluate(selection).map_err(|wrong| wrong.into_error(self.progress.generations))?;
         Ok(if standing(&best) > standing(&present) { best } else { present })
     }
 

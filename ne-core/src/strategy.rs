@@ -50,9 +50,8 @@ pub trait Strategy: Serialize + Send {
         &[]
     }
 
-    /// What the strategy would answer with after `tell`, where that is none of the individuals it asks for: of a search by a
-    /// distribution the mean, in which the luck of single individuals averages out. `None`, the default: it has none, or nothing was
-    /// told yet. A candidate of [champion selections](crate::champion_selection::ChampionSelection::takes_recommendation) that ask for it.
+    /// The genome that the search would give as its answer now: of a search by a distribution its mean, in which the luck of single
+    /// individuals averages out. `None`, the default: it has none, or none at the moment. A candidate of [champion selections](crate::champion_selection::ChampionSelection::takes_recommendation) that ask for it.
     fn recommendation(&self) -> Option<Self::Genome> {
         None
     }

@@ -31,6 +31,11 @@ impl Nets {
         population
     }
 
+    /// The net at this centre of a search; none before there is one.
+    pub(crate) fn at(&self, centre: &[f64]) -> Option<WeightVector> {
+        (!centre.is_empty()).then(|| WeightVector::rounded(&self.topology, centre))
+    }
+
     /// Asks the next generation.
     pub(crate) fn ask(&mut self, population: Vec<WeightVector>) -> &[WeightVector] {
         self.population = population;

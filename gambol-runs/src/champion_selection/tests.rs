@@ -289,6 +289,9 @@ fn of_gaits_that_are_told_what_to_do_all_that_are_usable_are_compared() {
     assert_eq!(selection.tried(), [&compared[..], &[Trial::MoreCommands]].concat());
     selection.tiers(&all[..1], slow());
     assert_eq!(selection.tried(), [Trial::MoreCommands], "with nothing else to be compared with");
+    // What keeps little of its fitness is not compared with what keeps most of it.
+    let little = Candidate { varied: 0.5, ..of(9.0, true, 16) };
+    assert_eq!(selection.tiers(&[little, of(8.0, true, 10)], slow()).0, [0, 5]);
     // So many, the fittest.
     let many: Vec<Candidate> = (0..=COMPARED).map(|index| of(100.0 + index as f64, true, COMPARED - index)).collect();
     assert_eq!(selection.tiers(&many, slow()).0[..3], [0, 5, 0]);

@@ -190,7 +190,7 @@ pub struct RecordSettings {
     pub candidates: usize,
 }
 
-/// With the nine generations between checkpoints they are 32: two batches of 16 lanes.
+/// With the nine generations between checkpoints they are 32: two batches of 16 lanes. Of `playing` the mean of the population is one more.
 pub(crate) fn default_candidates() -> usize {
     23
 }

@@ -44,7 +44,8 @@ pub struct Judge {
 /// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
-const TRAINING: Purpose = Purpose::new("judge of training");
+/// For the worlds by which champions are chosen.
+pub(crate) const TRAINING: Purpose = Purpose::new("judge of training");
 
 /// A movement that is not judged is watched for so long, s.
 const UNJUDGED_SECONDS: f64 = 20.0;
@@ -67,10 +68,10 @@ impl Judge {
         Ok(Self { episode, movement, rules, lanes, seed: Seed::of_run(0), near: Arc::default() })
     }
 
-    /// The same judge, whose worlds draw from this seed, and not from the one of the worlds in which a saved champion is judged: a champion
+    /// The same judge, whose worlds draw from this seed for this purpose, and not from the one of the worlds in which a saved champion is judged: a champion
     /// is not to be chosen by the commands it is judged by.
-    pub(crate) fn drawing_from(self, seed: Seed) -> Self {
-        Self { seed: Seed::of_run(seed.stream(TRAINING).next_u64()), near: Arc::default(), ..self }
+    pub(crate) fn drawing_from(self, seed: Seed, purpose: Purpose) -> Self {
+        Self { seed: Seed::of_run(seed.stream(purpose).next_u64()), near: Arc::default(), ..self }
     }
 
     pub(crate) fn seed(&self) -> Seed {

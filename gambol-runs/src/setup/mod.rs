@@ -6,7 +6,7 @@ use crate::{
     Registry,
     config::{ControllerSettings, RunConfig, RungSettings, StrategySettings},
     episode_parts::SetupError,
-    judge::Judge,
+    judge::{Judge, TRAINING},
     reference::ReferenceEpisode,
     topology::{
         self,
@@ -142,7 +142,7 @@ impl Setup {
             true => {
                 let reference = parts.reference();
                 let (episode, task) = reference.build_both(config.engine, registry)?;
-                let judge = Judge::new(parts, registry)?.drawing_from(Seed::of_run(config.seed));
+                let judge = Judge::new(parts, registry)?.drawing_from(Seed::of_run(config.seed), TRAINING);
                 let proof = match config.variation.is_none() {
                     true => None,
                     false => Some(parts.proof().build_both(config.engine, registry)?.1),

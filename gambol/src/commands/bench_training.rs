@@ -5,7 +5,7 @@ use crate::{
     training::{TrainOptions, train},
 };
 use clap::Args;
-use ne_core::Parallel;
+use ne_core::{Fitness, Parallel};
 use serde::Serialize;
 use serde_json::json;
 use std::{error::Error, process::ExitCode, time::Instant};
@@ -124,7 +124,7 @@ impl Training {
             steps: progress.steps,
             microseconds_per_step_and_core: seconds * 1e6 * threads as f64 / progress.steps as f64,
             fitness: champion.map(|champion| champion.fitness.get()),
-            fitness_in_training: trained.map(|trained| trained.fitness.get()),
+            fitness_in_training: trained.and_then(|trained| trained.fitness).map(Fitness::get),
         })
     }
 }

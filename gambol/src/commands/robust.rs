@@ -36,7 +36,7 @@ pub(crate) struct Robust {
     #[arg(long, default_value_t = 100, allow_hyphen_values = true)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     perturbations: u32,
-    /// The seed of the worlds
+    /// The seed of the worlds, and of commands in them
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Worlds as this variation draws them for training, in place of the causes: a name (see: gambol variations)

@@ -57,11 +57,10 @@ fn explain(champion: &Champion, verification: &Verification, unchanged: bool) ->
         let (was, is) = (&champion.engine, &engine);
         say!("note: saved with {} {}, replayed with {} {}", was.name, was.version, is.name, is.version)?;
     }
-    // One from before the run was nothing in its training.
-    if let Some(trained) = champion.trained.as_ref().filter(|_| champion.generation > 0) {
+    if let Some((trained, fitness)) = champion.trained.as_ref().and_then(|trained| Some((trained, trained.fitness?))) {
         let worlds = if trained.variation.is_none() { "without variation" } else { "in worlds that vary" };
         let bodies = super::in_bodies(trained.bodies);
-        say!("training: fitness {} in {}, {worlds}{bodies}", trained.fitness, trained.engine.name())?;
+        say!("training: fitness {fitness} in {}, {worlds}{bodies}", trained.engine.name())?;
     }
     let again = match &evaluation.outcome {
         Ok(fitness) => format!("fitness {fitness}"),

@@ -164,7 +164,7 @@ impl Strategy for Ars {
     }
 
     fn recommendation(&self) -> Option<WeightVector> {
-        (!self.centre.is_empty()).then(|| WeightVector::rounded(&self.nets.topology, &self.centre))
+        self.nets.at(&self.centre)
     }
 
     fn statistics(&self) -> Vec<Statistic> {

@@ -173,7 +173,7 @@ impl Strategy for OpenEs {
     }
 
     fn recommendation(&self) -> Option<WeightVector> {
-        (!self.centre.is_empty()).then(|| WeightVector::rounded(&self.nets.topology, &self.centre))
+        self.nets.at(&self.centre)
     }
 
     fn statistics(&self) -> Vec<Statistic> {

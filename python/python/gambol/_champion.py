@@ -57,7 +57,7 @@ class Champion:
 
         Args:
             worlds: how many, from 1 to 100,000. Causes take turns: bumps, pushes, friction and mass, physics, all together.
-            seed: what the worlds are drawn from.
+            seed: what the worlds, and commands, are drawn from.
             variation: draws worlds as this variation does for training, in place of the causes.
 
         Returns:
