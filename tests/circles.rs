@@ -31,7 +31,8 @@ fn rust_files(path: &Path) -> Vec<PathBuf> {
 /// The text without comments and without the tests at its end.
 fn code(file: &Path) -> String {
     let text = fs::read_to_string(file).expect("a source file");
-    let product = text.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let shared = text.replace("#[cfg(test)]\npub(crate) mod tests {", "#[cfg(test)]\nmod tests {");
+    let product = shared.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
     product.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }
 

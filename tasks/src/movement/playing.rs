@@ -492,7 +492,7 @@ mod tests {
                 (speed, height, Command { speed: 1.0, jump: time < 0.2, since_press: time, ..Command::default() })
             })
         };
-        let worths = [1.0, 0.3, -0.5].map(flies);
+        let worths = [1.0, -0.3, -1.5].map(flies);
         assert!(worths.is_sorted_by(|one, other| one > other), "{worths:?}");
         // 0.8 of its 1.5 s are for the speed.
         assert!(worths[0] - worths[2] > 1.0, "{worths:?}");
