@@ -271,7 +271,7 @@ impl PerturbedReplays {
         let places: Vec<_> = worlds.iter().map(|world| (world.conditions.clone(), world.landscape.clone())).collect();
         let judge = self.judge.clone().drawing_from(Seed::of_run(seed), ROBUSTNESS);
         let first = indices.first().copied().unwrap_or_default();
-        let reports = Worlds::new(&judge, &places).from_trial(first).judge(&self.network);
+        let reports = Worlds::new(&judge, &places).beginning_with_trial(first).judge(&self.network);
         worlds.into_iter().zip(reports).map(|(world, report)| PerturbedTrial::new(&world, report)).collect()
     }
 }

@@ -176,7 +176,7 @@ pub(crate) mod tests {
                 assert!(robustness_check.usable(&champion.network, trial, count + 1) <= count);
                 let judge = robustness_check.judge_of(trial).in_rapier();
                 let worlds = (0..).zip(robustness_check.draw(trial));
-                let one_by_one = worlds.map(|(index, world)| Worlds::new(&judge, &[world]).from_trial(index));
+                let one_by_one = worlds.map(|(index, world)| Worlds::new(&judge, &[world]).beginning_with_trial(index));
                 assert_eq!(one_by_one.map(|world| world.usable(&champion.network, 0)).sum::<usize>(), count);
                 count
             })

@@ -111,6 +111,9 @@ pub struct ReEvaluationReport {
     pub diverged: bool,
 }
 
+/// What came of a re-evaluation, and the best candidate as the champion it would make.
+pub(crate) type ReEvaluated<G> = Result<(ReEvaluationReport, Option<Champion<G>>), WrongCount>;
+
 /// A champion selection gave too many or too few evaluations, so that none can be told whose it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct WrongCount {
@@ -132,11 +135,7 @@ impl<G> fmt::Debug for ScheduledSelection<G> {
 
 impl<G: Genome> ScheduledSelection<G> {
     /// Evaluates each candidate once; gives the best as the champion it would make.
-    pub(crate) fn re_evaluate(
-        &self,
-        candidates: &[Candidate<G>],
-        champion: Option<TieredFitness>,
-    ) -> Result<(ReEvaluationReport, Option<Champion<G>>), WrongCount> {
+    pub(crate) fn re_evaluate(&self, candidates: &[Candidate<G>], champion: Option<TieredFitness>) -> ReEvaluated<G> {
         let _span = tracing::debug_span!("re-evaluation", candidates = candidates.len()).entered();
         let candidates = distinct(candidates);
         let genomes: Vec<G> = candidates.iter().map(|candidate| candidate.genome.clone()).collect();

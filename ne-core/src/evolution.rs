@@ -3,7 +3,9 @@ use crate::{
     Progress, Quantiles, Seed, StopConditions, StopReason, StopSignal, Strategy, Task,
     archive::ArchiveError,
     champion::ranking,
-    champion_selection::{ChampionSelection, ReEvaluationReport, ReEvaluations, ScheduledSelection, WrongCount},
+    champion_selection::{
+        ChampionSelection, ReEvaluated, ReEvaluationReport, ReEvaluations, ScheduledSelection, WrongCount,
+    },
     checkpoint,
     promotion::{Decision, Promotion, StageState},
 };
@@ -292,10 +294,7 @@ impl<S: Strategy> Evolution<S> {
     }
 
     /// Re-evaluates those that wait and, if the champion selection asks for it, what the strategy recommends.
-    fn re_evaluate(
-        &self,
-        selection: &ScheduledSelection<S::Genome>,
-    ) -> Result<(ReEvaluationReport, Option<Champion<S::Genome>>), WrongCount> {
+    fn re_evaluate(&self, selection: &ScheduledSelection<S::Genome>) -> ReEvaluated<S::Genome> {
         let asked = selection.champion_selection.takes_recommendation();
         let recommended = asked.then(|| self.strategy.recommendation()).flatten();
         let generation = self.progress.generations;

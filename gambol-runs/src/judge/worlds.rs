@@ -59,7 +59,7 @@ impl Worlds {
 
     /// The same worlds, of which the first draws from the trial with this index: for those that are a part of more.
     #[must_use]
-    pub(crate) fn from_trial(self, first: u32) -> Self {
+    pub(crate) fn beginning_with_trial(self, first: u32) -> Self {
         Self { first, ..self }
     }
 
