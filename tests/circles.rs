@@ -31,8 +31,8 @@ fn rust_files(path: &Path) -> Vec<PathBuf> {
 /// The text without comments and without the tests at its end.
 fn code(file: &Path) -> String {
     let text = fs::read_to_string(file).expect("a source file");
-    let shared = text.replace("#[cfg(test)]\npub(crate) mod tests {", "#[cfg(test)]\nmod tests {");
-    let product = shared.split("#[cfg(test)]\nmod tests {").next().unwrap_or_default();
+    let tests = ["#[cfg(test)]\nmod tests {", "#[cfg(test)]\npub(crate) mod tests {"];
+    let product = tests.iter().fold(&text[..], |text, tests| text.split(tests).next().unwrap_or_default());
     product.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }
 

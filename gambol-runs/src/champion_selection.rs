@@ -151,8 +151,8 @@ impl ReferenceSelection {
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
-    /// Gaits are judged, the most promising first, until one is usable, or enough to be [compared](Self::steadiest). This one is tried in the perturbed worlds. One that would not become champion whatever came of it is
-    /// not looked at.
+    /// Gaits are judged, the most promising first, until one is usable, or enough of them to be [compared](Self::steadiest). That one,
+    /// or the best of these, is tried in the perturbed worlds. One that would not become champion whatever came of it is not looked at.
     fn tiers<G: Genome>(
         &self,
         candidates: &[G],

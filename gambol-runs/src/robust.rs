@@ -348,6 +348,14 @@ mod tests {
         assert_eq!(median(vec![4.0, 1.0, 2.0, 3.0]), 2.5);
     }
 
+    /// Else a run with the seed of `--seed` would be tried by what chose its champion.
+    #[test]
+    fn commands_are_others_than_those_of_training_with_the_same_seed() {
+        let judge = crate::perturbation::tests::judge("biped-1", "jumping");
+        let seed = |purpose| judge.clone().drawing_from(Seed::of_run(1), purpose).seed();
+        assert_ne!(seed(ROBUSTNESS), seed(crate::judge::TRAINING));
+    }
+
     /// In worlds that nothing else tells apart.
     #[test]
     fn every_world_has_commands_of_its_own() {

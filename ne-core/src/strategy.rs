@@ -51,7 +51,8 @@ pub trait Strategy: Serialize + Send {
     }
 
     /// The genome that the search would give as its answer now: of a search by a distribution its mean, in which the luck of single
-    /// individuals averages out. `None`, the default: it has none, or none at the moment. A candidate of [champion selections](crate::champion_selection::ChampionSelection::takes_recommendation) that ask for it.
+    /// individuals averages out. `None`, the default: it has none, or none at the moment. It is a candidate where a champion
+    /// selection [asks for it](crate::champion_selection::ChampionSelection::takes_recommendation).
     fn recommendation(&self) -> Option<Self::Genome> {
         None
     }

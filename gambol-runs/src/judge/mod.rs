@@ -68,8 +68,8 @@ impl Judge {
         Ok(Self { episode, movement, rules, lanes, seed: Seed::of_run(0), near: Arc::default() })
     }
 
-    /// The same judge, whose worlds draw from this seed for this purpose, and not from the one of the worlds in which a saved champion is judged: a champion
-    /// is not to be chosen by the commands it is judged by.
+    /// The same judge, whose worlds draw from this seed for this purpose, and not from the seed by which a saved champion is judged: a
+    /// champion is not to be chosen by the commands it is judged by.
     pub(crate) fn drawing_from(self, seed: Seed, purpose: Purpose) -> Self {
         Self { seed: Seed::of_run(seed.stream(purpose).next_u64()), near: Arc::default(), ..self }
     }
