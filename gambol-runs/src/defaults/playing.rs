@@ -86,13 +86,13 @@ const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
 /// The share of holds in which it is told to stand, once it can move.
 const STANDING: f32 = 0.25;
 
-/// The turns of the jump clocks, s: in the first a body has to crouch and to push off, half a second after the press at the latest;
-/// in the second it has to land. The sooner, the more time is left to be on its way again.
-const JUMP_CLOCKS: [f32; 2] = [0.4, 0.8];
+/// The turns of the jump clocks, s: for half of the first a body crouches, and for the rest it pushes off, half a second after the press
+/// at the latest; in the second it has to land. The sooner, the more time is left to be on its way again. A body that runs needs 0.3 s
+/// to come down: with a crouch of 0.2 s tetrapod-2 misses every second press (docs/playing-experiments.md).
+const JUMP_CLOCKS: [f32; 2] = [0.6, 0.9];
 
-/// The same for two legs with knees: with the shorter ones biped-2 does not jump, in three of three searches; with these biped-1 and
-/// tetrapod-2 miss more presses (docs/playing-experiments.md).
-const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.6, 1.2];
+/// The same for two legs with knees, which come down later, and land later.
+const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.7, 1.2];
 
 /// What a jump is worth while there is nothing else to learn, s.
 const JUMP_WORTH: f64 = 4.0;

@@ -134,7 +134,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
 #[test]
 fn two_legs_with_knees_have_more_time_to_jump_and_of_others_a_jump_counts_more_in_the_end() {
     for (creature, clocks) in
-        [("biped-1", [0.4, 0.8]), ("biped-2", [0.6, 1.2]), ("tetrapod-2", [0.4, 0.8]), ("decapod-1", [0.4, 0.8])]
+        [("biped-1", [0.6, 0.9]), ("biped-2", [0.7, 1.2]), ("tetrapod-2", [0.6, 0.9]), ("decapod-1", [0.6, 0.9])]
     {
         let stages = config(creature, "playing").stages;
         let [jump, polish] = ["jump", "polish"].map(|name| stages.iter().find(|stage| stage.name == name));
