@@ -86,12 +86,12 @@ const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
 /// The share of holds in which it is told to stand, once it can move.
 const STANDING: f32 = 0.25;
 
-/// The turns of the jump clocks, s: for half of the first a body crouches, and for the rest it pushes off, half a second after the press
-/// at the latest; in the second it has to land. The sooner, the more time is left to be on its way again. A body that runs needs 0.3 s
-/// to come down: with a crouch of 0.2 s tetrapod-2 misses every second press (docs/playing-experiments.md).
+/// The turns of the jump clocks, s: for half of the first a body crouches, and for the rest it pushes off: it has to be in the air
+/// half a second after the press. By the end of the second it has to have landed; the sooner, the more time is left to be on its way
+/// again. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
 const JUMP_CLOCKS: [f32; 2] = [0.6, 0.9];
 
-/// The same for two legs with knees, which come down later, and land later.
+/// The same for two legs with knees: with a first turn of 0.6 s, or a second of 1 s, biped-2 is playable in fewer schedules.
 const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.7, 1.2];
 
 /// What a jump is worth while there is nothing else to learn, s.
