@@ -143,7 +143,7 @@ fn steps(criterion: &mut Criterion) {
         let theirs = bare.world.bodies[bare.bodies[0]].translation().x;
         println!("{name}: after {STEPS} steps the torso is at {ours} m, in the bare world at {theirs} m");
         group.bench_function(BenchmarkId::new("whole", name), |bench| {
-            bench.iter(|| black_box(episode.play(&mut net, Seed::of_run(1), &mut ()).steps));
+            bench.iter(|| black_box(episode.play(&mut net, Seed::of_run(1), &mut ()).outcome.steps));
         });
         group.bench_function(BenchmarkId::new("bare", name), |bench| {
             bench.iter_batched(

@@ -33,6 +33,7 @@ impl Curriculum for WiderAndWider {
             name: format!("gaps-{stage}0"),
             config,
             promotion: Some(Arc::new(KeepsUp)),
+            is_goal: false,
             begins: Beginning::Before,
             transfer: None,
             allow_loss: false,

@@ -27,8 +27,8 @@ pub(crate) struct ReferenceSelection {
     /// In how many perturbed worlds it is, if training varies the world.
     steadiness: Option<Box<Steadiness>>,
     steps: Vec<(Trial, usize)>,
-    /// The trial that the usable candidates of a re-evaluation are compared in, if they are.
-    compared: Option<Trial>,
+    /// Which of the usable candidates of a re-evaluation goes on, if they are compared.
+    steadiest: Option<Box<Steadiest>>,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
@@ -39,6 +39,9 @@ type FirstUsable = dyn Fn(&[&dyn Phenotype], usize) -> Vec<usize> + Send + Sync;
 /// Says in how many perturbed worlds of a trial the gait of a controller is usable; any smaller number will do if it is so in
 /// fewer than are given.
 type Steadiness = dyn Fn(&dyn Phenotype, Trial, usize) -> usize + Send + Sync;
+
+/// Says which of these controllers is usable in most schedules of commands; of equals the first.
+type Steadiest = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
 
 /// In how many worlds of which trial a gait must be usable for one tier above [`USABLE`], for two and so on; one that fails
 /// at a step is not tried at those above. First a quarter of the worlds, half, three quarters, all but one. Finer steps would
@@ -106,6 +109,11 @@ fn network(phenotype: &dyn Phenotype) -> Option<Network> {
     Network::of(phenotype).map(Cow::into_owned)
 }
 
+/// All are nets, or none is.
+fn networks(phenotypes: &[&dyn Phenotype]) -> Vec<Network> {
+    phenotypes.iter().filter_map(|net| network(*net)).collect()
+}
+
 impl ReferenceSelection {
     /// The champion selection of a run.
     pub(crate) fn new(reference: &ReferenceEpisode, evaluator: Arc<Parallel>) -> Self {
@@ -118,22 +126,28 @@ impl ReferenceSelection {
             usable: reference.judge.clone().map(|judge| {
                 let evaluator = evaluator.clone();
                 let first_usable = move |phenotypes: &[&dyn Phenotype], most| {
-                    // All are nets, or none is.
-                    let networks: Vec<Network> = phenotypes.iter().filter_map(|net| network(*net)).collect();
+                    let networks = networks(phenotypes);
                     evaluator.install(|| judge.first_usable(&networks, most))
                 };
                 Box::new(first_usable) as Box<FirstUsable>
             }),
-            steadiness: reference.robustness_check.clone().map(|ground| {
+            steadiness: reference.robustness_check.clone().map(|check| {
                 let evaluator = evaluator.clone();
                 let steadiness = move |phenotype: &dyn Phenotype, trial, needed| {
-                    let usable = |network| evaluator.install(|| ground.usable(&network, trial, needed));
+                    let usable = |network| evaluator.install(|| check.usable(&network, trial, needed));
                     network(phenotype).map_or(0, usable)
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
+            steadiest: reference.robustness_check.clone().filter(|_| commanded).map(|check| {
+                let evaluator = evaluator.clone();
+                let steadiest = move |phenotypes: &[&dyn Phenotype]| {
+                    let networks = networks(phenotypes);
+                    evaluator.install(|| check.steadiest(&networks, Trial::Commands))
+                };
+                Box::new(steadiest) as Box<Steadiest>
+            }),
             steps: steps(commanded),
-            compared: commanded.then_some(Trial::Commands),
             seed: reference.seed,
             evaluator,
         }
@@ -151,7 +165,7 @@ impl ReferenceSelection {
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
-    /// Gaits are judged, the most promising first, until one is usable, or enough of them to be [compared](Self::steadiest). That one,
+    /// Gaits are judged, the most promising first, until one is usable, or enough of them to be [compared](Self::best_of). That one,
     /// or the best of these, is tried in the perturbed worlds. One that would not become champion whatever came of it is not looked at.
     fn tiers<G: Genome>(
         &self,
@@ -169,7 +183,7 @@ impl ReferenceSelection {
         // Those that keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-        let (judged, most) = if self.compared.is_some() { (COMPARED, COMPARED) } else { (JUDGED, 1) };
+        let (judged, most) = if self.steadiest.is_some() { (COMPARED, COMPARED) } else { (JUDGED, 1) };
         let first = &able[..able.len().min(judged)];
         let fittest = fittest.iter().take(judged).filter(|index| !first.contains(index));
         let tried: Vec<usize> = first.iter().chain(fittest).copied().collect();
@@ -181,7 +195,7 @@ impl ReferenceSelection {
         let most_hoped = usable.iter().map(|&place| self.hoped(kept[tried[place]], standing)).max();
         let usable: Vec<usize> =
             usable.into_iter().filter(|&place| Some(self.hoped(kept[tried[place]], standing)) == most_hoped).collect();
-        if let Some(best) = self.steadiest(&controllers, &usable) {
+        if let Some(best) = self.best_of(&controllers, &usable) {
             let best = tried[best];
             let hoped = self.hoped(kept[best], standing);
             let enough = (USABLE..=hoped).find(|&tier| place(best, tier) > standing).unwrap_or(hoped);
@@ -190,21 +204,16 @@ impl ReferenceSelection {
         tiers
     }
 
-    /// Of these usable controllers the one that is usable in most worlds of the trial they are compared in; of equals the first.
-    fn steadiest(&self, controllers: &[&dyn Phenotype], usable: &[usize]) -> Option<usize> {
-        let (&first, others) = usable.split_first()?;
-        let (Some(trial), Some(steadiness), false) = (self.compared, &self.steadiness, others.is_empty()) else {
-            return Some(first);
-        };
-        let _span = tracing::debug_span!("compared", candidates = usable.len()).entered();
-        let (mut best, mut most) = (first, 0);
-        for &index in usable {
-            let worlds = steadiness(controllers[index], trial, most + 1);
-            if worlds > most {
-                (best, most) = (index, worlds);
+    /// Of these usable controllers the first, or, where they are compared, the one that is usable in most schedules.
+    fn best_of(&self, controllers: &[&dyn Phenotype], usable: &[usize]) -> Option<usize> {
+        match &self.steadiest {
+            Some(steadiest) if usable.len() > 1 => {
+                let _span = tracing::debug_span!("compared", candidates = usable.len()).entered();
+                let chosen: Vec<&dyn Phenotype> = usable.iter().map(|&index| controllers[index]).collect();
+                steadiest(&chosen).map(|best| usable[best])
             }
+            _ => usable.first().copied(),
         }
-        Some(best)
     }
 
     /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
@@ -274,7 +283,7 @@ impl ReferenceSelection {
         let able = (0..candidates.len()).filter(|&index| place(index) > standing);
         let Some(best) = able.min_by_key(|&index| Reverse(place(index))) else { return true };
         let again = tracing::debug_span!("episode in rapier")
-            .in_scope(|| reference.evaluate(&mut candidates[best].express(), self.seed));
+            .in_scope(|| self.evaluator.install(|| reference.evaluate(&mut candidates[best].express(), self.seed)));
         let agree = again.outcome == evaluations[best].outcome;
         if !agree {
             let (lanes, rapier) = (&evaluations[best].outcome, &again.outcome);
@@ -290,7 +299,7 @@ impl<G: Genome> ChampionSelection<G> for ReferenceSelection {
     }
 
     fn takes_recommendation(&self) -> bool {
-        self.compared.is_some()
+        self.steadiest.is_some()
     }
 
     fn judge(&self, candidates: &[G], standing: Option<TieredFitness>) -> ReEvaluation {

@@ -1,7 +1,7 @@
 //! Where it is tried whether a candidate's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
-    judge::{Judge, TRAINING, worlds::Worlds},
+    judge::{Judge, TRAINING, chosen, worlds::Worlds},
     perturbation::{Cause, World},
 };
 use envs_core::{Conditions, Landscape, Variation};
@@ -83,8 +83,28 @@ impl RobustnessCheck {
     /// In how many of the worlds a controller's gait is usable, on the threads of the current pool; fewer than `needed`, how many
     /// does not matter, if it is so in fewer than these.
     pub(crate) fn usable(&self, network: &Network, trial: Trial, needed: usize) -> usize {
+        self.worlds(trial).usable(network, needed)
+    }
+
+    /// The one of these controllers whose gait is usable in most of the worlds; of equals the first.
+    pub(crate) fn steadiest(&self, networks: &[Network], trial: Trial) -> Option<usize> {
+        let worlds = self.worlds(trial);
+        let places: Vec<usize> = (0..networks.len()).collect();
+        let mut steadiest = None;
+        for some in places.chunks(worlds.at_once()) {
+            let needed = steadiest.map_or(0, |(_, most)| most + 1);
+            for (&place, usable) in some.iter().zip(worlds.usable_all(&chosen(networks, some), needed)) {
+                if steadiest.is_none_or(|(_, most)| usable > most) {
+                    steadiest = Some((place, usable));
+                }
+            }
+        }
+        steadiest.map(|(place, _)| place)
+    }
+
+    fn worlds(&self, trial: Trial) -> &Worlds {
         let build = || Worlds::new(&self.judge_of(trial), &self.draw(trial)).shortened(trial.seconds());
-        self.worlds[trial as usize].get_or_init(build).usable(network, needed)
+        self.worlds[trial as usize].get_or_init(build)
     }
 
     /// What is told where a gait was found usable is not told again where it is to be told something else.
@@ -182,6 +202,37 @@ pub(crate) mod tests {
             })
             .collect();
         assert!(counts.iter().any(|&count| count > 0), "no gait is ever usable: {counts:?}");
+    }
+
+    /// However many are played at once.
+    #[test]
+    fn several_gaits_are_judged_as_each_is_alone() {
+        let as_soon_as_usable =
+            StopConditions { generations: Some(40), tier: Some(USABLE), ..StopConditions::default() };
+        let usable = [1, 2, 3].map(|seed| champion("tetrapod-1", "running", seed, as_soon_as_usable));
+        let one_generation = StopConditions { generations: Some(1), ..StopConditions::default() };
+        let others = [4, 5, 6].map(|seed| champion("tetrapod-1", "running", seed, one_generation));
+        let judge = Judge::new(usable[0].episode_parts(), &Registry::default()).expect("builds");
+        let check = RobustnessCheck::new(judge.clone(), Seed::of_run(1));
+        let networks: Vec<Network> = others
+            .iter()
+            .zip(&usable)
+            .flat_map(|(other, usable)| [other, usable])
+            .map(|it| it.network.clone())
+            .collect();
+        let alone: Vec<usize> = (0..networks.len()).filter(|&index| judge.is_usable(&networks[index])).collect();
+        assert!(alone.len() >= 2, "{alone:?}");
+        let counts: Vec<usize> = networks.iter().map(|network| check.usable(network, Trial::Short, 0)).collect();
+        let most = (0..counts.len()).min_by_key(|&index| std::cmp::Reverse(counts[index]));
+        for threads in [1, 2, 5] {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
+            for first in [1, 2, networks.len()] {
+                let expected = &alone[..alone.len().min(first)];
+                assert_eq!(pool.install(|| judge.first_usable(&networks, first)), expected);
+            }
+            assert_eq!(pool.install(|| check.steadiest(&networks, Trial::Short)), most, "{counts:?}");
+        }
+        assert_eq!(check.steadiest(&[], Trial::Short), None);
     }
 
     #[test]

@@ -47,8 +47,10 @@ pub struct ReEvaluations {
     /// the less changes from one generation to the next; but re-evaluations do not die out, lest an old run keep the champion of
     /// its youth.
     pub every: u64,
-    /// So many of the best of the generation just evaluated, with the best of each generation since the last re-evaluation (from
-    /// 16 times `every` on of each two, from 32 times on of each four, so that no more of them wait); at least 1.
+    /// The best of each so many generations since the last re-evaluation is a candidate, too (from 16 times `every` on of each twice as
+    /// many, from 32 times on of each four times as many, so that no more of them wait); at least 1.
+    pub group: u64,
+    /// So many of the best of the generation just evaluated; at least 1.
     pub candidates: usize,
 }
 
@@ -70,10 +72,9 @@ impl ReEvaluations {
         age.checked_ilog2().map_or(0, |doublings| (doublings + 1).min(RAREST))
     }
 
-    /// Keeps the best of a generation without a re-evaluation as a candidate. Where re-evaluations are far apart, only the
-    /// best of two or four generations in a row is kept, so that never more than 2 × [`every`](Self::every) wait.
+    /// Keeps the best of a generation without a re-evaluation as a candidate, or of a [group](Self::group) of them.
     pub(crate) fn keep<G>(&self, waiting: &mut Vec<Candidate<G>>, candidate: Candidate<G>) {
-        let group = 1 << self.doublings(candidate.generation).saturating_sub(1);
+        let group = self.group.max(1) << self.doublings(candidate.generation).saturating_sub(1);
         let group_of = |generation: u64| generation.div_ceil(group);
         match waiting.last_mut().filter(|last| group_of(last.generation) == group_of(candidate.generation)) {
             None => waiting.push(candidate),
@@ -90,6 +91,9 @@ impl ReEvaluations {
     pub fn validate(&self) -> Result<(), SettingError> {
         if self.every == 0 {
             return Err(SettingError::new("every", 0, "at least 1"));
+        }
+        if self.group == 0 {
+            return Err(SettingError::new("group", 0, "at least 1"));
         }
         SettingError::check_at_least("candidates", self.candidates, 1)
     }
@@ -175,14 +179,14 @@ mod tests {
     #[test]
     fn re_evaluations_become_rarer_as_the_run_gets_older() {
         let re_evaluated = |every, generations| {
-            let re_evaluations = ReEvaluations { every, candidates: 1 };
+            let re_evaluations = ReEvaluations { every, group: 1, candidates: 1 };
             (1..=generations).filter(|&generation| re_evaluations.span(generation).is_some()).collect::<Vec<_>>()
         };
         let first = [10, 20, 30, 40, 50, 60, 70, 80, 100, 120, 140, 160, 200, 240, 280, 320, 400, 480, 560, 640];
         assert_eq!(re_evaluated(10, 719), first);
         assert_eq!(re_evaluated(1, 24), [1, 2, 3, 4, 5, 6, 7, 8, 10, 12, 14, 16, 20, 24]);
         // Every generation lies in one span, and in no two.
-        let spans = |generation| ReEvaluations { every: 3, candidates: 1 }.span(generation);
+        let spans = |generation| ReEvaluations { every: 3, group: 1, candidates: 1 }.span(generation);
         assert_eq!((1..=3 * 64).filter_map(spans).sum::<u64>(), 3 * 64);
         assert_eq!((10_000..20_000).filter_map(spans).max(), Some(24), "they do not die out");
     }

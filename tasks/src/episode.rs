@@ -45,10 +45,8 @@ impl<F: FnMut(&Moment<'_>)> Watcher for F {
 pub struct Played {
     /// The movement after the last step.
     pub movement: Box<dyn Movement>,
-    /// Steps done.
-    pub steps: u32,
-    /// What went wrong, if anything did.
-    pub failure: Option<Failure>,
+    /// How it ended.
+    pub outcome: Outcome,
 }
 
 impl<E: Environment> Episode<E> {
@@ -103,10 +101,11 @@ impl<E: Environment> Episode<E> {
     pub fn play(&self, phenotype: &mut dyn Phenotype, seed: Seed, watcher: &mut impl Watcher) -> Played {
         let mut state = EvaluationState::new(self);
         if let Err(failure) = self.check_shape(phenotype) {
-            return Played { movement: state.movement, steps: 0, failure: Some(failure) };
+            let outcome = Outcome { steps: 0, time_step: state.environment.time_step(), failure: Some(failure) };
+            return Played { movement: state.movement, outcome };
         }
-        let (steps, failure) = state.play(phenotype, seed, self.steps, watcher);
-        Played { movement: state.movement, steps, failure }
+        let outcome = state.play(phenotype, seed, self.steps, watcher);
+        Played { movement: state.movement, outcome }
     }
 }
 
@@ -125,8 +124,14 @@ impl<E: Environment> EvaluationState<E> {
         Self { environment, movement: episode.movement.clone(), inputs, outputs }
     }
 
-    /// One trial; returns the steps done and the failure that ended it, if one did.
-    fn play(
+    /// One trial.
+    fn play(&mut self, phenotype: &mut dyn Phenotype, seed: Seed, steps: u32, watcher: &mut impl Watcher) -> Outcome {
+        let (steps, failure) = self.steps(phenotype, seed, steps, watcher);
+        Outcome { steps, time_step: self.environment.time_step(), failure }
+    }
+
+    /// The steps of a trial, how many were done, and the failure that ended it, if one did.
+    fn steps(
         &mut self,
         phenotype: &mut dyn Phenotype,
         seed: Seed,
@@ -185,8 +190,7 @@ impl<E: Environment> Task for Episode<E> {
         let mut tally = Tally::new(self.trials);
         let mut trial: Option<Trial> = None;
         loop {
-            let (steps, failure) = state.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
-            let outcome = Outcome { steps, time_step: state.environment.time_step(), failure };
+            let outcome = state.play(phenotype, seed.trial(tally.next_trial()), self.steps, &mut ());
             match &mut trial {
                 Some(trial) => trial.renew(outcome, &*state.movement),
                 None => trial = Some(Trial::new(outcome, &*state.movement)),

@@ -204,7 +204,7 @@ fn a_movement_that_fails_fails_the_evaluation_and_says_why() {
         let evaluation = episode.evaluate(&mut Constant(1.0), SEED);
         assert_eq!((evaluation.outcome, evaluation.steps), (Err(too_far.clone()), 7), "{what}");
         let played = episode.play(&mut Constant(1.0), SEED, &mut ());
-        assert_eq!((played.steps, played.failure), (7, Some(too_far.clone())), "{what}");
+        assert_eq!((played.outcome.steps, played.outcome.failure), (7, Some(too_far.clone())), "{what}");
     }
     // In the last step it is as bad as in any other.
     let last = episode(PointMass::new(), Disqualifies(0.1), 7, ONE).evaluate(&mut Constant(1.0), SEED);
@@ -255,7 +255,7 @@ fn a_controller_of_another_shape_fails() {
     let expected = Failure::ShapeMismatch { found_inputs: 3, found_outputs: 1, inputs: 2, outputs: 1 };
     assert_eq!(episode.evaluate(&mut Puppet::new(3, 1, 0).express(), SEED).outcome, Err(expected.clone()));
     let played = episode.play(&mut Puppet::new(3, 1, 0).express(), SEED, &mut ());
-    assert_eq!((played.steps, played.failure), (0, Some(expected)));
+    assert_eq!((played.outcome.steps, played.outcome.failure), (0, Some(expected)));
 }
 
 #[test]
@@ -379,7 +379,7 @@ fn play_shows_a_watcher_what_an_evaluation_does() {
     let mut puppet = Puppet::new(2, 1, 4).express();
     let played = episode.play(&mut puppet, SEED.trial(0), &mut watcher);
     assert_eq!(played.movement.value(), fitness(&episode.evaluate(&mut puppet, SEED)));
-    assert_eq!((played.steps, played.failure), (20, None));
+    assert_eq!((played.outcome.steps, played.outcome.failure), (20, None));
     assert_eq!(seen.iter().map(|(step, ..)| *step).collect::<Vec<_>>(), (0..=20).collect::<Vec<_>>());
     assert_eq!((&seen[0].2[..], &seen[0].3[..]), (&[0.0, 0.0][..], &[0.0][..]));
     // What the controller saw before a step is where the mass was after the step before.

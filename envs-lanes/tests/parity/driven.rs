@@ -78,7 +78,7 @@ fn compare(name: &str, variation: Variation) {
 fn episode_fitness<E: Environment>(episode: &Episode<E>, net: &mut dyn Phenotype, seed: Seed) -> f64 {
     if seed.trial_index() > 0 {
         let played = episode.play(net, seed, &mut ());
-        assert_eq!(played.failure, None);
+        assert_eq!(played.outcome.failure, None);
         return played.movement.value();
     }
     episode.evaluate(net, seed).fitness().expect("it does not fail").get()

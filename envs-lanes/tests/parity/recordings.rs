@@ -42,7 +42,7 @@ impl Scene {
         let mut shown = Vec::new();
         let mut watch = |moment: &Moment<'_>| shown.push(moment.snapshot.clone());
         let played = episode.play(&mut network.clone(), seed(play), &mut watch);
-        (shown, Outcome { steps: played.steps, time_step, failure: played.failure })
+        (shown, Outcome { time_step, ..played.outcome })
     }
 }
 

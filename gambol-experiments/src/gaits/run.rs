@@ -5,14 +5,18 @@ use creatures::Blueprint;
 use gambol_runs::{
     Registry,
     champion::Champion,
-    config::RunConfig,
+    config::{Origin, RunConfig},
     gait,
     judge::USABLE,
     robust::{Perturbations, robustness},
-    training::{TrainOptions, train},
+    run::Run,
+    shaping::{PlannedStage, ShapingError, StageProgress},
+    strategies::AnyStrategy,
+    training::{Outcome, Resources},
 };
+use ne_core::{Generation, StopReason};
 use serde::{Deserialize, Serialize};
-use std::time::Instant;
+use std::{cell::Cell, path::Path, time::Instant};
 use tasks::gait::Goal;
 
 /// What came of one run.
@@ -29,9 +33,9 @@ pub struct GaitRun {
     pub usable: bool,
     /// What speaks against it.
     pub reasons: Vec<String>,
-    /// Seconds until the champion was first usable.
+    /// Seconds until the champion was first usable; of a run with stages in one that learns what the whole run is for.
     pub seconds_to_usable: Option<f64>,
-    /// Physics steps until then.
+    /// Physics steps until then; of a run with stages those of all that came before.
     pub steps_to_usable: Option<u64>,
     /// Seconds the training took, champion selection included.
     pub seconds: f64,
@@ -60,18 +64,8 @@ impl GaitRun {
     ) -> Result<Self, GaitsError> {
         let folder = tempfile::tempdir().map_err(GaitsError::Temporary)?;
         let began = Instant::now();
-        let mut first = None;
-        let options = TrainOptions {
-            threads,
-            registry: registry.clone(),
-            signal: Default::default(),
-            on_generation: &mut |generation| {
-                if first.is_none() && generation.report.tier >= USABLE {
-                    first = Some((began.elapsed().as_secs_f64(), generation.report.steps));
-                }
-            },
-        };
-        let outcome = train(config, &folder.path().join("run"), options)?;
+        let resources = Resources { threads, registry: registry.clone(), signal: Default::default() };
+        let (outcome, first) = until_over(config, &folder.path().join("run"), resources, began)?;
         let seconds = began.elapsed().as_secs_f64();
         let mut run = Self {
             creature: config.creature.name.clone(),
@@ -115,4 +109,37 @@ impl GaitRun {
         }
         Ok(())
     }
+}
+
+/// When a champion was first usable: seconds, and physics steps.
+type First = Option<(f64, u64)>;
+
+/// The run to its end, with stages or without.
+fn until_over(
+    config: &RunConfig,
+    folder: &Path,
+    resources: Resources,
+    began: Instant,
+) -> Result<(Outcome, First), ShapingError> {
+    let (is_goal, before, in_stage) = (Cell::new(config.stages.is_empty()), Cell::new(0), Cell::new(0));
+    let mut run = Run::begin(config, folder, resources)?;
+    let mut first = None;
+    let reason: StopReason = loop {
+        let mut on_stage_run = |stage: &PlannedStage, _: Option<&Origin>| {
+            is_goal.set(stage.is_goal);
+            before.set(before.get() + in_stage.take());
+        };
+        let mut on_generation = |generation: &Generation<'_, AnyStrategy>| {
+            in_stage.set(generation.report.steps);
+            if first.is_none() && is_goal.get() && generation.report.tier >= USABLE {
+                first = Some((began.elapsed().as_secs_f64(), before.get() + in_stage.get()));
+            }
+        };
+        if let Some(reason) =
+            run.generation(&mut StageProgress { on_stage_run: &mut on_stage_run }, &mut on_generation)?
+        {
+            break reason;
+        }
+    };
+    Ok((run.finish(reason)?, first))
 }

@@ -7,7 +7,7 @@ use super::{
 use crate::work::{Ended, Part, Work, WorkOptions};
 use creatures::CreatureError;
 use gambol_runs::{
-    Registry, config::RunConfig, gait::GaitOfChampionError, robust::RobustnessError, training::TrainError,
+    Registry, config::RunConfig, gait::GaitOfChampionError, robust::RobustnessError, shaping::ShapingError,
 };
 use ne_core::{archive::ArchiveError, digest::Digest};
 use std::{
@@ -40,7 +40,7 @@ pub enum GaitsError {
     Temporary(#[source] io::Error),
     /// It cannot be trained.
     #[error(transparent)]
-    Train(#[from] TrainError),
+    Train(#[from] ShapingError),
     /// Its gait cannot be judged.
     #[error(transparent)]
     Gait(#[from] GaitOfChampionError),

@@ -110,7 +110,7 @@ impl ScheduledSelection {
             usable: Some(Box::new(usable)),
             steadiness: Some(Box::new(steadiness)),
             steps: STEPS.into(),
-            compared: None,
+            steadiest: None,
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
@@ -249,7 +249,13 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
 fn of_commanded() -> ScheduledSelection {
     let mut selection = ScheduledSelection::new(reference, None);
     selection.champion_selection.steps = steps(true);
-    selection.champion_selection.compared = Some(Trial::Commands);
+    let register = selection.tried.clone();
+    let steadiest = move |phenotypes: &[&dyn Phenotype]| {
+        register.lock().expect("no test panics here").extend(phenotypes.iter().map(|_| Trial::Commands));
+        let worlds = |index: &usize| candidate(phenotypes[*index]).commanded[0];
+        (0..phenotypes.len()).min_by_key(|index| Reverse(worlds(index)))
+    };
+    selection.champion_selection.steadiest = Some(Box::new(steadiest));
     selection
 }
 

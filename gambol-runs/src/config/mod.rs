@@ -14,7 +14,7 @@ pub use strategy::StrategySettings;
 
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
-use ne_core::{SettingError, StopConditions, champion_selection::ReEvaluations};
+use ne_core::{SettingError, StopConditions};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{Commands, MovementSpec, Trials};
@@ -182,9 +182,9 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
-    /// With variation, shortened training episodes or further bodies: with each checkpoint so many of the best of the generation, and the best of
-    /// each generation since the last, are evaluated in one whole episode of the creature without variation, and the best of
-    /// them may become champion; from 1 to 1000, default 23.
+    /// With variation, shortened training episodes or further bodies: with each checkpoint, or more seldom where that takes much longer than
+    /// training, so many of the best of the generation, and the best of generations since the last time, are evaluated in whole episodes of
+    /// the creature without variation, and the best of them may become champion; from 1 to 1000, default 23.
     #[serde(default = "default_candidates")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub candidates: usize,
@@ -201,10 +201,5 @@ impl RecordSettings {
             return Err(SettingError::new("checkpoint_every", 0, "at least 1"));
         }
         SettingError::check_range("candidates", self.candidates as f64, 1.0, 1000.0)
-    }
-
-    /// When a champion selection sits, where there is one.
-    pub(crate) fn re_evaluations(&self) -> ReEvaluations {
-        ReEvaluations { every: self.checkpoint_every, candidates: self.candidates }
     }
 }

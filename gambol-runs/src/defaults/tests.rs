@@ -3,8 +3,10 @@ use crate::{
     Registry,
     config::{LimbPhases, RunConfig, StageSettings},
     setup::Setup,
+    shaping::Stages,
 };
 use creatures::{Actuation, Sensor};
+use ne_core::champion_selection::ReEvaluations;
 use ne_fixed::{CmaEsSettings, Restart};
 use tasks::Commands;
 
@@ -179,4 +181,27 @@ fn playing_ends_after_steps_and_not_after_generations() {
         let stop = config(creature, movement).stop;
         assert_eq!((stop.generations, stop.steps), (generations, steps), "{creature} {movement}");
     }
+}
+
+/// A candidate for the champion of `playing` is told what to do in eight whole schedules.
+#[test]
+fn re_evaluations_are_rarer_where_each_takes_long() {
+    let registry = Registry::default();
+    let every = |config: &RunConfig| {
+        let ReEvaluations { every, group, candidates } =
+            Setup::new(config, &registry).expect("valid").re_evaluations(config);
+        assert_eq!((every, candidates), (10 * group, 23));
+        every
+    };
+    for creature in creatures::shipped() {
+        for movement in ["running", "jumping"] {
+            assert_eq!(every(&config(creature.name, movement)), 10, "{} {movement}", creature.name);
+        }
+    }
+    let of_stages = |creature| {
+        let stages = Stages::new(&config(creature, "playing"), &registry).expect("valid");
+        stages.configs().map(|(_, stage)| every(stage)).collect::<Vec<_>>()
+    };
+    assert_eq!(of_stages("biped-2"), [110, 40, 20, 20, 20]);
+    assert_eq!(of_stages("tetrapod-1"), [20, 20, 20, 20, 20]);
 }

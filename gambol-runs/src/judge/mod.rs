@@ -159,16 +159,24 @@ impl Judge {
         let Some(reference) = Worlds::reference(self) else {
             return (0..networks.len()).filter(|&index| self.is_usable(&networks[index])).take(most).collect();
         };
-        let verdicts = reference.verdicts(networks).into_iter().map(|verdicts| verdicts.into_iter().next()?);
-        let is_usable = |(index, verdict): (usize, Option<Judgement>)| {
-            if verdict.is_none_or(|verdict| !verdict.usable) {
-                return None;
+        let is_usable = |verdicts: &[Option<Judgement>]| verdicts.iter().flatten().any(|verdict| verdict.usable);
+        let verdicts = reference.verdicts(networks);
+        let promising: Vec<usize> = (0..networks.len()).filter(|&index| is_usable(&verdicts[index])).collect();
+        if promising.is_empty() {
+            return promising;
+        }
+        let near = self.near();
+        let required = NearWorlds::required(near.len());
+        let mut found = Vec::new();
+        for some in promising.chunks(near.at_once()) {
+            let usable = near.usable_all(&chosen(networks, some), required);
+            found.extend(some.iter().zip(usable).filter_map(|(&index, usable)| (usable >= required).then_some(index)));
+            if found.len() >= most {
+                break;
             }
-            let near = self.near();
-            let required = NearWorlds::required(near.len());
-            (near.usable(&networks[index], required) >= required).then_some(index)
-        };
-        verdicts.enumerate().filter_map(is_usable).take(most).collect()
+        }
+        found.truncate(most);
+        found
     }
 
     /// The same judge, where nothing is played in lanes.
@@ -176,6 +184,11 @@ impl Judge {
     pub(crate) fn in_rapier(self) -> Self {
         Self { lanes: None, near: Arc::default(), ..self }
     }
+}
+
+/// The controllers at these places.
+pub(crate) fn chosen(networks: &[Network], places: &[usize]) -> Vec<Network> {
+    places.iter().map(|&place| networks[place].clone()).collect()
 }
 
 fn with_near_worlds(verdict: Judgement, near: Option<NearWorlds>) -> Judgement {

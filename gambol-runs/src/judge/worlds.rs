@@ -141,11 +141,24 @@ impl Worlds {
     /// In how many worlds nothing but its length speaks against the gait of a controller; fewer than `needed`, how many does
     /// not matter, if it is so in fewer than these.
     pub(crate) fn usable(&self, network: &Network, needed: usize) -> usize {
+        self.usable_all(std::slice::from_ref(network), needed).first().copied().unwrap_or(0)
+    }
+
+    /// The same for several controllers.
+    pub(crate) fn usable_all(&self, networks: &[Network], needed: usize) -> Vec<usize> {
         let length = |reason: &Reason| matches!(reason, Reason::TooShort { .. });
         let sound = |verdict: &Judgement| verdict.reasons.iter().all(length);
         let most = self.len().saturating_sub(needed);
-        let reports = self.play(std::slice::from_ref(network), Until::Lost { most });
-        reports.into_iter().flatten().flatten().filter_map(|report| report.verdict).filter(sound).count()
+        let reports = self.play(networks, Until::Lost { most });
+        let count = |reports: Vec<Option<GaitReport>>| {
+            reports.into_iter().flatten().filter_map(|report| report.verdict).filter(sound).count()
+        };
+        reports.into_iter().map(count).collect()
+    }
+
+    /// So many controllers keep all threads of the current pool at work, with no lane empty.
+    pub(crate) fn at_once(&self) -> usize {
+        (LANES * rayon::current_num_threads() / self.len().max(1)).max(1)
     }
 
     fn judge_in_lanes(&self, pairs: &[Pair<'_, LaneEnvironment>], until: Until) -> Vec<(usize, Option<Gait>)> {

@@ -4,7 +4,7 @@ mod further_bodies;
 
 use crate::{
     Registry,
-    config::{ControllerSettings, RunConfig, RungSettings, StrategySettings},
+    config::{ControllerSettings, RecordSettings, RunConfig, RungSettings, StrategySettings},
     episode_parts::SetupError,
     judge::{Judge, TRAINING},
     reference::ReferenceEpisode,
@@ -16,7 +16,7 @@ use crate::{
 };
 use creatures::{Actuation, Channel};
 use envs_rapier::RapierEnvironment;
-use ne_core::{Seed, SettingError, successive_halving::Rung};
+use ne_core::{Seed, SettingError, champion_selection::ReEvaluations, successive_halving::Rung};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
 use tasks::{Episode, Medium, MovementSpec, TermSpec};
@@ -169,6 +169,17 @@ impl Setup {
         Ok(Self { task, rungs, episode, reference, topology, weight_names, by_hand, searched, unit, objectives })
     }
 
+    /// When candidates are re-evaluated, and how many. Where a candidate then takes more than [`LONGER`] times the steps it takes in
+    /// training, re-evaluations are so much rarer, and no more candidates wait for them.
+    pub(crate) fn re_evaluations(&self, config: &RunConfig) -> ReEvaluations {
+        let steps = |trials: u32, steps: u32| u64::from(trials) * u64::from(steps);
+        let whole = self.reference.as_ref().map_or(0, |it| steps(it.trials.count, it.episode.steps()));
+        let training = steps(config.trials.count, self.task.steps()) * config.bodies().max(1) as u64;
+        let rarer = whole.div_ceil(LONGER * training.max(1)).max(1);
+        let RecordSettings { checkpoint_every, candidates, .. } = config.record;
+        ReEvaluations { every: checkpoint_every.saturating_mul(rarer), group: rarer, candidates }
+    }
+
     /// The rungs that come before the task of training, the first one first.
     pub fn rungs(&self) -> Vec<Rung> {
         let rung = |&RungSettings { steps, trials, share }: &RungSettings| {
@@ -201,6 +212,9 @@ fn objectives(movement: &MovementSpec, registry: &Registry, unit: &str) -> Vec<O
     };
     movement.objectives.iter().map(objective).collect()
 }
+
+/// A re-evaluation may take so many times the steps of training for each candidate, and no longer, without being rarer for it.
+const LONGER: u64 = 3;
 
 /// The most weights that a population has altogether: 1 GiB of them.
 const MOST_WEIGHTS: usize = 1 << 28;

@@ -43,6 +43,8 @@ pub struct PlannedStage {
     pub config: RunConfig,
     /// When it is passed; `None`: it goes on until the run ends.
     pub promotion: Option<Arc<dyn Promotion>>,
+    /// Whether it learns what the whole run is for, so that the fitness or the tier that the run is to reach can end it here.
+    pub is_goal: bool,
     /// Where it begins.
     pub begins: Beginning,
     /// What it takes from the stage run in which it begins; `None`: as much as it can.

@@ -15,7 +15,10 @@ use crate::{
     training::{Answers, Outcome, Resources, Step, TrainError, Training},
 };
 use ne_core::{Generation, Progress, StopConditions, StopReason, promotion::Decision};
-use std::{path::Path, time::Instant};
+use std::{
+    path::Path,
+    time::{Duration, Instant},
+};
 
 /// A run with stages under way, which does one generation at a time, as a [`Training`] does for one without.
 pub struct StagedTraining<C> {
@@ -26,6 +29,8 @@ pub struct StagedTraining<C> {
     began: Instant,
     /// Those that are over.
     stage_runs: Vec<StageRun>,
+    /// What the run is to reach, once it is reached, though the stage was passed at the same moment.
+    reached: Option<StopReason>,
     current: Option<Current>,
     /// Whether the folder's configuration has other stop conditions still: it is written once the stages are known to be whole.
     has_new_stop: bool,
@@ -106,7 +111,8 @@ impl<C: Curriculum> StagedTraining<C> {
     fn new(curriculum: C, config: RunConfig, folder: RunFolder, _lock: FolderLock, resources: Resources) -> Self {
         let began = Instant::now();
         let stage_runs = Vec::new();
-        Self { curriculum, config, folder, resources, began, stage_runs, current: None, has_new_stop: false, _lock }
+        let (reached, current) = (None, None);
+        Self { curriculum, config, folder, resources, began, stage_runs, reached, current, has_new_stop: false, _lock }
     }
 
     /// Where it writes.
@@ -208,24 +214,38 @@ impl<C: Curriculum> StagedTraining<C> {
         training.finish(reason).map_err(|error| self.of_the_run(error.into()))?;
         let passed = stage_run(&stage_folder, number, planned.stage, &planned.name)?;
         let goes_on = passed.decision != Decision::Stay;
-        self.stage_runs.push(passed);
+        self.leave(&planned, passed);
         keep_champion(&self.folder, &self.stage_runs)?;
         Ok(goes_on)
+    }
+
+    /// Adds a stage run that is over to the others.
+    fn leave(&mut self, planned: &PlannedStage, stage_run: StageRun) {
+        let StopConditions { target, tier, .. } = self.config.stop;
+        let goal = StopConditions { target, tier, ..StopConditions::default() };
+        if planned.is_goal {
+            self.reached = goal.reached(&stage_run.progress, stage_run.champion, Duration::ZERO);
+        }
+        self.stage_runs.push(stage_run);
     }
 
     /// Goes past the stages that are over, and begins the next, or takes it up again.
     fn next(&mut self, stage_progress: &mut StageProgress<'_>) -> Result<Next, ShapingError> {
         while let Some(planned) = self.curriculum.next(&self.stage_runs) {
+            if let Some(reason) = self.reached {
+                return Ok(Next::End(reason));
+            }
             let number = self.stage_runs.len() + 1;
             let path = self.folder.stages().join(format!("{number:02}-{}", planned.name));
             let stage_folder = RunFolder::at(&path);
             let is_begun = stage_folder.is_begun();
             let begun = || stage_run(&stage_folder, number, planned.stage, &planned.name);
             if is_begun && stage_folder.read_standing()?.decision != Decision::Stay {
-                self.stage_runs.push(begun()?);
+                let passed = begun()?;
+                self.leave(&planned, passed);
                 continue;
             }
-            let stop = limits(self.config.stop, total(&self.stage_runs), planned.promotion.is_some());
+            let stop = limits(self.config.stop, total(&self.stage_runs), &planned);
             if let Some(reason) = exhausted(stop) {
                 if is_begun {
                     self.stage_runs.push(begun()?);
@@ -324,18 +344,18 @@ fn begin(
     Ok(Training::begin_stage_run(search, &config, departure.setup, path, now, promotion, resources)?)
 }
 
-/// The limits of a stage run: what is left of the budgets. A fitness, a tier or stagnation ends the run only in a stage without
-/// a rule of its own.
-fn limits(stop: StopConditions, used: Progress, has_rule: bool) -> StopConditions {
+/// The limits of a stage run: what is left of the budgets. A fitness or a tier ends the run only in a stage that learns what the run is
+/// for, and stagnation in one without a rule of its own.
+fn limits(stop: StopConditions, used: Progress, planned: &PlannedStage) -> StopConditions {
     let left = |limit: Option<u64>, used: u64| limit.map(|limit| limit.saturating_sub(used));
     StopConditions {
         generations: left(stop.generations, used.generations),
         evaluations: left(stop.evaluations, used.evaluations),
         steps: left(stop.steps, used.steps),
         minutes: stop.minutes,
-        target: stop.target.filter(|_| !has_rule),
-        tier: stop.tier.filter(|_| !has_rule),
-        stagnation: stop.stagnation.filter(|_| !has_rule),
+        target: stop.target.filter(|_| planned.is_goal),
+        tier: stop.tier.filter(|_| planned.is_goal),
+        stagnation: stop.stagnation.filter(|_| planned.promotion.is_none()),
     }
 }
 

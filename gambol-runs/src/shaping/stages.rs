@@ -113,6 +113,12 @@ impl Stages {
         end.map_or(Beginning::Before, |stage_run| Beginning::After(stage_run.number))
     }
 
+    /// Whether no later stage changes what is learned.
+    fn is_goal(&self, stage: usize) -> bool {
+        let mut later = self.stages.iter().skip(stage + 1).map(|(settings, _)| settings);
+        later.all(|settings| settings.changes.is_empty() && settings.add_sensors.is_empty())
+    }
+
     /// How an attempt at this stage is given up; `None`: it is not, or all attempts are over.
     fn give_up(&self, stage: usize, stage_runs: &[StageRun]) -> Option<&GiveUp> {
         let give_up = self.stages.get(stage)?.0.give_up.as_ref()?;
@@ -178,6 +184,7 @@ impl Curriculum for Stages {
             name: settings.name.clone(),
             config: config.clone(),
             promotion: has_rules.then(|| Arc::new(rules) as Arc<dyn Promotion>),
+            is_goal: self.is_goal(stage),
             begins,
             transfer: how.transferred,
             allow_loss: how.allow_loss,

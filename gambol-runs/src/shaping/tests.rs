@@ -4,9 +4,9 @@ use super::*;
 use crate::Registry;
 use crate::{
     champion::Champion,
-    config::{FrozenTopology, GeneRecord, RunConfig, Transferred},
+    config::{FrozenTopology, GeneRecord, Origin, RunConfig, Transferred},
     setup::Setup,
-    training::{TrainError, TrainOptions, train},
+    training::{Resources, TrainError, TrainOptions, train},
 };
 use creatures::Sensor;
 use envs_rapier::Variation;
@@ -347,6 +347,34 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
         legs.push(ended(legs.len() + 1, planned, decision, 1.0));
     }
     assert!(stages.next(&legs).is_none());
+}
+
+/// That is the last stage, and those before it that differ in nothing but when they are passed, and in how much worlds vary. A stage that is
+/// passed at the same moment is not followed by another.
+#[test]
+fn what_a_run_is_to_reach_ends_it_in_a_stage_that_learns_what_the_run_is_for() {
+    let mut config = config("biped-1");
+    (config.variation, config.training_steps, config.movement.steps) = (Variation::default(), None, Some(20));
+    let ends = |changes: serde_json::Value| {
+        let promotion = json!({ "generations": 1 });
+        let list = json!([
+            { "name": "a", "near": true, "promotion": promotion },
+            { "name": "b", "near": true, "promotion": promotion, "changes": changes },
+            { "name": "c", "promotion": promotion }
+        ]);
+        let stages = serde_json::from_value(list).expect("stages");
+        let stop = StopConditions { target: Some(-1e9), generations: Some(9), ..StopConditions::default() };
+        let config = RunConfig { stages, stop, ..config.clone() };
+        let folder = tempfile::tempdir().expect("a folder");
+        let resources = Resources { threads: 1, registry: Registry::default(), signal: StopSignal::default() };
+        let run = StagedTraining::begin(&config, &folder.path().join("run"), resources).expect("valid");
+        let mut names = Vec::new();
+        let mut on_stage_run = |stage: &PlannedStage, _: Option<&Origin>| names.push(stage.name.clone());
+        let outcome = run.run(StageProgress { on_stage_run: &mut on_stage_run }, &mut |_| {}).expect("it runs");
+        (outcome.reason, outcome.progress.generations, names.concat())
+    };
+    assert_eq!(ends(json!({})), (StopReason::Target, 1, "a".into()));
+    assert_eq!(ends(json!({ "terrain": "gaps" })), (StopReason::Target, 2, "ab".into()));
 }
 
 #[test]

@@ -173,7 +173,7 @@ impl Training {
         let mut evolution = evolution.with_signal(resources.signal.clone());
         if let Some(reference) = &setup.reference {
             evolution = evolution.with_champion_selection(
-                config.record.re_evaluations(),
+                setup.re_evaluations(&config),
                 ReferenceSelection::new(reference, evaluator.clone()),
             );
         }

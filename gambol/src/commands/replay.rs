@@ -76,8 +76,8 @@ impl Replay {
         let in_file = |error: &dyn std::fmt::Display| format!("{}: {error}", self.champion.display());
         let episode = champion.episode(&registry).map_err(|error| in_file(&error))?;
         let played = episode.play(&mut champion.network.clone(), champion.seed.trial(0), &mut ());
-        if let Some(failure) = &played.failure {
-            say!("the replay failed after {} steps: {failure}", played.steps)?;
+        if let Some(failure) = &played.outcome.failure {
+            say!("the replay failed after {} steps: {failure}", played.outcome.steps)?;
         }
         if let Some(path) = &self.trajectory {
             let judge = Judge::new(champion.episode_parts(), &registry).map_err(|error| in_file(&error))?;
@@ -100,7 +100,7 @@ impl Replay {
             say!("page        {}", path.display())?;
         }
         let (value, unit) = (played.movement.value(), played.movement.unit());
-        let seconds = f64::from(played.steps) * f64::from(champion.physics.time_step);
+        let seconds = f64::from(played.outcome.steps) * f64::from(champion.physics.time_step);
         say!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name)?;
         Ok(ExitCode::SUCCESS)
     }

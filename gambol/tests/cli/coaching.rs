@@ -210,6 +210,19 @@ fn bench_gaits_tells_every_run() -> Outcome {
     Ok(())
 }
 
+/// The steps are those of all stages; that the first moves as it is told is not yet a playable character.
+#[test]
+fn bench_gaits_trains_a_movement_with_stages() -> Outcome {
+    let mut bench = gambol("bench");
+    bench.args(["gaits", "--creatures", "tetrapod-1", "--movements", "playing", "--seeds", "1", "--json"]);
+    bench.args(["--steps", "3000", "--set", "training_steps=20", "--set", "strategy.cma-es.population=8"]);
+    let told: Value = serde_json::from_str(&succeed(&mut bench))?;
+    assert!(told["steps"].as_u64() >= Some(3000), "{told}");
+    assert_eq!((&told["usable"], &told["steps_to_usable"]), (&false.into(), &Value::Null));
+    assert_says(&told["reasons"].to_string(), &["told to move at"]);
+    Ok(())
+}
+
 /// What the limbs share is a topology like any other: kept by a champion, searched anew, and drawn.
 #[test]
 fn the_net_of_limbs_can_be_kept_and_left_out() -> Outcome {

@@ -75,7 +75,7 @@ fn fitness(value: f64) -> Fitness {
 fn the_best_of_each_generation_and_several_of_the_last_are_heard() {
     let lines: &[&[f64]] = &[&[1.0, 3.0, 2.0], &[FAILED, FAILED, FAILED], &[5.0, 7.0, 6.0], &[9.0, 9.0, 1.0]];
     let worth: &[&[f64]] = &[&[0.0, 4.0, 9.0], &[9.0, 9.0, 9.0], &[8.0, 2.0, 3.0], &[5.0, 6.0, 7.0]];
-    let (mut evolution, known) = scripted(lines, worth, ReEvaluations { every: 3, candidates: 2 });
+    let (mut evolution, known) = scripted(lines, worth, ReEvaluations { every: 3, group: 1, candidates: 2 });
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
@@ -118,7 +118,7 @@ fn what_the_strategy_recommends_is_heard_where_it_is_asked_for() {
         let worth = vec![vec![1.0, 2.0, 3.0], vec![4.0, 5.0, 9.0]];
         let known = Known { worth, takes_recommendation, ..Known::default() };
         let mut evolution = Script::evolution(&[&[1.0, 3.0], &[2.0, 1.0]], StopConditions::default());
-        evolution = evolution.with_champion_selection(ReEvaluations { every, candidates: 1 }, known.clone());
+        evolution = evolution.with_champion_selection(ReEvaluations { every, group: 1, candidates: 1 }, known.clone());
         let prompter = Prompter::of(&evolution);
         for _ in 0..2 {
             evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
@@ -139,8 +139,11 @@ fn what_the_strategy_recommends_is_heard_where_it_is_asked_for() {
 #[test]
 fn a_champion_is_dethroned_only_by_one_that_is_better_before_the_champion_selection() {
     let lines: &[&[f64]] = &[&[1.0], &[2.0], &[3.0], &[4.0], &[5.0]];
-    let (mut evolution, _) =
-        scripted(lines, &[&[6.0], &[6.0], &[7.0], &[FAILED], &[1.0]], ReEvaluations { every: 1, candidates: 9 });
+    let (mut evolution, _) = scripted(
+        lines,
+        &[&[6.0], &[6.0], &[7.0], &[FAILED], &[1.0]],
+        ReEvaluations { every: 1, group: 1, candidates: 9 },
+    );
     let prompter = Prompter::of(&evolution);
     let mut next = || {
         let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
@@ -160,7 +163,8 @@ fn given_a_tier(worth: &[f64], tiers: &[u8], stop: StopConditions) -> Evolution<
     let worth = worth.iter().map(|&worth| vec![worth]).collect();
     let tiers = tiers.iter().map(|&tier| vec![tier]).collect();
     let known = Known { worth, tiers, ..Known::default() };
-    Script::evolution(&[&[1.0]], stop).with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known)
+    Script::evolution(&[&[1.0]], stop)
+        .with_champion_selection(ReEvaluations { every: 1, group: 1, candidates: 1 }, known)
 }
 
 #[test]
@@ -186,7 +190,7 @@ fn a_higher_tier_dethrones_a_fitter_champion_and_no_fitness_a_higher_tier() {
 fn at_one_re_evaluation_the_highest_tier_wins_and_then_fitness() {
     let tiers = vec![vec![0, 1, 1, 0]];
     let known = Known { worth: vec![vec![9.0, 2.0, 3.0, 8.0]], tiers, ..Known::default() };
-    let re_evaluations = ReEvaluations { every: 1, candidates: 4 };
+    let re_evaluations = ReEvaluations { every: 1, group: 1, candidates: 4 };
     let mut evolution = Script::evolution(&[&[4.0, 3.0, 2.0, 1.0]], StopConditions::default());
     evolution = evolution.with_champion_selection(re_evaluations, known);
     let prompter = Prompter::of(&evolution);
@@ -239,7 +243,7 @@ fn a_resumed_run_knows_the_tier_of_its_champion() -> Result<(), Box<dyn std::err
     };
     let resumed = |stop| -> Result<Evolution<Script>, Box<dyn std::error::Error>> {
         let resumed = Evolution::resume(Checkpoint::<Script>::read(&path)?, stop);
-        Ok(resumed.with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone()))
+        Ok(resumed.with_champion_selection(ReEvaluations { every: 1, group: 1, candidates: 1 }, known.clone()))
     };
     let mut second = resumed(stop(3))?;
     assert_eq!(second.champion(), first.champion());
@@ -260,7 +264,7 @@ fn stop_conditions_look_at_the_champion() {
     let run = |stop: StopConditions| {
         let worth: Vec<Vec<f64>> = (1..=20).map(|generation| vec![f64::from(generation.min(7))]).collect();
         let known = Known { worth, ..Known::default() };
-        let re_evaluations = ReEvaluations { every: 4, candidates: 1 };
+        let re_evaluations = ReEvaluations { every: 4, group: 1, candidates: 1 };
         let mut evolution = Script::evolution(&[&[100.0]], stop).with_champion_selection(re_evaluations, known);
         let prompter = Prompter::of(&evolution);
         let reason = evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
@@ -276,7 +280,7 @@ fn stop_conditions_look_at_the_champion() {
 #[test]
 fn a_candidate_from_before_the_run_is_heard_first() -> Result<(), Box<dyn std::error::Error>> {
     let lines: &[&[f64]] = &[&[9.0], &[8.0], &[7.0]];
-    let re_evaluations = ReEvaluations { every: 3, candidates: 1 };
+    let re_evaluations = ReEvaluations { every: 3, group: 1, candidates: 1 };
     for (before, champion) in [(5.0, 0), (3.0, 2)] {
         // Of generation 9, which never comes.
         let mut worth = vec![vec![1.0], vec![4.0], vec![2.0]];
@@ -306,13 +310,13 @@ fn a_candidate_is_heard_once_however_often_it_was_best() {
         |genome, fitness: f64, generation| Candidate { genome, fitness: Some(self::fitness(fitness)), generation };
     let candidates =
         vec![candidate(genome(1, 1), 5.0, 1), candidate(genome(1, 0), 6.0, 2), candidate(genome(1, 1), 9.0, 3)];
-    let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], ReEvaluations { every: 1, candidates: 1 });
+    let (evolution, known) = scripted(&[&[1.0]], &[&[2.0, 3.0]], ReEvaluations { every: 1, group: 1, candidates: 1 });
     let strategy = Script::evolution(&[&[1.0]], StopConditions::default());
     let folder = tempfile::tempdir().expect("a folder");
     strategy.write_checkpoint(&folder.path().join("checkpoint")).expect("it is written");
     let checkpoint: Checkpoint<Script> = Checkpoint::read(&folder.path().join("checkpoint")).expect("it is whole");
     let resumed = Evolution::resume(Checkpoint { candidates, ..checkpoint }, StopConditions::default())
-        .with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known.clone());
+        .with_champion_selection(ReEvaluations { every: 1, group: 1, candidates: 1 }, known.clone());
     let champion = resumed.champion_if_re_evaluated().expect("as many evaluations as candidates").expect("a champion");
     assert_eq!((champion.generation, champion.trained), (1, Some(fitness(5.0))), "as it was first");
     assert_eq!(*known.heard.lock().expect("no test panics here"), [vec![genome(1, 1), genome(1, 0)]]);
@@ -335,8 +339,8 @@ impl ChampionSelection<Puppet> for Asleep {
 #[test]
 fn a_champion_selection_that_loses_evaluations_is_an_error_and_the_candidates_stay() {
     let stop = StopConditions { generations: Some(2), ..Default::default() };
-    let mut evolution =
-        Script::evolution(&[&[1.0]], stop).with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, Asleep);
+    let mut evolution = Script::evolution(&[&[1.0]], stop)
+        .with_champion_selection(ReEvaluations { every: 1, group: 1, candidates: 1 }, Asleep);
     let prompter = Prompter::of(&evolution);
     let error = evolution.run(&Unused, &prompter, &mut []).expect_err("one is missing");
     let message = "the champion selection gave 0 evaluations for 1 candidates in generation 1";
@@ -349,7 +353,7 @@ fn a_champion_selection_that_loses_evaluations_is_an_error_and_the_candidates_st
 fn a_champion_selection_whose_two_ways_part_is_reported() {
     let known = Known { worth: vec![vec![1.0]], diverged: true, ..Known::default() };
     let mut evolution = Script::evolution(&[&[1.0]], StopConditions::default());
-    evolution = evolution.with_champion_selection(ReEvaluations { every: 1, candidates: 1 }, known);
+    evolution = evolution.with_champion_selection(ReEvaluations { every: 1, group: 1, candidates: 1 }, known);
     let prompter = Prompter::of(&evolution);
     let report = evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
     assert!(report.re_evaluation.is_some_and(|re_evaluation| re_evaluation.diverged));
@@ -363,9 +367,10 @@ fn a_champion_selection_whose_two_ways_part_is_reported() {
 #[test]
 fn re_evaluations_name_the_field() {
     let message = |re_evaluations: ReEvaluations| re_evaluations.validate().expect_err("out of range").to_string();
-    assert_eq!(message(ReEvaluations { every: 0, candidates: 1 }), "every = 0: must be at least 1");
-    assert_eq!(message(ReEvaluations { every: 1, candidates: 0 }), "candidates = 0: must be at least 1");
-    assert_eq!(ReEvaluations { every: 1, candidates: 1 }.validate(), Ok(()));
+    assert_eq!(message(ReEvaluations { every: 0, group: 1, candidates: 1 }), "every = 0: must be at least 1");
+    assert_eq!(message(ReEvaluations { every: 1, group: 0, candidates: 1 }), "group = 0: must be at least 1");
+    assert_eq!(message(ReEvaluations { every: 1, group: 1, candidates: 0 }), "candidates = 0: must be at least 1");
+    assert_eq!(ReEvaluations { every: 1, group: 1, candidates: 1 }.validate(), Ok(()));
 }
 
 /// Judges climbers in the world of one seed.
@@ -382,7 +387,7 @@ impl ChampionSelection<Weights> for Panel {
 }
 
 fn judged(evolution: Evolution<Climber>) -> Evolution<Climber> {
-    evolution.with_champion_selection(ReEvaluations { every: 4, candidates: 5 }, Panel)
+    evolution.with_champion_selection(ReEvaluations { every: 4, group: 1, candidates: 5 }, Panel)
 }
 
 #[test]
@@ -471,7 +476,7 @@ proptest! {
         let known = Known { worth: worth.clone(), tiers: tiers.clone(), ..Known::default() };
         let stop = StopConditions { generations: Some(lines.len() as u64), ..Default::default() };
         let mut evolution =
-            Script::evolution(&borrowed(&lines), stop).with_champion_selection(ReEvaluations { every, candidates }, known);
+            Script::evolution(&borrowed(&lines), stop).with_champion_selection(ReEvaluations { every, group: 1, candidates }, known);
         let prompter = Prompter::of(&evolution);
         evolution.run(&Unused, &prompter, &mut []).expect("the run ends in peace");
 
@@ -511,7 +516,7 @@ proptest! {
 fn the_number_of_those_that_wait_is_bounded() {
     let lines: Vec<Vec<f64>> = (0..200).map(|generation| vec![f64::from(generation % 8), -1.0]).collect();
     let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
-    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 2, candidates: 1 });
+    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 2, group: 1, candidates: 1 });
     let prompter = Prompter::of(&evolution);
     let mut waiting = Vec::new();
     for _ in 0..200 {
