@@ -12,8 +12,8 @@ const NEW_CONTACT: u32 = 1 << 31;
 
 /// A rapier world with ground and one creature in it.
 pub struct RapierWorld {
-    /// rapier's sets and settings.
-    physics: PhysicsWorld,
+    /// rapier's sets and settings: 6 kB, in a box, so that what holds a world can be moved about.
+    physics: Box<PhysicsWorld>,
     /// The body of each part.
     bodies: Vec<RigidBodyHandle>,
     /// The joint of each hinge.
@@ -32,7 +32,7 @@ impl Clone for RapierWorld {
     /// A copy that goes on as the original would. rapier's workspaces, which hold nothing between steps, start empty.
     fn clone(&self) -> Self {
         let from = &self.physics;
-        let physics = PhysicsWorld {
+        let physics = Box::new(PhysicsWorld {
             gravity: from.gravity,
             integration_parameters: from.integration_parameters,
             islands: from.islands.clone(),
@@ -42,7 +42,7 @@ impl Clone for RapierWorld {
             colliders: from.colliders.clone(),
             impulse_joints: from.impulse_joints.clone(),
             ..PhysicsWorld::new()
-        };
+        });
         Self {
             physics,
             bodies: self.bodies.clone(),
@@ -183,7 +183,7 @@ impl Engine for RapierWorld {
         ground: &Ground,
         conditions: &Conditions,
     ) -> Result<Self, EnvironmentError> {
-        let mut physics = PhysicsWorld::new();
+        let mut physics = Box::new(PhysicsWorld::new());
         physics.gravity = Vector::new(0.0, -settings.gravity);
         physics.integration_parameters = integration_parameters(settings);
         let mut world = Self {

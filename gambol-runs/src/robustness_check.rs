@@ -1,7 +1,7 @@
 //! Where it is tried whether a candidate's gait would be usable in worlds that are not quite the one it is judged in.
 
 use crate::{
-    judge::{Judge, TRAINING, chosen, worlds::Worlds},
+    judge::{Judge, TRAINING, worlds::Worlds},
     perturbation::{Cause, World},
 };
 use envs_core::{Conditions, Landscape, Variation};
@@ -89,11 +89,12 @@ impl RobustnessCheck {
     /// The one of these controllers whose gait is usable in most of the worlds; of equals the first.
     pub(crate) fn steadiest(&self, networks: &[Network], trial: Trial) -> Option<usize> {
         let worlds = self.worlds(trial);
-        let places: Vec<usize> = (0..networks.len()).collect();
         let mut steadiest = None;
-        for some in places.chunks(worlds.at_once()) {
+        let mut places = 0..;
+        // In turns: what is worse than the best of those before is not played to its end.
+        for some in networks.chunks(worlds.at_once()) {
             let needed = steadiest.map_or(0, |(_, most)| most + 1);
-            for (&place, usable) in some.iter().zip(worlds.usable_all(&chosen(networks, some), needed)) {
+            for (usable, place) in worlds.usable_all(some, needed).into_iter().zip(&mut places) {
                 if steadiest.is_none_or(|(_, most)| usable > most) {
                     steadiest = Some((place, usable));
                 }

@@ -8,7 +8,7 @@ use std::{cmp::Reverse, collections::BTreeSet, fmt};
 ///
 /// Where each generation is evaluated in a world of its own, the best fitness ever is that of the luckiest world. With a
 /// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_champion_selection)) the best of each
-/// generation become [`Candidate`]s. A [re-evaluation](ReEvaluations) compares them with each other and with the champion.
+/// generation, or of a [group](ReEvaluations::group) of them, become [`Candidate`]s. A [re-evaluation](ReEvaluations) compares them with each other and with the champion.
 ///
 /// An implementor owes: one evaluation for each candidate, in order, and the same ones whenever it is asked again. What a
 /// champion selection spends counts towards no budget: it changes nothing in what is searched.
@@ -47,8 +47,8 @@ pub struct ReEvaluations {
     /// the less changes from one generation to the next; but re-evaluations do not die out, lest an old run keep the champion of
     /// its youth.
     pub every: u64,
-    /// The best of each so many generations since the last re-evaluation is a candidate, too (from 16 times `every` on of each twice as
-    /// many, from 32 times on of each four times as many, so that no more of them wait); at least 1.
+    /// The best of each so many generations since the last re-evaluation is a candidate, too; from 16 times `every` on of each twice as
+    /// many, from 32 times on of each four times as many. So no more than 2 × `every` / `group` of them ever wait. At least 1.
     pub group: u64,
     /// So many of the best of the generation just evaluated; at least 1.
     pub candidates: usize,

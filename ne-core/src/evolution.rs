@@ -109,7 +109,8 @@ impl<S: Strategy> Evolution<S> {
         Self { strategy, seed, stop, signal, progress, champion, candidates, asked, selection, promotion, decision }
     }
 
-    /// Lets a champion selection choose the champion. The best of each generation becomes a candidate. At every re-evaluation the
+    /// Lets a champion selection choose the champion. The best of each generation, or of a [group](ReEvaluations::group) of them, becomes a
+    /// candidate. At every re-evaluation the
     /// champion selection judges all candidates; the best becomes champion if it is better than the present one.
     /// `re_evaluations` is used as it is; see [`ReEvaluations::validate`].
     #[must_use]
@@ -266,7 +267,7 @@ impl<S: Strategy> Evolution<S> {
         improved
     }
 
-    /// Makes the best of this generation a candidate; if it is time for a re-evaluation, does it.
+    /// Makes the best of this generation a candidate, or of its [group](ReEvaluations::group); if it is time for a re-evaluation, does it.
     fn nominate(
         &mut self,
         selection: &ScheduledSelection<S::Genome>,

@@ -36,13 +36,12 @@ impl Scene {
     /// What rapier shows of a play, and how it ends.
     fn in_rapier(&self, play: usize, network: &Network, steps: u32) -> (Vec<Snapshot>, Outcome) {
         let environment = self.worlds(play).0.clone();
-        let time_step = self.start(play).time_step;
         let movement = Box::new(Running::default());
         let episode = Episode::new(environment, movement, steps, Trials::default()).expect("valid");
         let mut shown = Vec::new();
         let mut watch = |moment: &Moment<'_>| shown.push(moment.snapshot.clone());
         let played = episode.play(&mut network.clone(), seed(play), &mut watch);
-        (shown, Outcome { time_step, ..played.outcome })
+        (shown, played.outcome)
     }
 }
 

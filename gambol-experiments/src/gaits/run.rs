@@ -10,13 +10,14 @@ use gambol_runs::{
     judge::USABLE,
     robust::{Perturbations, robustness},
     run::Run,
-    shaping::{PlannedStage, ShapingError, StageProgress},
+    run_folder::RunFolder,
+    shaping::{PlannedStage, ShapingError, StageProgress, is_of_goal},
     strategies::AnyStrategy,
     training::{Outcome, Resources},
 };
-use ne_core::{Generation, StopReason};
+use ne_core::Generation;
 use serde::{Deserialize, Serialize};
-use std::{cell::Cell, path::Path, time::Instant};
+use std::{path::Path, time::Instant};
 use tasks::gait::Goal;
 
 /// What came of one run.
@@ -35,7 +36,7 @@ pub struct GaitRun {
     pub reasons: Vec<String>,
     /// Seconds until the champion was first usable; of a run with stages in one that learns what the whole run is for.
     pub seconds_to_usable: Option<f64>,
-    /// Physics steps until then; of a run with stages those of all that came before.
+    /// Physics steps until then, of all stages together.
     pub steps_to_usable: Option<u64>,
     /// Seconds the training took, champion selection included.
     pub seconds: f64,
@@ -82,12 +83,18 @@ impl GaitRun {
             robust: None,
         };
         if let Some(champion) = &outcome.champion {
-            run.judge(champion, registry, robust)?;
+            run.judge(champion, &outcome.folder, registry, robust)?;
         }
         Ok(run)
     }
 
-    fn judge(&mut self, champion: &Champion, registry: &Registry, robust: bool) -> Result<(), GaitsError> {
+    fn judge(
+        &mut self,
+        champion: &Champion,
+        folder: &RunFolder,
+        registry: &Registry,
+        robust: bool,
+    ) -> Result<(), GaitsError> {
         let report = gait::judge(champion, registry)?;
         let Some(verdict) = &report.verdict else {
             self.reasons = vec!["the movement is not judged".into()];
@@ -95,6 +102,11 @@ impl GaitRun {
         };
         self.usable = verdict.usable;
         self.reasons = verdict.reasons.iter().map(ToString::to_string).collect();
+        // That it moves as it is told says nothing of jumps, which a later stage is about.
+        if !is_of_goal(folder, registry)? {
+            self.usable = false;
+            self.reasons.push("the run ended in a stage before the one that learns what the run is for".into());
+        }
         let start_height = f64::from(Blueprint::new(champion.creature.clone())?.start_height());
         self.quality = Some(match report.view.goal {
             Goal::Distance => report.travel.second_half_relative_speed,
@@ -121,25 +133,26 @@ fn until_over(
     resources: Resources,
     began: Instant,
 ) -> Result<(Outcome, First), ShapingError> {
-    let (is_goal, before, in_stage) = (Cell::new(config.stages.is_empty()), Cell::new(0), Cell::new(0));
     let mut run = Run::begin(config, folder, resources)?;
+    let (mut is_goal, mut before, mut in_stage) = (config.stages.is_empty(), 0, 0);
     let mut first = None;
-    let reason: StopReason = loop {
-        let mut on_stage_run = |stage: &PlannedStage, _: Option<&Origin>| {
-            is_goal.set(stage.is_goal);
-            before.set(before.get() + in_stage.take());
-        };
-        let mut on_generation = |generation: &Generation<'_, AnyStrategy>| {
-            in_stage.set(generation.report.steps);
-            if first.is_none() && is_goal.get() && generation.report.tier >= USABLE {
-                first = Some((began.elapsed().as_secs_f64(), before.get() + in_stage.get()));
-            }
-        };
-        if let Some(reason) =
-            run.generation(&mut StageProgress { on_stage_run: &mut on_stage_run }, &mut on_generation)?
-        {
-            break reason;
+    loop {
+        let (mut begun, mut done) = (None, None);
+        let mut on_stage_run = |stage: &PlannedStage, _: Option<&Origin>| begun = Some(stage.is_goal);
+        let mut on_generation =
+            |generation: &Generation<'_, AnyStrategy>| done = Some((generation.report.tier, generation.report.steps));
+        let over = run.generation(&mut StageProgress { on_stage_run: &mut on_stage_run }, &mut on_generation)?;
+        if let Some(begun) = begun {
+            (is_goal, before, in_stage) = (begun, before + in_stage, 0);
         }
-    };
-    Ok((run.finish(reason)?, first))
+        if let Some((tier, steps)) = done {
+            in_stage = steps;
+            if first.is_none() && is_goal && tier >= USABLE {
+                first = Some((began.elapsed().as_secs_f64(), before + in_stage));
+            }
+        }
+        if let Some(reason) = over {
+            return Ok((run.finish(reason)?, first));
+        }
+    }
 }

@@ -183,7 +183,7 @@ pub struct RecordSettings {
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
     /// With variation, shortened training episodes or further bodies: with each checkpoint, or more seldom where that takes much longer than
-    /// training, so many of the best of the generation, and the best of generations since the last time, are evaluated in whole episodes of
+    /// training, so many of the best of the generation, and the best of each few generations since, are evaluated in whole episodes of
     /// the creature without variation, and the best of them may become champion; from 1 to 1000, default 23.
     #[serde(default = "default_candidates")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]

@@ -200,6 +200,8 @@ fn re_evaluations_are_rarer_where_each_takes_long() {
     }
     let of_stages = |creature| {
         let stages = Stages::new(&config(creature, "playing"), &registry).expect("valid");
+        let goals: Vec<bool> = (0..5).map(|stage| stages.is_goal(stage)).collect();
+        assert_eq!(goals, [false, false, false, true, true], "a run until usable ends in one of the last two");
         stages.configs().map(|(_, stage)| every(stage)).collect::<Vec<_>>()
     };
     assert_eq!(of_stages("biped-2"), [110, 40, 20, 20, 20]);

@@ -162,14 +162,17 @@ impl Judge {
         let is_usable = |verdicts: &[Option<Judgement>]| verdicts.iter().flatten().any(|verdict| verdict.usable);
         let verdicts = reference.verdicts(networks);
         let promising: Vec<usize> = (0..networks.len()).filter(|&index| is_usable(&verdicts[index])).collect();
+        let mut found = Vec::new();
+        // Near worlds are not built for nothing.
         if promising.is_empty() {
-            return promising;
+            return found;
         }
         let near = self.near();
         let required = NearWorlds::required(near.len());
-        let mut found = Vec::new();
+        // In turns: what comes after the last that is wanted is not played.
         for some in promising.chunks(near.at_once()) {
-            let usable = near.usable_all(&chosen(networks, some), required);
+            let networks: Vec<Network> = some.iter().map(|&index| networks[index].clone()).collect();
+            let usable = near.usable_all(&networks, required);
             found.extend(some.iter().zip(usable).filter_map(|(&index, usable)| (usable >= required).then_some(index)));
             if found.len() >= most {
                 break;
@@ -184,11 +187,6 @@ impl Judge {
     pub(crate) fn in_rapier(self) -> Self {
         Self { lanes: None, near: Arc::default(), ..self }
     }
-}
-
-/// The controllers at these places.
-pub(crate) fn chosen(networks: &[Network], places: &[usize]) -> Vec<Network> {
-    places.iter().map(|&place| networks[place].clone()).collect()
 }
 
 fn with_near_worlds(verdict: Judgement, near: Option<NearWorlds>) -> Judgement {

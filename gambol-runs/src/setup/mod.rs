@@ -169,8 +169,8 @@ impl Setup {
         Ok(Self { task, rungs, episode, reference, topology, weight_names, by_hand, searched, unit, objectives })
     }
 
-    /// When candidates are re-evaluated, and how many. Where a candidate then takes more than [`LONGER`] times the steps it takes in
-    /// training, re-evaluations are so much rarer, and no more candidates wait for them.
+    /// When candidates are re-evaluated, and how many. Where a candidate takes more than [`LONGER`] times the steps of its training,
+    /// re-evaluations are rarer by the ratio of the two, rounded up, and no more candidates wait for them.
     pub(crate) fn re_evaluations(&self, config: &RunConfig) -> ReEvaluations {
         let steps = |trials: u32, steps: u32| u64::from(trials) * u64::from(steps);
         let whole = self.reference.as_ref().map_or(0, |it| steps(it.trials.count, it.episode.steps()));
@@ -213,7 +213,7 @@ fn objectives(movement: &MovementSpec, registry: &Registry, unit: &str) -> Vec<O
     movement.objectives.iter().map(objective).collect()
 }
 
-/// A re-evaluation may take so many times the steps of training for each candidate, and no longer, without being rarer for it.
+/// Up to so many times the steps of training re-evaluations do not become rarer.
 const LONGER: u64 = 3;
 
 /// The most weights that a population has altogether: 1 GiB of them.

@@ -3,7 +3,7 @@
 use super::{
     Curriculum, PlannedStage, StageError, StagedTraining, Stages,
     source::{Source, leading_stage_run},
-    stage_runs::{stage_runs, total},
+    stage_runs::{leading, stage_runs, total},
     transfer::{PreparedTransfer, TransferError, TransferOptions},
 };
 use crate::{
@@ -194,6 +194,20 @@ pub fn outcome_of(folder: &RunFolder, reason: StopReason) -> Result<Outcome, Fol
     };
     let champion = folder.champion().is_file().then(|| Champion::read(&folder.champion())).transpose()?;
     Ok(Outcome { folder: folder.clone(), reason, progress, champion })
+}
+
+/// Whether the champion of a run has learned what the whole run is for: always without stages; with stages, if it is from a stage that
+/// learns that.
+///
+/// # Errors
+/// If a file of the run cannot be read, or its configuration is none that can run.
+pub fn is_of_goal(folder: &RunFolder, registry: &Registry) -> Result<bool, ShapingError> {
+    let config = folder.read_config()?;
+    if config.stages.is_empty() {
+        return Ok(true);
+    }
+    let stages = Stages::new(&config, registry)?;
+    Ok(leading(&stage_runs(folder)?).is_some_and(|stage_run| stages.is_goal(stage_run.stage)))
 }
 
 /// The error of a stage run, told of the whole run: its folder, and the generations of all stage runs; `used` is what those before have

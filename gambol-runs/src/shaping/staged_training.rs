@@ -29,7 +29,7 @@ pub struct StagedTraining<C> {
     began: Instant,
     /// Those that are over.
     stage_runs: Vec<StageRun>,
-    /// What the run is to reach, once it is reached, though the stage was passed at the same moment.
+    /// Why no further stage begins: the stage just passed had reached the target or the tier.
     reached: Option<StopReason>,
     current: Option<Current>,
     /// Whether the folder's configuration has other stop conditions still: it is written once the stages are known to be whole.
@@ -219,22 +219,18 @@ impl<C: Curriculum> StagedTraining<C> {
         Ok(goes_on)
     }
 
-    /// Adds a stage run that is over to the others.
+    /// Adds a stage run that is over to the others, and notes whether it has reached what the run is for.
     fn leave(&mut self, planned: &PlannedStage, stage_run: StageRun) {
         let StopConditions { target, tier, .. } = self.config.stop;
         let goal = StopConditions { target, tier, ..StopConditions::default() };
-        if planned.is_goal {
-            self.reached = goal.reached(&stage_run.progress, stage_run.champion, Duration::ZERO);
-        }
+        let reached = goal.reached(&stage_run.progress, stage_run.champion, Duration::ZERO);
+        self.reached = reached.filter(|_| planned.is_goal);
         self.stage_runs.push(stage_run);
     }
 
     /// Goes past the stages that are over, and begins the next, or takes it up again.
     fn next(&mut self, stage_progress: &mut StageProgress<'_>) -> Result<Next, ShapingError> {
         while let Some(planned) = self.curriculum.next(&self.stage_runs) {
-            if let Some(reason) = self.reached {
-                return Ok(Next::End(reason));
-            }
             let number = self.stage_runs.len() + 1;
             let path = self.folder.stages().join(format!("{number:02}-{}", planned.name));
             let stage_folder = RunFolder::at(&path);
@@ -244,6 +240,10 @@ impl<C: Curriculum> StagedTraining<C> {
                 let passed = begun()?;
                 self.leave(&planned, passed);
                 continue;
+            }
+            // A stage that was begun all the same, under another target, goes on from where it is.
+            if let Some(reason) = self.reached.filter(|_| !is_begun) {
+                return Ok(Next::End(reason));
             }
             let stop = limits(self.config.stop, total(&self.stage_runs), &planned);
             if let Some(reason) = exhausted(stop) {
@@ -259,7 +259,7 @@ impl<C: Curriculum> StagedTraining<C> {
             let training = training.map_err(|error| self.of_the_run(error))?;
             return Ok(Next::Stage(Box::new(Current { number, planned, training })));
         }
-        Ok(Next::End(StopReason::Promoted))
+        Ok(Next::End(self.reached.unwrap_or(StopReason::Promoted)))
     }
 
     fn take_up(

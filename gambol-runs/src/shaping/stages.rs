@@ -113,8 +113,8 @@ impl Stages {
         end.map_or(Beginning::Before, |stage_run| Beginning::After(stage_run.number))
     }
 
-    /// Whether no later stage changes what is learned.
-    fn is_goal(&self, stage: usize) -> bool {
+    /// Whether a stage, by its index, learns what the whole run is for: no later one changes what is learned.
+    pub fn is_goal(&self, stage: usize) -> bool {
         let mut later = self.stages.iter().skip(stage + 1).map(|(settings, _)| settings);
         later.all(|settings| settings.changes.is_empty() && settings.add_sensors.is_empty())
     }

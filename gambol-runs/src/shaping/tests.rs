@@ -355,8 +355,8 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
 fn what_a_run_is_to_reach_ends_it_in_a_stage_that_learns_what_the_run_is_for() {
     let mut config = config("biped-1");
     (config.variation, config.training_steps, config.movement.steps) = (Variation::default(), None, Some(20));
-    let ends = |changes: serde_json::Value| {
-        let promotion = json!({ "generations": 1 });
+    let ends = |generations: u64, changes: serde_json::Value| {
+        let promotion = json!({ "generations": generations });
         let list = json!([
             { "name": "a", "near": true, "promotion": promotion },
             { "name": "b", "near": true, "promotion": promotion, "changes": changes },
@@ -373,8 +373,11 @@ fn what_a_run_is_to_reach_ends_it_in_a_stage_that_learns_what_the_run_is_for() {
         let outcome = run.run(StageProgress { on_stage_run: &mut on_stage_run }, &mut |_| {}).expect("it runs");
         (outcome.reason, outcome.progress.generations, names.concat())
     };
-    assert_eq!(ends(json!({})), (StopReason::Target, 1, "a".into()));
-    assert_eq!(ends(json!({ "terrain": "gaps" })), (StopReason::Target, 2, "ab".into()));
+    let gaps = json!({ "terrain": "gaps" });
+    assert_eq!(ends(1, json!({})), (StopReason::Target, 1, "a".into()));
+    assert_eq!(ends(1, gaps.clone()), (StopReason::Target, 2, "ab".into()));
+    assert_eq!(ends(3, json!({})), (StopReason::Target, 1, "a".into()));
+    assert_eq!(ends(3, gaps), (StopReason::Target, 4, "ab".into()));
 }
 
 #[test]

@@ -56,8 +56,7 @@ pub(crate) struct Compare {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// How the worlds of all runs vary in training: a name (see: gambol variations) [default: what
-    /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last re-evaluation, up to 10
-    /// generations old
+    /// each strategy's settings file says, or none]. In worlds that vary a score is that of the last re-evaluation
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// One setting for all runs, such as movement.steps=600; can be given several times

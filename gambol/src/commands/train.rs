@@ -314,7 +314,8 @@ pub(super) fn carry_out(
     let judged = outcome.champion.as_ref().filter(|_| !flags.quiet || until_usable);
     let verdict = judged.and_then(|champion| verdict(champion, &registry));
     show.result(&outcome, verdict.as_ref(), seconds, !flags.no_report);
-    let usable = verdict.is_some_and(|verdict| verdict.usable);
+    let usable = verdict.is_some_and(|verdict| verdict.usable)
+        && (!until_usable || shaping::is_of_goal(&outcome.folder, &registry)?);
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
         _ if until_usable && !usable => ExitCode::from(NOT_USABLE),

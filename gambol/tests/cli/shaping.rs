@@ -265,6 +265,23 @@ fn a_run_resumed_with_a_lower_limit_keeps_its_latest_champion() -> Outcome {
     Ok(())
 }
 
+/// Nor does a target that an earlier stage had reached: what was begun after it stays.
+#[test]
+fn a_run_resumed_with_a_target_that_it_has_reached_keeps_its_latest_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = folder.path().join("run");
+    let mut config = three_stages();
+    config["stages"] = json!([config["stages"][0], { "name": "on" }]);
+    config["stages"][0]["promotion"] = json!({ "generations": 2 });
+    config["stop"] = json!({ "generations": 5 });
+    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let champion = read(&run_folder.join("champion.json"));
+    assert_eq!(champion, read(&run_folder.join("stages/02-on/champion.json")));
+    run(gambol("resume").arg(&run_folder).args(["--generations", "9", "--target=-1e9", "--no-report"]));
+    assert_eq!(read(&run_folder.join("champion.json")), read(&run_folder.join("stages/02-on/champion.json")));
+    Ok(())
+}
+
 #[test]
 fn legs_are_in_the_order_of_their_numbers() -> Outcome {
     let folder = tempfile::tempdir()?;

@@ -531,6 +531,23 @@ fn the_number_of_those_that_wait_is_bounded() {
     assert_eq!(last[..3], expected, "the fittest of 177 to 180, of 181 to 184, and of 185 to 188");
 }
 
+#[test]
+fn of_a_group_of_generations_the_best_waits() {
+    let lines: Vec<Vec<f64>> = (0..120).map(|generation| vec![f64::from(generation % 4), -1.0]).collect();
+    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 6, group: 3, candidates: 1 });
+    let prompter = Prompter::of(&evolution);
+    let mut waiting = Vec::new();
+    for _ in 0..120 {
+        evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        waiting.push(evolution.candidates().len());
+    }
+    assert_eq!((waiting[..48].iter().max(), waiting.iter().max()), (Some(&2), Some(&4)), "2 × 6 / 3");
+    let heard = known.heard.lock().expect("no test panics here").clone();
+    assert_eq!(heard[0], [3, 4, 6].map(|generation| genome(generation, 0)), "the fittest of 1 to 3, of 4 and 5, and 6");
+    assert_eq!(heard[1][..2], [8, 11].map(|generation| genome(generation, 0)));
+}
+
 /// What the genomes of all candidates have in common is in a checkpoint once.
 #[test]
 fn candidates_share_what_is_the_same_in_a_checkpoint() -> Result<(), Box<dyn std::error::Error>> {
