@@ -48,7 +48,8 @@ pub struct ReEvaluations {
     /// its youth.
     pub every: u64,
     /// The best of each so many generations since the last re-evaluation is a candidate, too; from 16 times `every` on of each twice as
-    /// many, from 32 times on of each four times as many. So no more than 2 × `every` / `group` of them ever wait. At least 1.
+    /// many, from 32 times on of each four times as many. So no more than 2 × `every` / `group` of them ever wait, where
+    /// `group` divides `every`. At least 1.
     pub group: u64,
     /// So many of the best of the generation just evaluated; at least 1.
     pub candidates: usize,

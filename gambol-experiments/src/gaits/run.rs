@@ -11,7 +11,7 @@ use gambol_runs::{
     robust::{Perturbations, robustness},
     run::Run,
     run_folder::RunFolder,
-    shaping::{PlannedStage, ShapingError, StageProgress, is_of_goal},
+    shaping::{ENDED_EARLY, PlannedStage, ShapingError, StageProgress, is_of_goal},
     strategies::AnyStrategy,
     training::{Outcome, Resources},
 };
@@ -105,7 +105,7 @@ impl GaitRun {
         // That it moves as it is told says nothing of jumps, which a later stage is about.
         if !is_of_goal(folder, registry)? {
             self.usable = false;
-            self.reasons.push("the run ended in a stage before the one that learns what the run is for".into());
+            self.reasons.push(ENDED_EARLY.into());
         }
         let start_height = f64::from(Blueprint::new(champion.creature.clone())?.start_height());
         self.quality = Some(match report.view.goal {

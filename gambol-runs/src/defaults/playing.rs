@@ -16,7 +16,7 @@ struct Plan {
     follow: StagePlan,
     jump: StagePlan,
     polish: StagePlan,
-    /// Of all stages, those that were given up included: some five minutes on one core.
+    /// Of all stages, those that were given up included: five minutes to a quarter of an hour on two cores (docs/playing.md).
     most: u64,
     /// What a jump is worth in `polish`, s. A press that fails by a few centimetres costs little of it, and all of a schedule of
     /// commands; where a jump was worth as much as of other bodies, a biped fell more (docs/playing-experiments.md).
@@ -60,7 +60,7 @@ fn plan() -> Plan {
     Plan {
         move_on: search(6, [8_000_000, 16_000_000], anew("move", Fitness(33.5), 12_000_000, 5)),
         follow: search(6, [8_000_000, 40_000_000], anew("move", Usable, 30_000_000, 3)),
-        // No longer: `polish` makes more of the same steps (docs/playing-experiments.md).
+        // A longer search is worth less than the same steps of `polish` (docs/playing-experiments.md).
         jump: search(6, [8_000_000, 14_000_000], anew("move", Fitness(44.0), 12_000_000, 4)),
         polish: search(8, [60_000_000, 120_000_000], anew("move", Any(vec![Usable, Fitness(60.0)]), 40_000_000, 2)),
         most: 350_000_000,

@@ -113,6 +113,9 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
                 Some("given up at 40000000 steps and not (usable or fitness ≥ 60), to begin anew at move, 2 times"),
             ],
         };
+        let promoted = config.stages[2].promotion.as_ref().map(ToString::to_string).unwrap_or_default();
+        let most = if creature == "biped-1" { "60000000 steps" } else { "14000000 steps" };
+        assert!(promoted.ends_with(most), "{creature}: {promoted}");
         assert_eq!(gives_up, expected.map(|given_up| given_up.map(str::to_owned)), "{creature}");
         let speeds = match &config.commands {
             Some(Commands::Random(random)) => random.speeds,

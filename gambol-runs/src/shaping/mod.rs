@@ -23,8 +23,8 @@ mod transfer;
 
 pub use curriculum::{Beginning, Curriculum, PlannedStage};
 pub use stage_progress::{
-    ShapingError, StageProgress, adopt, begin_from, configured_from, is_of_goal, outcome_of, resume_curriculum,
-    resume_stages, train_curriculum, train_from, train_stages,
+    ENDED_EARLY, ShapingError, StageProgress, adopt, begin_from, configured_from, is_of_goal, outcome_of,
+    resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
 };
 pub use stage_runs::{StageRun, leading, run_of_stage, stage_runs};
 pub use staged_training::StagedTraining;

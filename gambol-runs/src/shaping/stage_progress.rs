@@ -196,8 +196,8 @@ pub fn outcome_of(folder: &RunFolder, reason: StopReason) -> Result<Outcome, Fol
     Ok(Outcome { folder: folder.clone(), reason, progress, champion })
 }
 
-/// Whether the champion of a run has learned what the whole run is for: always without stages; with stages, if it is from a stage that
-/// learns that.
+/// Whether the champion of a run has learned what the whole run is for: always where its configuration lists no stages; else if it is
+/// from a stage that [learns that](Stages::is_goal). What a curriculum of one's own learns is not written down.
 ///
 /// # Errors
 /// If a file of the run cannot be read, or its configuration is none that can run.
@@ -209,6 +209,9 @@ pub fn is_of_goal(folder: &RunFolder, registry: &Registry) -> Result<bool, Shapi
     let stages = Stages::new(&config, registry)?;
     Ok(leading(&stage_runs(folder)?).is_some_and(|stage_run| stages.is_goal(stage_run.stage)))
 }
+
+/// What is said of a champion that is usable, and not [of the goal](is_of_goal).
+pub const ENDED_EARLY: &str = "the run ended in a stage before the one that learns what the run is for";
 
 /// The error of a stage run, told of the whole run: its folder, and the generations of all stage runs; `used` is what those before have
 /// used.

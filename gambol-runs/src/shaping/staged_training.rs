@@ -241,7 +241,7 @@ impl<C: Curriculum> StagedTraining<C> {
                 self.leave(&planned, passed);
                 continue;
             }
-            // A stage that was begun all the same, under another target, goes on from where it is.
+            // A stage that this run had begun under another target goes on.
             if let Some(reason) = self.reached.filter(|_| !is_begun) {
                 return Ok(Next::End(reason));
             }

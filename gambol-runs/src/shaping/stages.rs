@@ -113,10 +113,13 @@ impl Stages {
         end.map_or(Beginning::Before, |stage_run| Beginning::After(stage_run.number))
     }
 
-    /// Whether a stage, by its index, learns what the whole run is for: no later one changes what is learned.
+    /// Whether a stage, by its index, learns what the whole run is for: no later one changes what is learned. An index without a stage
+    /// does not.
     pub fn is_goal(&self, stage: usize) -> bool {
-        let mut later = self.stages.iter().skip(stage + 1).map(|(settings, _)| settings);
-        later.all(|settings| settings.changes.is_empty() && settings.add_sensors.is_empty())
+        let changes = |(settings, _): &(StageSettings, RunConfig)| {
+            !settings.changes.is_empty() || !settings.add_sensors.is_empty()
+        };
+        stage < self.stages.len() && !self.stages[stage + 1..].iter().any(changes)
     }
 
     /// How an attempt at this stage is given up; `None`: it is not, or all attempts are over.

@@ -355,12 +355,12 @@ fn stages_follow_each_other_as_populations_are_promoted_and_demoted() {
 fn what_a_run_is_to_reach_ends_it_in_a_stage_that_learns_what_the_run_is_for() {
     let mut config = config("biped-1");
     (config.variation, config.training_steps, config.movement.steps) = (Variation::default(), None, Some(20));
-    let ends = |generations: u64, changes: serde_json::Value| {
+    let ends = |generations: u64, changes: [serde_json::Value; 2]| {
         let promotion = json!({ "generations": generations });
         let list = json!([
             { "name": "a", "near": true, "promotion": promotion },
-            { "name": "b", "near": true, "promotion": promotion, "changes": changes },
-            { "name": "c", "promotion": promotion }
+            { "name": "b", "near": true, "promotion": promotion, "changes": changes[0] },
+            { "name": "c", "promotion": promotion, "changes": changes[1] }
         ]);
         let stages = serde_json::from_value(list).expect("stages");
         let stop = StopConditions { target: Some(-1e9), generations: Some(9), ..StopConditions::default() };
@@ -373,11 +373,13 @@ fn what_a_run_is_to_reach_ends_it_in_a_stage_that_learns_what_the_run_is_for() {
         let outcome = run.run(StageProgress { on_stage_run: &mut on_stage_run }, &mut |_| {}).expect("it runs");
         (outcome.reason, outcome.progress.generations, names.concat())
     };
-    let gaps = json!({ "terrain": "gaps" });
-    assert_eq!(ends(1, json!({})), (StopReason::Target, 1, "a".into()));
-    assert_eq!(ends(1, gaps.clone()), (StopReason::Target, 2, "ab".into()));
-    assert_eq!(ends(3, json!({})), (StopReason::Target, 1, "a".into()));
-    assert_eq!(ends(3, gaps), (StopReason::Target, 4, "ab".into()));
+    let (same, gaps) = (json!({}), json!({ "terrain": "gaps" }));
+    for generations in [1, 3] {
+        let ends = |changes| ends(generations, changes);
+        assert_eq!(ends([same.clone(), same.clone()]), (StopReason::Target, 1, "a".into()));
+        assert_eq!(ends([gaps.clone(), same.clone()]), (StopReason::Target, generations + 1, "ab".into()));
+        assert_eq!(ends([same.clone(), gaps.clone()]), (StopReason::Target, 2 * generations + 1, "abc".into()));
+    }
 }
 
 #[test]

@@ -25,15 +25,20 @@ pub(crate) fn replay(
         };
         (digester, Trial::new(played.outcome, &*played.movement))
     };
-    let trials_played = 0..trials.count.max(1);
-    let played: Vec<(TrajectoryDigester, Trial)> = match rayon::current_thread_index() {
-        Some(_) => trials_played.into_par_iter().map(play).collect(),
-        None => trials_played.map(play).collect(),
-    };
     let mut tally = Tally::new(trials);
-    let evaluation = played.iter().find_map(|(_, trial)| tally.add(trial));
-    let digest = played.into_iter().next().map(|(digester, _)| digester.finish()).unwrap_or_default();
-    (digest, evaluation.unwrap_or_else(|| episode.evaluate(&mut network.clone(), seed)))
+    let played: Vec<(TrajectoryDigester, Trial)> = match rayon::current_thread_index() {
+        Some(_) => (0..trials.count).into_par_iter().map(play).collect(),
+        None => Vec::new(),
+    };
+    let mut played = played.into_iter();
+    let mut digest = None;
+    loop {
+        let (digester, trial) = played.next().unwrap_or_else(|| play(tally.next_trial()));
+        digest.get_or_insert_with(|| digester.finish());
+        if let Some(evaluation) = tally.add(&trial) {
+            return (digest.unwrap_or_default(), evaluation);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@ use crate::{Registry, program_name};
 use crate::{
     champion::Champion,
     config::{Origin, RunConfig},
-    shaping::PlannedStage,
+    shaping::{ENDED_EARLY, PlannedStage},
     texts::shell_word,
     training::Outcome,
 };
@@ -132,25 +132,40 @@ impl Show {
         }
     }
 
-    /// What came of the run. `verdict`: on the champion's gait, if those of its movement are judged.
-    pub(super) fn result(&self, outcome: &Outcome, verdict: Option<&Judgement>, seconds: f64, report: bool) {
+    /// What came of the run. `verdict`: on the champion's gait, if those of its movement are judged. `too_early`: it is from a stage
+    /// before the one that learns what the run is for.
+    pub(super) fn result(
+        &self,
+        outcome: &Outcome,
+        verdict: Option<&Judgement>,
+        too_early: bool,
+        seconds: f64,
+        report: bool,
+    ) {
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
         if matches!(self.output, Output::Json) {
             let trained = champion.as_ref().and_then(|champion| champion.trained);
             print_json(&json!({ "result": {
                 "folder": folder.path().display().to_string(), "reason": reason, "progress": progress, "fitness": fitness,
-                "trained": trained, "verdict": verdict, "seconds": seconds,
+                "trained": trained, "verdict": verdict, "ended_early": too_early, "seconds": seconds,
             }}));
         }
         if matches!(self.output, Output::Quiet | Output::Json) {
             return;
         }
         // A reader that went away (`| head`) does not make a run that went well a failure.
-        let _ = self.summary(outcome, verdict, seconds, report);
+        let _ = self.summary(outcome, verdict, too_early, seconds, report);
     }
 
-    fn summary(&self, outcome: &Outcome, verdict: Option<&Judgement>, seconds: f64, report: bool) -> io::Result<()> {
+    fn summary(
+        &self,
+        outcome: &Outcome,
+        verdict: Option<&Judgement>,
+        too_early: bool,
+        seconds: f64,
+        report: bool,
+    ) -> io::Result<()> {
         let Outcome { folder, reason, progress, champion } = outcome;
         let generations = progress.generations;
         match champion {
@@ -172,7 +187,8 @@ impl Show {
             None => say!("every evaluation failed; {reason} after {generations} generations")?,
         }
         if let Some(verdict) = verdict {
-            say!("gait      {}", in_words(verdict))?;
+            let early = if too_early { format!("; but {ENDED_EARLY}") } else { String::new() };
+            say!("gait      {}{early}", in_words(verdict))?;
         }
         if champion.is_some() {
             say!("champion  {}", folder.champion().display())?;

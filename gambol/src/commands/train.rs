@@ -46,7 +46,8 @@ A run ends at the first limit it meets. It has 300 generations at most, unless -
 --minutes or --budget says otherwise. Ctrl-C finishes the generation and saves. \
 At the end the champion's gait is judged, as `gambol gait` judges it, if those of its movement are.
 
-Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable. 130: interrupted.")]
+Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable, \
+or is from a stage before the one that learns what the run is for. 130: interrupted.")]
 pub(crate) struct Train {
     /// A shipped creature's name (see: gambol creatures) or a creature file
     creature: Option<String>,
@@ -313,12 +314,13 @@ pub(super) fn carry_out(
     // Judging takes a whole episode, which quiet runs save.
     let judged = outcome.champion.as_ref().filter(|_| !flags.quiet || until_usable);
     let verdict = judged.and_then(|champion| verdict(champion, &registry));
-    show.result(&outcome, verdict.as_ref(), seconds, !flags.no_report);
-    let usable = verdict.is_some_and(|verdict| verdict.usable)
-        && (!until_usable || shaping::is_of_goal(&outcome.folder, &registry)?);
+    let usable = verdict.as_ref().is_some_and(|verdict| verdict.usable);
+    // What cannot be read again was trained all the same.
+    let too_early = usable && !shaping::is_of_goal(&outcome.folder, &registry).unwrap_or(true);
+    show.result(&outcome, verdict.as_ref(), too_early, seconds, !flags.no_report);
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
-        _ if until_usable && !usable => ExitCode::from(NOT_USABLE),
+        _ if until_usable && (!usable || too_early) => ExitCode::from(NOT_USABLE),
         _ => ExitCode::SUCCESS,
     })
 }

@@ -213,12 +213,13 @@ fn bench_gaits_tells_every_run() -> Outcome {
 /// The steps are those of all stages. A gait that is usable in a stage before the one the run is for does not count.
 #[test]
 fn bench_gaits_trains_a_movement_with_stages() -> Outcome {
+    let stages = |second: &str| {
+        format!(r#"stages=[{{"name":"a","promotion":{{"generations":30}}}},{{"name":"b","changes":{second}}}]"#)
+    };
     let told = |second: &str, more: &[&str]| -> Result<Value, serde_json::Error> {
-        let stages =
-            format!(r#"stages=[{{"name":"a","promotion":{{"generations":30}}}},{{"name":"b","changes":{second}}}]"#);
         let mut bench = gambol("bench");
         bench.args(["gaits", "--creatures", "tetrapod-1", "--movements", "running", "--seeds", "1", "--json"]);
-        serde_json::from_str(&succeed(bench.args(["--set", &stages]).args(more)))
+        serde_json::from_str(&succeed(bench.args(["--set", &stages(second)]).args(more)))
     };
     let gaps = r#"{"terrain":"gaps:0.1"}"#;
     // Usable after ten generations; the second stage is of the same gaits on another ground.
@@ -232,9 +233,34 @@ fn bench_gaits_trains_a_movement_with_stages() -> Outcome {
         &first["reasons"].to_string(),
         &["the run ended in a stage before the one that learns what the run is for"],
     );
+    // So it is with `train`, which says why.
+    let folder = tempfile::tempdir()?;
+    let mut train = gambol("train");
+    train.args(["tetrapod-1", "running", "--until", "usable", "--steps", "150000", "--no-report", "--out"]);
+    train.arg(folder.path().join("run")).args(["--set", &stages(gaps)]);
+    let ended = run(&mut train);
+    assert_eq!(ended.code, Some(3), "{}{}", ended.stdout, ended.stderr);
+    assert_says(
+        &ended.stdout,
+        &["usable, in ", "; but the run ended in a stage before the one that learns what the run is for"],
+    );
     // Where the second stage is of the same task, it does.
     let same = told("{}", &["--steps", "3000000"])?;
     assert_eq!((&same["usable"], same["generations"].as_u64() < Some(30)), (&true.into(), true), "{same}");
+    Ok(())
+}
+
+/// The stages are those of the preset. That a body moves as it is told says nothing of jumps.
+#[test]
+fn bench_gaits_trains_playing() -> Outcome {
+    let mut bench = gambol("bench");
+    bench.args(["gaits", "--creatures", "tetrapod-1", "--movements", "playing", "--seeds", "1", "--json"]);
+    bench.args(["--steps", "3000", "--set", "training_steps=20", "--set", "strategy.cma-es.population=8"]);
+    let told: Value = serde_json::from_str(&succeed(&mut bench))?;
+    assert!(told["steps"].as_u64() >= Some(3000), "{told}");
+    assert_eq!((&told["usable"], &told["steps_to_usable"]), (&false.into(), &Value::Null));
+    let why = "the run ended in a stage before the one that learns what the run is for";
+    assert_says(&told["reasons"].to_string(), &["told to move at", why]);
     Ok(())
 }
 

@@ -277,6 +277,7 @@ fn a_run_resumed_with_a_target_that_it_has_reached_keeps_its_latest_champion() -
     succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
     let champion = read(&run_folder.join("champion.json"));
     assert_eq!(champion, read(&run_folder.join("stages/02-on/champion.json")));
+    assert_ne!(champion, read(&run_folder.join("stages/01-run/champion.json")));
     run(gambol("resume").arg(&run_folder).args(["--generations", "9", "--target=-1e9", "--no-report"]));
     assert_eq!(read(&run_folder.join("champion.json")), read(&run_folder.join("stages/02-on/champion.json")));
     Ok(())
