@@ -8,7 +8,8 @@ use std::{cmp::Reverse, collections::BTreeSet, fmt};
 ///
 /// Where each generation is evaluated in a world of its own, the best fitness ever is that of the luckiest world. With a
 /// champion selection ([`Evolution::with_champion_selection`](crate::Evolution::with_champion_selection)) the best of each
-/// generation, or of a [group](ReEvaluations::group) of them, become [`Candidate`]s. A [re-evaluation](ReEvaluations) compares them with each other and with the champion.
+/// generation, or of a [group](ReEvaluations::group) of them, become [`Candidate`]s. A [re-evaluation](ReEvaluations) compares them
+/// with each other and with the champion.
 ///
 /// An implementor owes: one evaluation for each candidate, in order, and the same ones whenever it is asked again. What a
 /// champion selection spends counts towards no budget: it changes nothing in what is searched.

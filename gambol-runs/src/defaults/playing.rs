@@ -87,9 +87,9 @@ const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
 /// The share of holds in which it is told to stand, once it can move.
 const STANDING: f32 = 0.25;
 
-/// The turns of the jump clocks, s: for half of the first a body crouches, and for the rest it pushes off: it has to be in the air
-/// half a second after the press. By the end of the second it has to have landed; the sooner, the more time is left to be on its way
-/// again. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
+/// How long the jump clocks turn, s. A body crouches for half of the first turn, and pushes off for the rest of it: half a second after
+/// the press it has to be in the air. By the end of the second turn it has to have landed; the sooner, the more time is left to be on its
+/// way again. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
 const JUMP_CLOCKS: [f32; 2] = [0.6, 0.9];
 
 /// The same for two legs with knees: with a first turn of 0.6 s, or a second of 1 s, biped-2 is playable in fewer schedules.

@@ -23,7 +23,8 @@ Examples:
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height. \
 A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier (of one with stages, in a stage that \
-learns what the whole run is for), or when the time is up; with --whole when the time is up. Seconds count from the start of the run, building the creature and the champion selection included. \
+learns what the whole run is for), or when the time is up; with --whole when the time is up. \
+Seconds count from the start of the run, building the creature and the champion selection included. \
 With --steps, times are millions (M) of physics steps.")]
 pub(super) struct Gaits {
     /// Shipped creatures' names or creature files [default: all seven]

@@ -44,6 +44,18 @@ enum Output {
     Lines,
 }
 
+/// What came of a run.
+pub(super) struct Ended<'a> {
+    pub(super) outcome: &'a Outcome,
+    /// On the champion's gait, if those of its movement are judged.
+    pub(super) verdict: Option<&'a Judgement>,
+    /// Whether a usable champion is from a stage before the one that learns what the run is for.
+    pub(super) too_early: bool,
+    pub(super) seconds: f64,
+    /// Whether a report was written.
+    pub(super) report: bool,
+}
+
 impl Show {
     pub(super) fn new(quiet: bool, json: bool, config: &RunConfig, registry: &Registry) -> Self {
         let staged = !config.stages.is_empty();
@@ -132,16 +144,9 @@ impl Show {
         }
     }
 
-    /// What came of the run. `verdict`: on the champion's gait, if those of its movement are judged. `too_early`: it is from a stage
-    /// before the one that learns what the run is for.
-    pub(super) fn result(
-        &self,
-        outcome: &Outcome,
-        verdict: Option<&Judgement>,
-        too_early: bool,
-        seconds: f64,
-        report: bool,
-    ) {
+    /// Tells what came of the run.
+    pub(super) fn result(&self, ended: &Ended<'_>) {
+        let Ended { outcome, verdict, too_early, seconds, .. } = ended;
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
         if matches!(self.output, Output::Json) {
@@ -155,17 +160,11 @@ impl Show {
             return;
         }
         // A reader that went away (`| head`) does not make a run that went well a failure.
-        let _ = self.summary(outcome, verdict, too_early, seconds, report);
+        let _ = self.summary(ended);
     }
 
-    fn summary(
-        &self,
-        outcome: &Outcome,
-        verdict: Option<&Judgement>,
-        too_early: bool,
-        seconds: f64,
-        report: bool,
-    ) -> io::Result<()> {
+    fn summary(&self, ended: &Ended<'_>) -> io::Result<()> {
+        let Ended { outcome, verdict, too_early, seconds, report } = *ended;
         let Outcome { folder, reason, progress, champion } = outcome;
         let generations = progress.generations;
         match champion {

@@ -1,4 +1,7 @@
-use super::{INTERRUPTED, NOT_USABLE, Outcome, progress::Show};
+use super::{
+    INTERRUPTED, NOT_USABLE, Outcome,
+    progress::{Ended, Show},
+};
 use crate::{
     Registry, Setup,
     champion::Champion,
@@ -317,7 +320,8 @@ pub(super) fn carry_out(
     let usable = verdict.as_ref().is_some_and(|verdict| verdict.usable);
     // What cannot be read again was trained all the same.
     let too_early = usable && !shaping::is_of_goal(&outcome.folder, &registry).unwrap_or(true);
-    show.result(&outcome, verdict.as_ref(), too_early, seconds, !flags.no_report);
+    let verdict = verdict.as_ref();
+    show.result(&Ended { outcome: &outcome, verdict, too_early, seconds, report: !flags.no_report });
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
         _ if until_usable && (!usable || too_early) => ExitCode::from(NOT_USABLE),

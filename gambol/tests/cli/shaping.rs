@@ -248,16 +248,22 @@ fn a_run_killed_before_it_kept_its_champion_keeps_it_when_resumed() -> Outcome {
     Ok(())
 }
 
-/// Fewer generations than were done leave nothing to do, and nothing may be undone.
-#[test]
-fn a_run_resumed_with_a_lower_limit_keeps_its_latest_champion() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let run_folder = folder.path().join("run");
+/// Trains two stages, of two generations and of three.
+fn two_stages(folder: &Path) -> PathBuf {
     let mut config = three_stages();
     config["stages"] = json!([config["stages"][0], { "name": "jump" }]);
     config["stages"][0]["promotion"] = json!({ "generations": 2 });
     config["stop"] = json!({ "generations": 5 });
-    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let run_folder = folder.join("run");
+    succeed(train(&write(folder, &config), &run_folder).arg("--quiet"));
+    run_folder
+}
+
+/// Fewer generations than were done leave nothing to do, and nothing may be undone.
+#[test]
+fn a_run_resumed_with_a_lower_limit_keeps_its_latest_champion() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run_folder = two_stages(folder.path());
     let champion = read(&run_folder.join("champion.json"));
     assert_ne!(champion, read(&run_folder.join("stages/01-run/champion.json")));
     run(gambol("resume").arg(&run_folder).args(["--generations", "1", "--no-report"]));
@@ -269,17 +275,12 @@ fn a_run_resumed_with_a_lower_limit_keeps_its_latest_champion() -> Outcome {
 #[test]
 fn a_run_resumed_with_a_target_that_it_has_reached_keeps_its_latest_champion() -> Outcome {
     let folder = tempfile::tempdir()?;
-    let run_folder = folder.path().join("run");
-    let mut config = three_stages();
-    config["stages"] = json!([config["stages"][0], { "name": "on" }]);
-    config["stages"][0]["promotion"] = json!({ "generations": 2 });
-    config["stop"] = json!({ "generations": 5 });
-    succeed(train(&write(folder.path(), &config), &run_folder).arg("--quiet"));
+    let run_folder = two_stages(folder.path());
     let champion = read(&run_folder.join("champion.json"));
-    assert_eq!(champion, read(&run_folder.join("stages/02-on/champion.json")));
+    assert_eq!(champion, read(&run_folder.join("stages/02-jump/champion.json")));
     assert_ne!(champion, read(&run_folder.join("stages/01-run/champion.json")));
     run(gambol("resume").arg(&run_folder).args(["--generations", "9", "--target=-1e9", "--no-report"]));
-    assert_eq!(read(&run_folder.join("champion.json")), read(&run_folder.join("stages/02-on/champion.json")));
+    assert_eq!(read(&run_folder.join("champion.json")), read(&run_folder.join("stages/02-jump/champion.json")));
     Ok(())
 }
 

@@ -510,22 +510,29 @@ proptest! {
     }
 }
 
+/// How many wait after each generation, and who is heard at each re-evaluation, where the best fitness rises by 1 with each generation and
+/// falls to 0 after so many.
+fn waiting_and_heard(generations: u32, period: u32, re_evaluations: ReEvaluations) -> (Vec<usize>, Vec<Vec<Puppet>>) {
+    let lines: Vec<Vec<f64>> = (0..generations).map(|generation| vec![f64::from(generation % period), -1.0]).collect();
+    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
+    let (mut evolution, known) = scripted(&lines, &[], re_evaluations);
+    let prompter = Prompter::of(&evolution);
+    let mut waiting = Vec::new();
+    for _ in 0..generations {
+        evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
+        waiting.push(evolution.candidates().len());
+    }
+    let heard = known.heard.lock().expect("no test panics here").clone();
+    (waiting, heard)
+}
+
 /// However far apart re-evaluations are, no more than twice as many candidates wait as there were generations between the
 /// first ones.
 #[test]
 fn the_number_of_those_that_wait_is_bounded() {
-    let lines: Vec<Vec<f64>> = (0..200).map(|generation| vec![f64::from(generation % 8), -1.0]).collect();
-    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
-    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 2, group: 1, candidates: 1 });
-    let prompter = Prompter::of(&evolution);
-    let mut waiting = Vec::new();
-    for _ in 0..200 {
-        evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-        waiting.push(evolution.candidates().len());
-    }
+    let (waiting, heard) = waiting_and_heard(200, 8, ReEvaluations { every: 2, group: 1, candidates: 1 });
     assert_eq!((waiting[..32].iter().max(), waiting.iter().max()), (Some(&3), Some(&4)));
     // From generation 65 on they are 16 generations apart; of each four, the best has waited.
-    let heard = known.heard.lock().expect("no test panics here").clone();
     let last = heard.last().expect("re-evaluations");
     let expected = [180, 184, 188].map(|generation| genome(generation, 0));
     assert_eq!(last[..3], expected, "the fittest of 177 to 180, of 181 to 184, and of 185 to 188");
@@ -533,17 +540,8 @@ fn the_number_of_those_that_wait_is_bounded() {
 
 #[test]
 fn of_a_group_of_generations_the_best_waits() {
-    let lines: Vec<Vec<f64>> = (0..120).map(|generation| vec![f64::from(generation % 4), -1.0]).collect();
-    let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();
-    let (mut evolution, known) = scripted(&lines, &[], ReEvaluations { every: 6, group: 3, candidates: 1 });
-    let prompter = Prompter::of(&evolution);
-    let mut waiting = Vec::new();
-    for _ in 0..120 {
-        evolution.generation(&Unused, &prompter, &mut []).expect("a generation");
-        waiting.push(evolution.candidates().len());
-    }
+    let (waiting, heard) = waiting_and_heard(120, 4, ReEvaluations { every: 6, group: 3, candidates: 1 });
     assert_eq!((waiting[..48].iter().max(), waiting.iter().max()), (Some(&2), Some(&4)), "2 × 6 / 3");
-    let heard = known.heard.lock().expect("no test panics here").clone();
     assert_eq!(heard[0], [3, 4, 6].map(|generation| genome(generation, 0)), "the fittest of 1 to 3, of 4 and 5, and 6");
     assert_eq!(heard[1][..2], [8, 11].map(|generation| genome(generation, 0)));
 }
