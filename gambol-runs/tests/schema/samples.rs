@@ -5,6 +5,7 @@ use creatures::{Blueprint, Creature};
 use gambol_runs::{Registry, Setup, config::RunConfig, shaping::Stages};
 use ne_net::Topology;
 use serde_json::{Value, json};
+use std::sync::LazyLock;
 
 /// A valid value.
 pub(crate) struct Sample {
@@ -16,18 +17,20 @@ pub(crate) struct Sample {
     pub(crate) check: fn(&Value) -> Result<(), String>,
 }
 
+/// Made once: it reads the files of all creatures.
+static REGISTRY: LazyLock<Registry> = LazyLock::new(Registry::default);
+
 /// As the preset without anything special has it.
 pub(crate) fn plain(creature: &str, movement: &str) -> RunConfig {
     let creature = creatures::find(creature).expect("shipped");
-    Registry::default().config("plain", creature, movement).expect("there is such a preset")
+    REGISTRY.config("plain", creature, movement).expect("there is such a preset")
 }
 
 /// Reads a configuration from its text, as files are read, and builds it.
 pub(crate) fn check_config(value: &Value) -> Result<(), String> {
     let config: RunConfig = serde_json::from_str(&value.to_string()).map_err(|error| error.to_string())?;
-    let registry = Registry::default();
-    Setup::new(&config, &registry).map_err(|error| error.to_string())?;
-    Stages::new(&config, &registry).map_err(|error| error.to_string())?;
+    Setup::new(&config, &REGISTRY).map_err(|error| error.to_string())?;
+    Stages::new(&config, &REGISTRY).map_err(|error| error.to_string())?;
     Ok(())
 }
 

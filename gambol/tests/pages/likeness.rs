@@ -17,6 +17,9 @@ pub(crate) struct Picture {
     pub(crate) points: Vec<[f32; 3]>,
 }
 
+/// What a picture is compared by: its red, green and blue, with soft edges.
+pub(crate) struct Look([Plane; 3]);
+
 impl Picture {
     /// From a PNG file.
     pub(crate) fn read(file: &[u8]) -> Self {
@@ -93,6 +96,11 @@ impl Picture {
         soft
     }
 
+    /// What it is compared by.
+    pub(crate) fn look(&self) -> Look {
+        Look([0, 1, 2].map(|colour| self.plane(colour)))
+    }
+
     /// One of its colours, with soft edges.
     fn plane(&self, colour: usize) -> Plane {
         let weights: Vec<f32> = (-4..=4).map(|step: i16| (-0.5 * (f32::from(step) / BLUR).powi(2)).exp()).collect();
@@ -112,15 +120,18 @@ impl Picture {
         let samples = spread(&spread(&samples, 1, self.width), self.width, self.height);
         Plane { samples, width: self.width, height: self.height }
     }
+}
 
+impl Look {
     /// The structural similarity of two pictures, 1 for the same: of the whole, and of the part that is least alike. 0 and 0 where the sizes
     /// differ.
     pub(crate) fn likeness(&self, other: &Self) -> (f64, f64) {
-        if (self.width, self.height) != (other.width, other.height) {
+        let size = |look: &Self| (look.0[0].width, look.0[0].height);
+        if size(self) != size(other) {
             return (0.0, 0.0);
         }
         let of =
-            |colour| ssim(&self.plane(colour), &other.plane(colour), &SsimOptions::default()).expect("large enough");
+            |colour: usize| ssim(&self.0[colour], &other.0[colour], &SsimOptions::default()).expect("large enough");
         let colours = [0, 1, 2].map(of);
         let whole = colours.iter().map(|colour| colour.score).sum::<f64>() / 3.0;
         let (width, height) = (colours[0].map_width, colours[0].map_height);

@@ -11,7 +11,7 @@ use crate::{
     browser::{Browser, ENTER, Kind, Person},
     hands::{click, is_clean, set, text, train, wait},
     home::{Home, Studio},
-    likeness::Picture,
+    likeness::{Look, Picture},
 };
 use std::{
     env, fs,
@@ -172,7 +172,7 @@ fn difference(name: &str, picture: &[u8], width: usize, same_letters: bool) -> O
     let Ok(before) = fs::read(&path) else {
         return Some(format!("{name}: there is no {}: GAMBOL_PICTURES=write writes it", path.display()));
     };
-    let (whole, part) = Picture::read(&before).likeness(&picture);
+    let (whole, part) = Picture::read(&before).look().likeness(&picture.look());
     if is_same((whole, part), same_letters) {
         return None;
     }
@@ -207,16 +207,21 @@ const PARTS: [(&str, &str, [usize; 4]); 12] = [
 /// the same.
 pub(crate) fn are_told_apart() {
     let picture = |name: &str| Picture::read(&fs::read(kept(name)).expect("it is kept"));
+    let mut seen: Vec<Look> = Vec::new();
     for (index, one) in NAMES.iter().enumerate() {
-        for other in &NAMES[..index] {
-            let likeness = picture(one).likeness(&picture(other));
+        let picture = picture(one);
+        let look = picture.look();
+        for (other, before) in NAMES[..index].iter().zip(&seen) {
+            let likeness = look.likeness(before);
             assert!(!is_same(likeness, true) && !is_same(likeness, false), "{one}, {other}: {likeness:?}");
         }
-        let likeness = picture(one).likeness(&picture(one).softened());
+        let likeness = look.likeness(&picture.softened().look());
         assert!(is_same(likeness, true), "{one} with other edges: {likeness:?}");
+        seen.push(look);
     }
     for (name, part, place) in PARTS {
-        let likeness = picture(name).likeness(&picture(name).painted_over(place));
+        let picture = picture(name);
+        let likeness = picture.look().likeness(&picture.painted_over(place).look());
         assert!(!is_same(likeness, true), "{name} without {part}: {likeness:?}");
     }
 }

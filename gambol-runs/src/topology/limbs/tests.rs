@@ -417,8 +417,8 @@ fn jumping(creature: &str, clocks: &[f32]) -> (Senses, Motors, Limbs) {
 }
 
 /// What the motors are asked for so long after the press, s, with genes for which `changed` holds drawn anew.
-fn jumper(clocks: &[f32], time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
-    let (senses, motors, Limbs { topology: shape, names, .. }) = jumping("tetrapod-2", clocks);
+fn jumper(body: &(Senses, Motors, Limbs), time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32> {
+    let (senses, motors, Limbs { topology: shape, names, .. }) = body;
     let gene = |(index, name): (usize, &String)| {
         let of = index as f32 * 0.9 + if changed(name) { 2.0 } else { 0.0 };
         libm::sinf(of)
@@ -432,7 +432,7 @@ fn jumper(clocks: &[f32], time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32>
     };
     let inputs: Vec<f32> = senses.probes().iter().enumerate().map(input).collect();
     let mut outputs = vec![0.0; motors.len()];
-    Topology::from(shape).network(&genes).activate(&inputs, &mut outputs);
+    Topology::from(shape.clone()).network(&genes).activate(&inputs, &mut outputs);
     outputs
 }
 
@@ -441,9 +441,10 @@ fn jumper(clocks: &[f32], time: f32, changed: impl Fn(&str) -> bool) -> Vec<f32>
 #[test]
 fn stride_and_phases_of_the_jump_each_have_the_body_alone() {
     let modules = ["hidden", "crouch", "push-off", "landing"];
-    let counts = |clocks: &[f32], time: f32| -> Vec<&str> {
+    let [two_clocks, one_clock] = [&[0.6, 1.2][..], &[0.6]].map(|clocks| jumping("tetrapod-2", clocks));
+    let counts = |body: &(Senses, Motors, Limbs), time: f32| -> Vec<&str> {
         let differs = |module: &&str| {
-            let (one, other) = (jumper(clocks, time, |_| false), jumper(clocks, time, |name| name.contains(*module)));
+            let (one, other) = (jumper(body, time, |_| false), jumper(body, time, |name| name.contains(*module)));
             one.iter().zip(&other).any(|(one, other)| (one - other).abs() > 1e-4)
         };
         modules.into_iter().filter(differs).collect()
@@ -460,14 +461,14 @@ fn stride_and_phases_of_the_jump_each_have_the_body_alone() {
         (1.2, "hidden"),
         (3.0, "hidden"),
     ] {
-        assert_eq!(counts(&[0.6, 1.2], time), [module], "{time} s after the press");
+        assert_eq!(counts(&two_clocks, time), [module], "{time} s after the press");
         let alone = if module == "landing" { "hidden" } else { module };
-        assert_eq!(counts(&[0.6], time), [alone], "{time} s after the press, with one clock");
+        assert_eq!(counts(&one_clock, time), [alone], "{time} s after the press, with one clock");
     }
     let mut several = 0;
     for rate in [50.0, 60.0, 120.0] {
         for tick in 0..(1.3 * rate) as u32 {
-            let found = counts(&[0.6, 1.2], tick as f32 / rate);
+            let found = counts(&two_clocks, tick as f32 / rate);
             assert!(!found.is_empty(), "nothing has the body after {tick} ticks of 1/{rate} s");
             several += usize::from(found.len() > 1);
         }
