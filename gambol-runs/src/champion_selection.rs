@@ -62,6 +62,9 @@ const STEPS: [(Trial, usize); 8] = [
 /// may yet fail in every second.
 const SCHEDULES: [usize; 9] = [8, 16, 20, 24, 26, 28, 30, 31, Trial::MoreCommands.worlds()];
 
+/// The tier of a gait that is told what to do, and is usable in 28 schedules of 32.
+pub(crate) const DEPENDABLE: u8 = USABLE + 6;
+
 /// All steps, in their order, of a gait that is told what to do or is not.
 fn steps(commanded: bool) -> Vec<(Trial, usize)> {
     let schedules = SCHEDULES.map(|schedules| (Trial::MoreCommands, schedules));

@@ -131,9 +131,9 @@ impl Experiment {
                 });
             }
         }
-        let tier = (!whole).then_some(gambol_runs::judge::USABLE);
-        let stop = StopConditions { steps: Some(steps), tier, ..StopConditions::default() };
+        let stop = StopConditions { steps: Some(steps), ..StopConditions::default() };
         let study = GaitStudy::new(&requests, seeds, stop, robust, registry()).map_err(wrong)?;
+        let study = if whole { study } else { study.until_usable(registry()) };
         Ok(Self { experiment: Box::new(study) })
     }
 

@@ -1,8 +1,8 @@
 use crate::gait::{JumpingRules, PlayingRules, Rules, RunningRules, SwimmingRules};
 use crate::{
-    Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway, Hopping, Idleness,
-    Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Playing, Posture, Rhythm, Rollovers, Running,
-    Slip, Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
+    Alternation, Backwards, Carrying, Climbing, Cruising, Energy, FallEnds, Footfalls, GettingUp, Haste, Headway,
+    Hopping, Idleness, Jumping, Landing, Leap, LongJump, Movement, NoExploits, Objectives, Playing, Posture, Rhythm,
+    Rollovers, Running, Slip, Standing, Sum, Swimming, TimeAloft, Upright, Vibration, Walking,
 };
 use ne_core::{
     SettingError,
@@ -237,6 +237,7 @@ impl Default for MovementCatalogue {
             "way made while legs were not used for 0.9 s, by their share; weigh it negatively; ends the episode when half \
              of them are idle",
         );
+        catalogue.add::<Alternation>(None, "way made by steps of two legs that do not take turns; weigh it negatively");
         catalogue.add_with_settings(
             None,
             "ends the episode when there is no headway for 1 s; 1 if there was none; settings: backwards (false)",

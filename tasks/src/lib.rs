@@ -58,7 +58,7 @@ pub use commands::{Command, CommandChange, CommandSchedule, Commands, RandomComm
 pub use environment::Environment;
 pub use episode::{Episode, Moment, Played, Watcher};
 pub use movement::{
-    Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
+    Alternation, Backwards, Carrying, Climbing, Cruising, CruisingSettings, Energy, FallEnds, Footfalls, GettingUp,
     GettingUpSettings, Haste, HasteSettings, Headway, HeadwaySettings, Hopping, Idleness, Jumping, Landing, Leap,
     LongJump, Movement, MovementClone, NoExploits, NoExploitsSettings, Objectives, Playing, PlayingSettings, Posture,
     PostureSettings, Rhythm, RhythmSettings, Rollovers, Running, Slip, Standing, StandingSettings, Sum, Swimming,

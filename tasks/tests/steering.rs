@@ -2,9 +2,9 @@
 
 use std::f32::consts::TAU;
 use tasks::{
-    Body, BodyHinge, BodyMotor, BodyPart, Footfalls, Haste, Headway, Idleness, Jumping, Landing, Leap, Movement,
-    MovementCatalogue, MovementSpec, NoExploits, NoExploitsSettings, PartState, Posture, Rhythm, RhythmSettings,
-    Running, Slip, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
+    Alternation, Body, BodyHinge, BodyMotor, BodyPart, Command, Footfalls, Haste, Headway, Idleness, Jumping, Landing,
+    Leap, Movement, MovementCatalogue, MovementSpec, NoExploits, NoExploitsSettings, PartState, Posture, Rhythm,
+    RhythmSettings, Running, Slip, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
 };
 
 const TIME_STEP: f32 = 0.02;
@@ -140,9 +140,10 @@ fn each_passes_the_check_of_movements_before_and_after_it_has_met_a_body() {
     // All that fits every body the check shows: one part, that is its own leg.
     let hinge = BodyHinge { limits: [-1.0, 1.0], motor, ..BodyHinge::default() };
     let simple = Body { parts: vec![torso], hinges: vec![hinge], legs: vec![vec![0]], ..Body::default() };
-    let movements: [Box<dyn Movement>; 12] = [
+    let movements: [Box<dyn Movement>; 13] = [
         Box::new(Upright::default()),
         Box::new(Footfalls::default()),
+        Box::new(Alternation::default()),
         Box::new(Headway::default()),
         Box::new(Vibration::default()),
         Box::new(Idleness::default()),
@@ -224,6 +225,40 @@ fn footfalls_ends_an_episode_when_half_of_the_legs_rest_or_hang() {
     // A body without legs cannot rest them.
     let legless = Body { legless: true, ..puppet() };
     assert_eq!(value(Footfalls::default(), &legless, &walk(&rests, &rests)), 0.0);
+}
+
+#[test]
+fn alternation_is_the_way_made_by_steps_that_do_not_take_turns() {
+    /// Lifts its foot in every second 0.4 s, from `phase` seconds on.
+    fn steps(phase: f32) -> impl Fn(f32) -> f32 {
+        move |time| if (time + phase) % 0.8 < 0.4 { 0.05 } else { 0.0 }
+    }
+    let run = |left: &dyn Fn(f32) -> f32, right: &dyn Fn(f32) -> f32| {
+        script(4.01, |time| Pose { x: time, lifted: [left(time), right(time)], ..Pose::default() })
+    };
+    let way = |body: &Body, run: &[Snapshot]| (value(Alternation::default(), body, run) * 100.0).round() / 100.0;
+    let body = puppet();
+    assert_eq!(way(&body, &run(&steps(0.0), &steps(0.4))), 0.0, "half a turn apart");
+    assert_eq!(way(&body, &run(&steps(0.0), &steps(0.12))), 0.0, "one right after the other");
+    // The first of five strides has no foot that came down before.
+    let hops = run(&steps(0.0), &steps(0.0));
+    assert_eq!(way(&body, &hops), 3.2, "both at once");
+    assert_eq!(way(&body, &run(&steps(0.0), &|_| 0.0)), 3.2, "one leg alone");
+    // What leaves the ground by less than 3 cm has not stepped.
+    let shivers = |time: f32| if time % 0.2 < 0.1 { 0.02 } else { 0.0 };
+    assert_eq!(way(&body, &run(&steps(0.0), &shivers)), 3.2);
+    // A jump may leave and land as it likes, for 1.5 s: of the way between the first and the last stride one is left.
+    let mut jump = hops.clone();
+    for now in &mut jump {
+        now.command = Command { since_press: now.time - 1.0, ..Command::default() };
+        if now.time < 1.0 {
+            now.command = Command::default();
+        }
+    }
+    assert_eq!(way(&body, &jump), 0.8);
+    for other in [Body { legs: vec![vec![1]; 3], ..puppet() }, Body { legless: true, ..puppet() }] {
+        assert_eq!(way(&other, &hops), 0.0, "not of two legs");
+    }
 }
 
 #[test]

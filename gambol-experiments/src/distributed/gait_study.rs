@@ -1,6 +1,6 @@
 use super::{Experiment, Failed, digest, read, temporary, write};
 use crate::gaits::{GaitRun, GaitRuns, SCENARIOS, csv, scenario_row};
-use gambol_runs::{Registry, config::RunConfig, request::Request};
+use gambol_runs::{Registry, config::RunConfig, judge::tier_to_reach, request::Request};
 use ne_core::{StopConditions, digest::Digest};
 use std::path::{Path, PathBuf};
 
@@ -38,6 +38,15 @@ impl GaitStudy {
         };
         let scenarios = requests.iter().map(scenario).collect::<Result<_, String>>()?;
         Ok(Self { scenarios, seeds, robust })
+    }
+
+    /// The same, where runs end as soon as their gait is usable.
+    #[must_use]
+    pub fn until_usable(mut self, registry: &Registry) -> Self {
+        for config in &mut self.scenarios {
+            config.stop.tier = Some(tier_to_reach(&config.movement.name, registry));
+        }
+        self
     }
 
     fn config(&self, run: usize) -> Result<RunConfig, Failed> {

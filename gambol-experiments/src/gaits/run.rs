@@ -7,7 +7,7 @@ use gambol_runs::{
     champion::Champion,
     config::{Origin, RunConfig},
     gait,
-    judge::USABLE,
+    judge::tier_to_reach,
     robust::{Perturbations, robustness},
     run::Run,
     run_folder::RunFolder,
@@ -34,7 +34,8 @@ pub struct GaitRun {
     pub usable: bool,
     /// What speaks against it.
     pub reasons: Vec<String>,
-    /// Seconds until the champion was first usable; of a run with stages in one that learns what the whole run is for.
+    /// Seconds until the champion first had the [tier to reach](tier_to_reach); of a run with stages in one that learns what the
+    /// whole run is for.
     pub seconds_to_usable: Option<f64>,
     /// Physics steps until then, of all stages together.
     pub steps_to_usable: Option<u64>,
@@ -66,7 +67,8 @@ impl GaitRun {
         let folder = tempfile::tempdir().map_err(GaitsError::Temporary)?;
         let began = Instant::now();
         let resources = Resources { threads, registry: registry.clone(), signal: Default::default() };
-        let (outcome, first) = until_over(config, &folder.path().join("run"), resources, began)?;
+        let tier = tier_to_reach(&config.movement.name, registry);
+        let (outcome, first) = until_over(config, &folder.path().join("run"), resources, tier, began)?;
         let seconds = began.elapsed().as_secs_f64();
         let mut run = Self {
             creature: config.creature.name.clone(),
@@ -131,6 +133,7 @@ fn until_over(
     config: &RunConfig,
     folder: &Path,
     resources: Resources,
+    tier_to_reach: u8,
     began: Instant,
 ) -> Result<(Outcome, First), ShapingError> {
     let mut run = Run::begin(config, folder, resources)?;
@@ -147,7 +150,7 @@ fn until_over(
         }
         if let Some((tier, steps)) = done {
             in_stage = steps;
-            if first.is_none() && is_goal && tier >= USABLE {
+            if first.is_none() && is_goal && tier >= tier_to_reach {
                 first = Some((began.elapsed().as_secs_f64(), before + in_stage));
             }
         }

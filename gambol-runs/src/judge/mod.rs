@@ -5,6 +5,7 @@ pub mod worlds;
 
 use crate::Registry;
 use crate::{
+    champion_selection::DEPENDABLE,
     episode_parts::{EpisodeParts, SetupError},
     obstacles::ObstaclesPassed,
     trajectory::Recording,
@@ -43,6 +44,14 @@ pub struct Judge {
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
 /// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
+
+/// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of the champion that ends a run until usable: [`USABLE`]; of a
+/// movement that is told what to do, that of one that is usable in 28 of 32 schedules of commands. One that is usable in a single
+/// schedule may fail in every second.
+pub fn tier_to_reach(movement: &str, registry: &Registry) -> u8 {
+    let commanded = registry.movements.rules(movement).is_some_and(|rules| rules.needs_commands());
+    if commanded { DEPENDABLE } else { USABLE }
+}
 
 /// For the worlds by which champions are chosen.
 pub(crate) const TRAINING: Purpose = Purpose::new("judge of training");

@@ -3,7 +3,7 @@ use crate::{
     Registry,
     config::RunConfig,
     gaits::{ABLATION, GaitRun, GaitRuns, SCENARIOS, VARIANTS, Variant, ablation_row, csv, scenario_row},
-    judge::USABLE,
+    judge::tier_to_reach,
     request::Request,
 };
 use clap::Args;
@@ -23,7 +23,8 @@ Examples:
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height. \
 A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier (of one with stages, in a stage that \
-learns what the whole run is for), or when the time is up; with --whole when the time is up. \
+learns what the whole run is for; of `playing`, in 28 of 32 schedules of commands other than that of `gambol gait`), or when the \
+time is up; with --whole when the time is up. \
 Seconds count from the start of the run, building the creature and the champion selection included. \
 With --steps, times are millions (M) of physics steps.")]
 pub(super) struct Gaits {
@@ -206,7 +207,7 @@ impl Gaits {
         };
         let mut config = request.resolve(registry)?;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
-        let tier = (!self.whole).then_some(USABLE);
+        let tier = (!self.whole).then(|| tier_to_reach(movement, registry));
         config.stop = StopConditions { minutes, steps: self.steps, tier, ..StopConditions::default() };
         let seeds = self.first_seed..self.first_seed + self.seeds;
         Ok(seeds.map(|seed| RunConfig { seed, ..config.clone() }).collect())

@@ -35,6 +35,7 @@ impl Resume {
             .into());
         }
         config.stop = self.limits.beyond(config.stop);
+        self.limits.until(&mut config, registry);
         let stop = Some(config.stop);
         carry_out(&self.flags, &config, registry.clone(), |options, stage_progress| match config.stages.is_empty() {
             true => Ok(training::resume(&self.folder, stop, options)?),

@@ -6,7 +6,9 @@ use crate::{
     Registry, Setup,
     champion::Champion,
     config::{RunConfig, Transferred},
-    gait, report,
+    gait,
+    judge::{USABLE, tier_to_reach},
+    report,
     request::Request,
     run_folder::NewFolder,
     shaping::{self, ShapingError, StageProgress},
@@ -171,10 +173,17 @@ impl Limits {
         planned.giving_way_to(&limits).overlaid(limits)
     }
 
+    /// A run until usable goes on to the tier that its movement asks for.
+    pub(super) fn until(self, config: &mut RunConfig, registry: &Registry) {
+        if self.until.is_some() {
+            config.stop.tier = Some(tier_to_reach(&config.movement.name, registry));
+        }
+    }
+
     fn conditions(self) -> StopConditions {
         let Self { generations, evaluations, steps, target, stagnation, .. } = self;
         let minutes = self.minutes.or(self.budget);
-        let tier = self.until.map(|Until::Usable| crate::judge::USABLE);
+        let tier = self.until.map(|Until::Usable| USABLE);
         StopConditions { generations, evaluations, steps, minutes, target, tier, stagnation }
     }
 }
@@ -226,6 +235,7 @@ impl Train {
             unvaried: false,
         };
         let mut config = request.resolve(&registry)?;
+        self.limits.until(&mut config, &registry);
         let transferred = self.transferred()?;
         match &self.from {
             // Its name becomes that of a folder.

@@ -51,6 +51,30 @@ fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
     Ok(())
 }
 
+/// A gait that is told what to do has to be usable in more schedules than one, also if that is asked for when the run goes on.
+#[test]
+fn what_is_told_what_to_do_is_usable_in_many_schedules() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let wanted = |path: &Path| json(&path.join("config.json"))["content"]["stop"]["tier"].as_u64();
+    let train = |movement: &str, until: &[&str]| {
+        let path = folder.path().join(format!("{movement}{}", until.len()));
+        let mut train = gambol("train");
+        train.args(["tetrapod-1", movement, "--steps", "2000", "--population", "8", "--no-report", "--out"]);
+        train.arg(&path).args(until);
+        (run(&mut train).code, path)
+    };
+    let until = ["--until", "usable"];
+    let (code, path) = train("running", &until);
+    assert_eq!((code, wanted(&path)), (Some(3), Some(1)));
+    let (code, path) = train("playing", &until);
+    assert_eq!((code, wanted(&path)), (Some(3), Some(7)));
+    let (code, path) = train("playing", &[]);
+    assert_eq!((code, wanted(&path)), (Some(0), None));
+    let ended = run(gambol("resume").arg(&path).args(until).args(["--steps", "4000", "--no-report"]));
+    assert_eq!((ended.code, wanted(&path)), (Some(3), Some(7)), "{}{}", ended.stdout, ended.stderr);
+    Ok(())
+}
+
 #[test]
 fn a_run_with_a_budget_of_time_ends_in_time_with_a_champion() -> Outcome {
     let folder = tempfile::tempdir()?;

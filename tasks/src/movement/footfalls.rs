@@ -1,5 +1,8 @@
-use super::{Movement, Verdict};
-use crate::{Body, PartState, Snapshot};
+use super::{
+    Movement, Verdict,
+    foot::{Foot, FootChange},
+};
+use crate::{Body, Snapshot};
 
 /// Watches that every leg is used: that its foot comes down, and leaves the ground, at least every 0.9 s. Its value is the
 /// way the torso made while legs were idle, m, forwards or backwards, in proportion to how many: all of it counts where a
@@ -11,21 +14,13 @@ use crate::{Body, PartState, Snapshot};
 #[derive(Clone, Debug, Default)]
 pub struct Footfalls {
     legs: Vec<Leg>,
-    uneven_ground: bool,
-    /// m.
-    clearance: f32,
     x: f32,
     way: f32,
 }
 
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Leg {
-    foot: usize,
-    corners: Vec<[f32; 2]>,
-    radius: f32,
-    down: bool,
-    /// How high the ground is on which it last stood, m.
-    ground: f32,
+    foot: Foot,
     last_down: f32,
     last_up: f32,
 }
@@ -36,10 +31,6 @@ const WORTHLESS: f32 = 1.0 / 3.0;
 const STOPPED: f32 = 0.5;
 /// s.
 const PATIENCE: f32 = 0.9;
-/// m.
-const CLEARANCE: f32 = 0.03;
-/// Body lengths.
-const RELATIVE_CLEARANCE: f32 = 0.025;
 
 impl Movement for Footfalls {
     fn name(&self) -> &str {
@@ -51,22 +42,14 @@ impl Movement for Footfalls {
     }
 
     fn bind(&mut self, body: &Body) {
-        let leg = |foot: usize| Leg {
-            foot,
-            corners: body.parts[foot].corners.clone(),
-            radius: body.parts[foot].radius,
-            ..Leg::default()
-        };
-        self.clearance = CLEARANCE.max(RELATIVE_CLEARANCE * body.body_length);
-        self.uneven_ground = body.uneven_ground;
+        let leg = |part: usize| Leg { foot: Foot::new(body, part), last_down: 0.0, last_up: 0.0 };
         self.legs = if body.legless { Vec::new() } else { body.feet().map(leg).collect() };
     }
 
     fn begin(&mut self, start: &Snapshot) {
         (self.x, self.way) = (start.torso().x, 0.0);
         for leg in &mut self.legs {
-            leg.down = start.parts[leg.foot].touching;
-            leg.ground = 0.0;
+            leg.foot.begin(start);
             (leg.last_down, leg.last_up) = (start.time, start.time);
         }
     }
@@ -74,16 +57,10 @@ impl Movement for Footfalls {
     fn observe(&mut self, now: &Snapshot) -> Verdict {
         let mut idle = 0.0;
         for leg in &mut self.legs {
-            let part = &now.parts[leg.foot];
-            if part.touching && self.uneven_ground {
-                leg.ground = leg.lowest_point(part);
-            }
-            if part.touching && !leg.down {
-                leg.down = true;
-                leg.last_down = now.time;
-            } else if !part.touching && leg.down && leg.lowest_point(part) > leg.ground + self.clearance {
-                leg.down = false;
-                leg.last_up = now.time;
+            match leg.foot.observe(now) {
+                Some(FootChange::CameDown) => leg.last_down = now.time,
+                Some(FootChange::Lifted) => leg.last_up = now.time,
+                None => {}
             }
             if now.time - leg.last_down.min(leg.last_up) > PATIENCE {
                 idle += 1.0;
@@ -101,13 +78,5 @@ impl Movement for Footfalls {
 
     fn value(&self) -> f64 {
         self.way.into()
-    }
-}
-
-impl Leg {
-    /// Of its foot, m.
-    fn lowest_point(&self, foot: &PartState) -> f32 {
-        let height = |[x, y]: &[f32; 2]| foot.y + foot.sin * x + foot.cos * y;
-        self.corners.iter().map(height).fold(f32::INFINITY, f32::min) - self.radius
     }
 }

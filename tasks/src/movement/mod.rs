@@ -1,5 +1,6 @@
 //! Movements: what is rewarded, each in a file of its own.
 
+mod alternation;
 mod backwards;
 mod carrying;
 mod climbing;
@@ -7,6 +8,7 @@ mod cruising;
 mod energy;
 mod fall_ends;
 mod flights;
+mod foot;
 mod footfalls;
 mod getting_up;
 mod haste;
@@ -34,6 +36,7 @@ mod vibration;
 mod walking;
 
 pub use {
+    alternation::Alternation,
     backwards::Backwards,
     carrying::Carrying,
     climbing::Climbing,
