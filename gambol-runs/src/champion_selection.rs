@@ -3,7 +3,7 @@
 
 use crate::{
     config::EngineChoice,
-    judge::USABLE,
+    judge::{DEPENDABLE, USABLE},
     reference::ReferenceEpisode,
     robustness_check::{RobustnessCheck, Trial},
 };
@@ -62,8 +62,7 @@ const STEPS: [(Trial, usize); 8] = [
 /// may yet fail in every second.
 const SCHEDULES: [usize; 9] = [8, 16, 20, 24, 26, 28, 30, 31, Trial::MoreCommands.worlds()];
 
-/// The tier of a gait that is told what to do, and is usable in 28 schedules of 32.
-pub(crate) const DEPENDABLE: u8 = USABLE + 6;
+const _: () = assert!(SCHEDULES[(DEPENDABLE - USABLE - 1) as usize] == 28, "the documentation says 28");
 
 /// All steps, in their order, of a gait that is told what to do or is not.
 fn steps(commanded: bool) -> Vec<(Trial, usize)> {

@@ -5,7 +5,6 @@ pub mod worlds;
 
 use crate::Registry;
 use crate::{
-    champion_selection::DEPENDABLE,
     episode_parts::{EpisodeParts, SetupError},
     obstacles::ObstaclesPassed,
     trajectory::Recording,
@@ -44,6 +43,9 @@ pub struct Judge {
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
 /// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
+
+/// The tier of a gait that is told what to do, and is usable in 28 schedules of 32.
+pub(crate) const DEPENDABLE: u8 = USABLE + 6;
 
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of the champion that ends a run until usable: [`USABLE`]; of a
 /// movement that is told what to do, that of one that is usable in 28 of 32 schedules of commands. One that is usable in a single
