@@ -44,11 +44,11 @@ pub struct Judge {
 /// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
 pub const USABLE: u8 = 1;
 
-/// The tier of a gait that is told what to do, and is usable in 28 schedules of 32.
-pub(crate) const DEPENDABLE: u8 = USABLE + 6;
+/// The tier of a gait that is told what to do, and is usable in 30 schedules of 32.
+pub(crate) const DEPENDABLE: u8 = USABLE + 7;
 
 /// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of the champion that ends a run until usable: [`USABLE`]; of a
-/// movement that is told what to do, that of one that is usable in 28 of 32 schedules of commands. One that is usable in a single
+/// movement that is told what to do, that of one that is usable in 30 of 32 schedules of commands. One that is usable in a single
 /// schedule may fail in every second.
 pub fn tier_to_reach(movement: &str, registry: &Registry) -> u8 {
     let commanded = registry.movements.rules(movement).is_some_and(|rules| rules.needs_commands());

@@ -23,7 +23,7 @@ Examples:
 
 bl/s: body lengths a second in the second half of the judged episode; sh: the torso's rise over its start height. \
 A run ends as soon as its champion's gait is usable, as `gambol gait` judges it in rapier (of one with stages, in a stage that \
-learns what the whole run is for; of `playing`, in 28 of 32 schedules of commands other than that of `gambol gait`), or when the \
+learns what the whole run is for; of `playing`, in 30 of 32 schedules of commands other than that of `gambol gait`), or when the \
 time is up; with --whole when the time is up. \
 Seconds count from the start of the run, building the creature and the champion selection included. \
 With --steps, times are millions (M) of physics steps.")]
