@@ -41,6 +41,22 @@ fn gaits(steps: Option<u64>) -> Result<GaitStudy, Failed> {
     GaitStudy::new(&[request], vec![1, 2], stop, false, &Registry::default())
 }
 
+#[test]
+fn a_study_until_usable_ends_each_run_at_the_tier_of_its_movement() {
+    let registry = Registry::default();
+    for (movement, tier) in [("running", 1), ("playing", 8)] {
+        let request =
+            Request { creature: Some("tetrapod-1".into()), movement: Some(movement.into()), ..Request::default() };
+        let study = |tier| {
+            let stop = StopConditions { steps: Some(1000), tier, ..StopConditions::default() };
+            GaitStudy::new(std::slice::from_ref(&request), vec![1], stop, false, &registry).expect("a study")
+        };
+        let digest = |study: GaitStudy| study.digest().expect("a digest");
+        assert_eq!(digest(study(None).until_usable(&registry)), digest(study(Some(tier))), "{movement}");
+        assert_ne!(digest(study(None)), digest(study(Some(tier))), "{movement}");
+    }
+}
+
 fn tuning(draw_seed: u64) -> Tuning {
     let plan = PlanRequest {
         creatures: vec!["apod".into()],
