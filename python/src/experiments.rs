@@ -133,7 +133,7 @@ impl Experiment {
         }
         let stop = StopConditions { steps: Some(steps), ..StopConditions::default() };
         let study = GaitStudy::new(&requests, seeds, stop, robust, registry()).map_err(wrong)?;
-        let study = if whole { study } else { study.until_usable(registry()) };
+        let study = if whole { study } else { study.until_usable(registry()).map_err(wrong)? };
         Ok(Self { experiment: Box::new(study) })
     }
 

@@ -41,12 +41,15 @@ impl GaitStudy {
     }
 
     /// The same, where runs end as soon as their gait is usable.
-    #[must_use]
-    pub fn until_usable(mut self, registry: &Registry) -> Self {
+    ///
+    /// # Errors
+    /// If no gaits are judged in one of them.
+    pub fn until_usable(mut self, registry: &Registry) -> Result<Self, Failed> {
         for config in &mut self.scenarios {
-            config.stop.tier = Some(tier_to_reach(&config.movement.name, registry));
+            config.stop.tier = Some(tier_to_reach(config, registry));
+            gambol_runs::Setup::new(config, registry).map_err(|error| error.to_string())?;
         }
-        self
+        Ok(self)
     }
 
     fn config(&self, run: usize) -> Result<RunConfig, Failed> {

@@ -52,9 +52,22 @@ fn a_study_until_usable_ends_each_run_at_the_tier_of_its_movement() {
             GaitStudy::new(std::slice::from_ref(&request), vec![1], stop, false, &registry).expect("a study")
         };
         let digest = |study: GaitStudy| study.digest().expect("a digest");
-        assert_eq!(digest(study(None).until_usable(&registry)), digest(study(Some(tier))), "{movement}");
+        assert_eq!(
+            digest(study(None).until_usable(&registry).expect("it is judged")),
+            digest(study(Some(tier))),
+            "{movement}"
+        );
         assert_ne!(digest(study(None)), digest(study(Some(tier))), "{movement}");
     }
+}
+
+#[test]
+fn a_study_until_usable_of_what_is_not_judged_is_refused() {
+    let request = Request { creature: Some("apod".into()), movement: Some("standing".into()), ..Request::default() };
+    let stop = StopConditions { steps: Some(1000), ..StopConditions::default() };
+    let study = GaitStudy::new(&[request], vec![1], stop, false, &Registry::default()).expect("a study");
+    let refused = study.until_usable(&Registry::default()).expect_err("standing is not judged").to_string();
+    assert!(refused.contains("stop.tier = a tier (--until usable): must be null where no gaits"), "{refused}");
 }
 
 fn tuning(draw_seed: u64) -> Tuning {

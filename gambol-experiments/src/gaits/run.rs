@@ -67,7 +67,7 @@ impl GaitRun {
         let folder = tempfile::tempdir().map_err(GaitsError::Temporary)?;
         let began = Instant::now();
         let resources = Resources { threads, registry: registry.clone(), signal: Default::default() };
-        let tier = tier_to_reach(&config.movement.name, registry);
+        let tier = tier_to_reach(config, registry);
         let (outcome, first) = until_over(config, &folder.path().join("run"), resources, tier, began)?;
         let seconds = began.elapsed().as_secs_f64();
         let mut run = Self {
@@ -125,7 +125,7 @@ impl GaitRun {
     }
 }
 
-/// When a champion was first usable: seconds, and physics steps.
+/// When the champion first had the tier to reach: seconds, and physics steps.
 type First = Option<(f64, u64)>;
 
 /// The run to its end, with stages or without.

@@ -5,6 +5,7 @@ pub mod worlds;
 
 use crate::Registry;
 use crate::{
+    config::RunConfig,
     episode_parts::{EpisodeParts, SetupError},
     obstacles::ObstaclesPassed,
     trajectory::Recording,
@@ -47,12 +48,12 @@ pub const USABLE: u8 = 1;
 /// The tier of a gait that is told what to do, and is usable in 30 schedules of 32.
 pub(crate) const DEPENDABLE: u8 = USABLE + 7;
 
-/// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of the champion that ends a run until usable: [`USABLE`]; of a
-/// movement that is told what to do, that of one that is usable in 30 of 32 schedules of commands. One that is usable in a single
-/// schedule may fail in every second.
-pub fn tier_to_reach(movement: &str, registry: &Registry) -> u8 {
-    let commanded = registry.movements.rules(movement).is_some_and(|rules| rules.needs_commands());
-    if commanded { DEPENDABLE } else { USABLE }
+/// The [tier](ne_core::champion_selection::ReEvaluation::tiers) that ends a run until usable. A movement without commands ends at
+/// [`USABLE`], and one with commands at the tier of 30 of 32 schedules: a gait that is usable in one schedule may fail in half of the
+/// others. Where the world does not vary no tier is above [`USABLE`].
+pub fn tier_to_reach(config: &RunConfig, registry: &Registry) -> u8 {
+    let commanded = registry.movements.rules(&config.movement.name).is_some_and(|rules| rules.needs_commands());
+    if commanded && !config.variation.is_none() { DEPENDABLE } else { USABLE }
 }
 
 /// For the worlds by which champions are chosen.

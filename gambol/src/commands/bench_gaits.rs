@@ -207,7 +207,7 @@ impl Gaits {
         };
         let mut config = request.resolve(registry)?;
         let minutes = self.steps.is_none().then_some(self.seconds / 60.0);
-        let tier = (!self.whole).then(|| tier_to_reach(movement, registry));
+        let tier = (!self.whole).then(|| tier_to_reach(&config, registry));
         config.stop = StopConditions { minutes, steps: self.steps, tier, ..StopConditions::default() };
         let seeds = self.first_seed..self.first_seed + self.seeds;
         Ok(seeds.map(|seed| RunConfig { seed, ..config.clone() }).collect())

@@ -176,7 +176,7 @@ impl Limits {
     /// A run until usable goes on to the tier that its movement asks for.
     pub(super) fn until(self, config: &mut RunConfig, registry: &Registry) {
         if self.until.is_some() {
-            config.stop.tier = Some(tier_to_reach(&config.movement.name, registry));
+            config.stop.tier = Some(tier_to_reach(config, registry));
         }
     }
 

@@ -68,6 +68,9 @@ fn what_is_told_what_to_do_is_usable_in_many_schedules() -> Outcome {
     assert_eq!((code, wanted(&path)), (Some(3), Some(1)));
     let (code, path) = train("playing", &until);
     assert_eq!((code, wanted(&path)), (Some(3), Some(8)));
+    // Where nothing varies no tier is higher than that of a single schedule.
+    let (code, path) = train("playing", &["--until", "usable", "--variation", "none"]);
+    assert_eq!((code, wanted(&path)), (Some(3), Some(1)));
     let (code, path) = train("playing", &[]);
     assert_eq!((code, wanted(&path)), (Some(0), None));
     let ended = run(gambol("resume").arg(&path).args(until).args(["--steps", "4000", "--no-report"]));
