@@ -244,10 +244,21 @@ fn alternation_is_the_way_made_by_steps_that_do_not_take_turns() {
     let hops = run(&steps(0.0), &steps(0.0));
     assert_eq!(way(&body, &hops), 3.2, "both at once");
     assert_eq!(way(&body, &run(&steps(0.0), &|_| 0.0)), 3.2, "one leg alone");
+    assert_eq!(way(&body, &run(&steps(0.0), &steps(0.05))), 3.2, "both within 0.1 s");
+    let back = script(4.01, |time| Pose { x: -time, lifted: [steps(0.0)(time); 2], ..Pose::default() });
+    assert_eq!(way(&body, &back), 3.2, "both at once, backwards");
+    // After a hop on both feet either may come down next.
+    let then = |phase: f32| move |time: f32| steps(if time < 1.0 { 0.0 } else { phase })(time);
+    for (left, right) in [(0.0, 0.4), (0.4, 0.0)] {
+        assert_eq!(way(&body, &run(&then(left), &then(right))), 0.0, "one hop, then in turn");
+    }
+    // A foot that bounces costs the way since it came down, and not that to a landing that took its turn.
+    let bounces = |time: f32| if (2.03..2.07).contains(&time) { 0.05 } else { steps(0.0)(time) };
+    assert_eq!(way(&body, &run(&bounces, &steps(0.4))), 0.06, "a bounce");
     // What leaves the ground by less than 3 cm has not stepped.
     let shivers = |time: f32| if time % 0.2 < 0.1 { 0.02 } else { 0.0 };
     assert_eq!(way(&body, &run(&steps(0.0), &shivers)), 3.2);
-    // A jump may leave and land as it likes, for 1.5 s: of the way between the first and the last stride one is left.
+    // A jump may leave and land as it likes, for 1.5 s: of four hops one still counts.
     let mut jump = hops.clone();
     for now in &mut jump {
         now.command = Command { since_press: now.time - 1.0, ..Command::default() };

@@ -90,6 +90,8 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             (vec!["move", "follow", "jump", "polish", "harden"], 6),
             "{creature}"
         );
+        let alternates = config.movement.terms.iter().any(|term| term.term == "alternation");
+        assert_eq!(alternates, creature == "biped-1", "two legs take turns: {creature}");
         // Only the last has the worlds of the configuration.
         let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
         assert_eq!(near, [true, true, true, true, false], "{creature}");

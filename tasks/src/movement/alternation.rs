@@ -1,6 +1,7 @@
 use super::{
     Movement, Verdict,
     foot::{Foot, FootChange},
+    playing::JUMP_SECONDS,
 };
 use crate::{Body, Snapshot};
 
@@ -28,14 +29,12 @@ struct Landing {
     time: f32,
     /// Where the torso was, m.
     x: f32,
-    /// The way since the landing before, m, as long as it does not count.
+    /// The way since the previous landing, m; 0 once it counts.
     way: f32,
 }
 
 /// Feet that come down within this of each other land together, s.
 const TOGETHER: f32 = 0.1;
-/// How long after a press a body has its jump, s.
-const JUMP: f32 = 1.5;
 
 impl Movement for Alternation {
     fn name(&self) -> &str {
@@ -59,7 +58,7 @@ impl Movement for Alternation {
     }
 
     fn observe(&mut self, now: &Snapshot) -> Verdict {
-        let jumps = now.command.since_press < JUMP;
+        let jumps = f64::from(now.command.since_press) < JUMP_SECONDS;
         if jumps {
             self.last = None;
         }
@@ -69,8 +68,8 @@ impl Movement for Alternation {
                 continue;
             }
             match &mut self.last {
-                Some(last) if time - last.time < TOGETHER => {
-                    last.both |= last.foot != index;
+                Some(last) if last.foot != index && time - last.time < TOGETHER => {
+                    last.both = true;
                     self.way += std::mem::take(&mut last.way);
                 }
                 last => {

@@ -84,7 +84,7 @@ struct Jump {
 /// Over which the speed is smoothed, s.
 const SMOOTH: f64 = 0.25;
 /// How long after the press a jump has, s.
-const JUMP_SECONDS: f64 = 1.5;
+pub(super) const JUMP_SECONDS: f64 = 1.5;
 /// By when the body has to leave the ground, s.
 const ANSWER: f64 = 0.5;
 /// The rise of a whole jump, in start heights; of a body without legs in body lengths.
