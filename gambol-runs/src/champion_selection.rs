@@ -71,6 +71,12 @@ fn steps(commanded: bool) -> Vec<(Trial, usize)> {
     [first, &STEPS].concat()
 }
 
+/// The highest tier that a champion may get whose gait is judged in this episode.
+pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
+    let steps = reference.robustness_check.as_ref().map_or(0, |check| steps(check.needs_commands()).len());
+    USABLE + steps as u8
+}
+
 /// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
 const JUDGED: usize = 8;
 

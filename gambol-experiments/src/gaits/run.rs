@@ -7,7 +7,7 @@ use gambol_runs::{
     champion::Champion,
     config::{Origin, RunConfig},
     gait,
-    judge::tier_to_reach,
+    judge::{USABLE, tier_to_reach},
     robust::{Perturbations, robustness},
     run::Run,
     run_folder::RunFolder,
@@ -87,6 +87,10 @@ impl GaitRun {
         if let Some(champion) = &outcome.champion {
             run.judge(champion, &outcome.folder, registry, robust)?;
         }
+        // The verdict at the end is of one episode: it says nothing of a higher tier.
+        if run.usable && first.is_none() && tier == USABLE {
+            (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
+        }
         Ok(run)
     }
 
@@ -114,10 +118,6 @@ impl GaitRun {
             Goal::Distance => report.travel.second_half_relative_speed,
             Goal::Height => report.best_flight().map_or(0.0, |flight| flight.rise / start_height),
         });
-        // A run whose champion is usable at the last re-evaluation only, after the last generation.
-        if self.usable && self.seconds_to_usable.is_none() {
-            (self.seconds_to_usable, self.steps_to_usable) = (Some(self.seconds), Some(self.steps));
-        }
         if robust {
             self.robust = Some(robustness(champion, registry, &Perturbations::default())?.usable_share);
         }

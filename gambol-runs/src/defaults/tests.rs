@@ -105,8 +105,11 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             "biped-1" => [
                 Some("given up at 8000000 steps and not (fitness ≥ 33), to begin anew at move, 4 times"),
                 None,
-                Some("given up at 12000000 steps and not (fitness ≥ 40), to begin anew at move, 4 times"),
-                None,
+                Some(
+                    "given up at (4000000 steps and fitness ≥ 0 and not (fitness ≥ 20)) or (12000000 steps and not (fitness ≥ 40)), \
+                     to begin anew at move, 8 times",
+                ),
+                Some("given up at 60000000 steps and not (tier ≥ 8), to begin anew at move, 4 times"),
             ],
             _ => [
                 Some("given up at 12000000 steps and not (fitness ≥ 33.5), to begin anew at move, 5 times"),
@@ -116,7 +119,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
             ],
         };
         let promoted = config.stages[2].promotion.as_ref().map(ToString::to_string).unwrap_or_default();
-        let most = if creature == "biped-1" { "60000000 steps" } else { "14000000 steps" };
+        let most = if creature == "biped-1" { "20000000 steps" } else { "14000000 steps" };
         assert!(promoted.ends_with(most), "{creature}: {promoted}");
         assert_eq!(gives_up, expected.map(|given_up| given_up.map(str::to_owned)), "{creature}");
         let speeds = match &config.commands {

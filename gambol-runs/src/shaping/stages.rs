@@ -5,6 +5,7 @@ use super::{
 use crate::Registry;
 use crate::{
     assembly::{Assembly, ConfigError},
+    champion_selection::highest_tier,
     config::{GiveUp, RunConfig, StageSettings, Transferred},
     episode_parts::SetupError,
     setup::Setup,
@@ -310,11 +311,7 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     for (field, rule) in rules {
         let Some(rule) = rule else { continue };
         rule.validate().map_err(|error| error.within(field))?;
-        if rule.asks_for_usable() && setup.reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
-            let allowed = "asked for only where gaits are judged during training: of movements that are judged, in runs \
-                           with a variation, shortened training episodes or further_bodies";
-            return Err(SettingError::new(format!("{field}.usable"), "usable", allowed));
-        }
+        check_tier(rule, setup).map_err(|error| error.within(field))?;
         let known = measurements(setup);
         if let Some(name) = rule.measurements().into_iter().find(|name| !known.iter().any(|known| known == name)) {
             let allowed = format!("one of those there are: {}", known.join(", "));
@@ -322,6 +319,22 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
         }
     }
     Ok(())
+}
+
+/// A tier that is asked for can be reached.
+fn check_tier(rule: &PromotionRule, setup: &Setup) -> Result<(), SettingError> {
+    let Some((asking, tier)) = rule.highest_tier() else { return Ok(()) };
+    let highest = setup.reference.as_ref().filter(|reference| reference.judge.is_some()).map(highest_tier);
+    let allowed = match highest {
+        Some(highest) if tier <= u64::from(highest) => return Ok(()),
+        Some(highest) => format!("from 1 to {highest}"),
+        None => "asked for only where gaits are judged during training: of movements that are judged, in runs with a \
+                 variation, shortened training episodes or further_bodies"
+            .into(),
+    };
+    let (field, found) =
+        if *asking == PromotionRule::Usable { ("usable", "usable".into()) } else { ("tier", tier.to_string()) };
+    Err(SettingError::new(field, found, allowed))
 }
 
 fn check_giving_up(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {

@@ -507,6 +507,18 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): promotion.measurement = no bound: must be either at_least or at_most",
         ),
         (
+            two(json!({ "name": "b", "promotion": { "any": ["usable", { "tier": 10 }] } })),
+            "stages[1] (\"b\"): promotion.tier = 10: must be from 1 to 9",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": { "tier": 0 } })),
+            "stages[1] (\"b\"): promotion.tier = 0: must be at least 1",
+        ),
+        (
+            two(json!({ "name": "b", "promotion": "usable", "changes": { "movement": { "name": "standing" } } })),
+            "stages[1] (\"b\"): promotion.usable = usable: must be asked for only where gaits are judged during training",
+        ),
+        (
             two(json!({ "name": "b", "promotion": "usable", "changes": { "variation": null } })),
             "stages[1] (\"b\"): changes.variation: ",
         ),

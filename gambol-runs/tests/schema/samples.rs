@@ -232,6 +232,7 @@ fn given_commands() -> Value {
 fn stages() -> Value {
     let rules = json!([
         "usable",
+        { "tier": 1 },
         { "fitness": 20 },
         { "share": { "fitness": 20, "of": 0.5 } },
         { "measurement": { "name": "duration", "at_least": 1 } },

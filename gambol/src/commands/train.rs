@@ -51,7 +51,7 @@ A run ends at the first limit it meets. It has 300 generations at most, unless -
 --minutes or --budget says otherwise. Ctrl-C finishes the generation and saves. \
 At the end the champion's gait is judged, as `gambol gait` judges it, if those of its movement are.
 
-Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable, \
+Exit code 0: done. 1: something was wrong. 3: --until usable, and the champion is not usable for `gambol gait`, \
 or is from a stage before the one that learns what the run is for. 130: interrupted.")]
 pub(crate) struct Train {
     /// A shipped creature's name (see: gambol creatures) or a creature file

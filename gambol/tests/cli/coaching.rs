@@ -51,7 +51,7 @@ fn a_run_until_usable_ends_with_a_usable_champion() -> Outcome {
     Ok(())
 }
 
-/// A gait that is told what to do has to be usable in more schedules than one, also if that is asked for when the run goes on.
+/// A run of `playing` until usable asks for the tier of 30 of 32 schedules, also where `resume` is told so.
 #[test]
 fn what_is_told_what_to_do_is_usable_in_many_schedules() -> Outcome {
     let folder = tempfile::tempdir()?;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// A condition on a stage of a run, as a configuration file names it; as a [`Promotion`] it promotes when it is met.
 ///
-/// In JSON: `{"fitness": 20}`, `"usable"`, `{"share": {"fitness": 20, "of": 0.5}}`, `{"measurement": {"name": "energy",
+/// In JSON: `{"fitness": 20}`, `"usable"`, `{"tier": 8}`, `{"share": {"fitness": 20, "of": 0.5}}`, `{"measurement": {"name": "energy",
 /// "at_least": 10}}`, `{"stagnation": 30}`, `{"generations": 100}`, `{"evaluations": 10000}`, `{"steps": 1000000}`,
 /// `{"any": [...]}`, `{"all": [...]}`, `{"not": ...}`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -15,6 +15,8 @@ pub enum PromotionRule {
     Fitness(f64),
     /// The champion selection gives the champion a [tier](crate::champion_selection::ReEvaluation::tiers) of at least 1: of creatures, its gait is usable.
     Usable,
+    /// The champion selection gives the champion at least this tier, from 1.
+    Tier(#[cfg_attr(feature = "schema", schemars(range(min = 1)))] u64),
     /// So large a share of the generation has at least this fitness.
     Share(PopulationShare),
     /// The mean of a [measurement](crate::Evaluation::measurements) over those of the generation that did not fail reaches a
@@ -80,6 +82,7 @@ impl PromotionRule {
         match self {
             Self::Usable => Ok(()),
             Self::Fitness(fitness) => finite("fitness", *fitness),
+            Self::Tier(tier) => count("tier", *tier),
             Self::Share(PopulationShare { fitness, of }) => {
                 finite("share.fitness", *fitness)?;
                 match *of > 0.0 && *of <= 1.0 {
@@ -110,7 +113,8 @@ impl PromotionRule {
         let StageState { evaluations, champion, progress, .. } = *state;
         match self {
             Self::Fitness(fitness) => champion.is_some_and(|champion| champion.fitness.get() >= *fitness),
-            Self::Usable => champion.is_some_and(|champion| champion.tier >= 1),
+            Self::Usable => Self::Tier(1).is_met(state),
+            Self::Tier(tier) => champion.is_some_and(|champion| u64::from(champion.tier) >= *tier),
             Self::Share(PopulationShare { fitness, of }) => {
                 let good = evaluations
                     .iter()
@@ -138,13 +142,16 @@ impl PromotionRule {
         }
     }
 
-    /// Whether it asks for a tier from the champion selection.
-    pub fn asks_for_usable(&self) -> bool {
+    /// The rule in it that asks for the highest tier of the champion selection, and that tier; `None` where no rule asks for one.
+    pub fn highest_tier(&self) -> Option<(&Self, u64)> {
         match self {
-            Self::Usable => true,
-            Self::Any(rules) | Self::All(rules) => rules.iter().any(Self::asks_for_usable),
-            Self::Not(rule) => rule.asks_for_usable(),
-            _ => false,
+            Self::Usable => Some((self, 1)),
+            Self::Tier(tier) => Some((self, *tier)),
+            Self::Any(rules) | Self::All(rules) => {
+                rules.iter().filter_map(Self::highest_tier).max_by_key(|&(_, tier)| tier)
+            }
+            Self::Not(rule) => rule.highest_tier(),
+            _ => None,
         }
     }
 }
@@ -191,6 +198,7 @@ impl std::fmt::Display for PromotionRule {
         match self {
             Self::Fitness(fitness) => write!(f, "fitness ≥ {fitness}"),
             Self::Usable => f.write_str("usable"),
+            Self::Tier(tier) => write!(f, "tier ≥ {tier}"),
             Self::Share(PopulationShare { fitness, of }) => {
                 write!(f, "fitness ≥ {fitness} in {} % of the population", of * 100.0)
             }

@@ -510,8 +510,8 @@ proptest! {
     }
 }
 
-/// How many wait after each generation, and who is heard at each re-evaluation, where the best fitness rises by 1 with each generation and
-/// falls to 0 after so many.
+/// How many candidates wait after each generation, and which are judged at each re-evaluation. The best fitness rises by 1 with each
+/// generation and falls to 0 after `period` of them.
 fn waiting_and_heard(generations: u32, period: u32, re_evaluations: ReEvaluations) -> (Vec<usize>, Vec<Vec<Puppet>>) {
     let lines: Vec<Vec<f64>> = (0..generations).map(|generation| vec![f64::from(generation % period), -1.0]).collect();
     let lines: Vec<&[f64]> = lines.iter().map(Vec::as_slice).collect();

@@ -29,8 +29,10 @@ fn is_met(rule: &PromotionRule) -> bool {
     let champion = Some(TieredFitness { tier: 1, fitness });
     let moment = StageState { report: &report, evaluations: &evaluations, champion, progress };
     let without = StageState { champion: None, evaluations: &[], ..moment };
-    let needs_a_champion =
-        matches!(rule, PromotionRule::Fitness(_) | PromotionRule::Usable | PromotionRule::Measurement(_));
+    let needs_a_champion = matches!(
+        rule,
+        PromotionRule::Fitness(_) | PromotionRule::Usable | PromotionRule::Tier(_) | PromotionRule::Measurement(_)
+    );
     assert!(!needs_a_champion || !rule.is_met(&without), "{rule} without a champion");
     let decided = rule.decide(&moment);
     assert_eq!(decided == Decision::Promote, rule.is_met(&moment), "{rule}");
@@ -44,6 +46,7 @@ fn a_rule_is_met_at_its_bound_and_not_before() {
         |at_least, at_most| PromotionRule::Measurement(MeasurementBound { name: "duration".into(), at_least, at_most });
     let pairs = [
         (PromotionRule::Fitness(3.5), PromotionRule::Fitness(3.6)),
+        (PromotionRule::Tier(1), PromotionRule::Tier(2)),
         // A failure is one of the four.
         (share(2.0, 0.5), share(2.0, 0.51)),
         (share(1.0, 0.75), share(1.0, 1.0)),
@@ -76,9 +79,19 @@ fn rules_are_told_in_words() {
     let rules =
         vec![PromotionRule::Usable, PromotionRule::Any(vec![PromotionRule::Fitness(20.0), PromotionRule::Steps(9)])];
     assert_eq!(PromotionRule::All(rules).to_string(), "usable and (fitness ≥ 20 or 9 steps)");
+    assert_eq!(PromotionRule::Tier(8).to_string(), "tier ≥ 8");
     let not = PromotionRule::Not(Box::new(PromotionRule::Fitness(20.0)));
     assert_eq!(not.to_string(), "not (fitness ≥ 20)");
     assert_eq!(serde_json::to_string(&not).expect("plain data"), r#"{"not":{"fitness":20.0}}"#);
+}
+
+#[test]
+fn the_highest_tier_that_is_asked_for_is_known() {
+    let not_8 = PromotionRule::Not(Box::new(PromotionRule::Tier(8)));
+    let rules = PromotionRule::All(vec![PromotionRule::Usable, PromotionRule::Steps(9), not_8, PromotionRule::Tier(3)]);
+    assert_eq!(rules.highest_tier(), Some((&PromotionRule::Tier(8), 8)));
+    assert_eq!(PromotionRule::Any(vec![PromotionRule::Usable]).highest_tier(), Some((&PromotionRule::Usable, 1)));
+    assert_eq!(PromotionRule::Fitness(20.0).highest_tier(), None);
 }
 
 #[test]
