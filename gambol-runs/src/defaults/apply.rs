@@ -16,7 +16,7 @@ const TRIALS: u32 = 3;
 pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     let defaults = catalogue.of(&config.movement.name, &BodyFacts::of(config));
     let controller = &mut config.controller;
-    controller.hidden = vec![4];
+    controller.hidden = vec![defaults.hidden];
     controller.hidden_activation = Activation::Tanh;
     controller.output_activation = Activation::Tanh;
     controller.hidden_scale = 1.0;

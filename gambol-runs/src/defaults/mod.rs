@@ -57,6 +57,8 @@ pub struct MovementDefaults {
     pub terms: Vec<TermSpec>,
     /// How limbs share a net; `None`: one net moves all joints.
     pub modular: Option<LimbPhases>,
+    /// Hidden neurons of a limb, or of the one net.
+    pub hidden: usize,
     /// Of the motors' angle law, 1/s.
     pub gain: f32,
     /// Of the clock that the net senses, unless the creature's file has one, s.
@@ -88,6 +90,7 @@ impl MovementDefaults {
             training_steps: None,
             terms: Vec::new(),
             modular: Some(LimbPhases::Alternating),
+            hidden: 4,
             gain: if walks { 10.0 } else { 20.0 },
             period: if walks { body.pendulum(0.5) } else { 0.5 },
             from_landing: false,

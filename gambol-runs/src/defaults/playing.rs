@@ -100,6 +100,9 @@ const BIPED_SPEEDS: [f32; 2] = [0.4, 1.2];
 /// The share of holds in which it is told to stand, once it can move.
 const STANDING: f32 = 0.25;
 
+/// With 4 bipeds are playable in fewer schedules (docs/playing-experiments.md).
+const BALANCED_HIDDEN: usize = 8;
+
 /// How long the jump clocks turn, s. A body crouches for half of the first turn, and pushes off for the rest of it: half a second after
 /// the press it has to be in the air. By the end of the second turn it has landed: a shorter turn leaves more time to be on its way
 /// again. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
@@ -142,6 +145,7 @@ pub(super) fn playing(body: &BodyFacts) -> MovementDefaults {
         training_steps: STEPS.1,
         terms: wanted,
         commands: Some(Commands::Random(random)),
+        hidden: if is_biped { BALANCED_HIDDEN } else { unknown.hidden },
         // Softer legs do not jump.
         gain: unknown.gain.max(15.0),
         trials: Some(6),

@@ -49,6 +49,7 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
     ] {
         let config = config(creature, movement);
         let name = format!("{creature} {movement}");
+        assert_eq!(config.controller.hidden, [4], "{name}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
         assert_eq!((settings.step_size, settings.starts), (step_size, 4), "{name}");
         assert_eq!((config.physics.motor_gain, config.trials.count), (200.0, 3), "{name}");
@@ -95,6 +96,7 @@ fn what_plays_is_told_what_to_do_in_five_stages_and_chosen_over_eight_schedules(
         // Only the last has the worlds of the configuration.
         let near: Vec<bool> = config.stages.iter().map(|stage| stage.near).collect();
         assert_eq!(near, [true, true, true, true, false], "{creature}");
+        assert_eq!(config.controller.hidden, [if creature == "biped-1" { 8 } else { 4 }], "{creature}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
         assert_eq!((settings.restart, settings.starts, settings.step_size), (Restart::None, 1, 0.2));
         assert_eq!(settings.least_deviation, 0.03);

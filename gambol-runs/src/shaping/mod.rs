@@ -14,6 +14,7 @@
 //! | [`train_stages`], [`resume_stages`] | the way through the stages; a [`StagedTraining`] goes it one generation at a time |
 
 mod curriculum;
+mod guess;
 mod source;
 mod stage_progress;
 mod stage_runs;

@@ -1,5 +1,6 @@
 //! From what was learned to a new search: on another task, with more senses, by another strategy.
 
+use super::guess::better_guess;
 use super::source::{ChampionNet, Kind, Source, names_of, read_checkpoint};
 use crate::{
     Registry,
@@ -11,7 +12,7 @@ use crate::{
     strategies::{AnyGenome, AnyStrategy, StrategyCatalogue, StrategyEntry, Transfer},
 };
 use creatures::Channel;
-use ne_core::SettingError;
+use ne_core::{Genome, Seed, SettingError};
 use ne_net::TopologyMap;
 
 /// Why nothing can be transferred.
@@ -197,7 +198,11 @@ impl PreparedTransfer {
             (Transferred::Held, _) if self.weights.iter().all(|&weight| weight == 0.0) => {
                 strategies.build(settings, topology)
             }
-            (Transferred::Held, _) => strategies.begin_about(settings, topology, &self.weights),
+            (Transferred::Held, _) => {
+                let express = |weights: &[f32]| Some(strategies.genome(settings, topology, weights)?.express());
+                let guess = better_guess(&self.weights, express, &self.setup.task, Seed::of_run(self.config.seed));
+                strategies.begin_about(settings, topology, &guess)
+            }
             _ => strategies.begin_at(settings, topology, &self.weights),
         };
         Ok(begun.map_err(SetupError::from)?)
