@@ -71,10 +71,14 @@ fn steps(commanded: bool) -> Vec<(Trial, usize)> {
     [first, &STEPS].concat()
 }
 
-/// The highest tier that a champion may get whose gait is judged in this episode.
+/// The highest tier of a champion whose gait is judged in this episode.
 pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
-    let steps = reference.robustness_check.as_ref().map_or(0, |check| steps(check.needs_commands()).len());
-    USABLE + steps as u8
+    USABLE + steps_of(reference).len() as u8
+}
+
+/// The steps that a champion is tried at there; none where nothing varies.
+fn steps_of(reference: &ReferenceEpisode) -> Vec<(Trial, usize)> {
+    reference.robustness_check.as_ref().map_or_else(Vec::new, |check| steps(check.needs_commands()))
 }
 
 /// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
@@ -155,7 +159,7 @@ impl ReferenceSelection {
                 };
                 Box::new(steadiest) as Box<Steadiest>
             }),
-            steps: steps(commanded),
+            steps: steps_of(reference),
             seed: reference.seed,
             evaluator,
         }

@@ -11,7 +11,7 @@ use gambol_runs::{
     robust::{Perturbations, robustness},
     run::Run,
     run_folder::RunFolder,
-    shaping::{ENDED_EARLY, PlannedStage, ShapingError, StageProgress, is_of_goal},
+    shaping::{ENDED_EARLY, PlannedStage, ShapingError, StageProgress, is_of_goal, leading, stage_runs},
     strategies::AnyStrategy,
     training::{Outcome, Resources},
 };
@@ -35,7 +35,7 @@ pub struct GaitRun {
     /// What speaks against it.
     pub reasons: Vec<String>,
     /// Seconds until the champion first had the [tier to reach](tier_to_reach); of a run with stages in one that learns what the
-    /// whole run is for.
+    /// whole run is for. `None` where only the verdict at the end, which is of one episode, is good.
     pub seconds_to_usable: Option<f64>,
     /// Physics steps until then, of all stages together.
     pub steps_to_usable: Option<u64>,
@@ -87,8 +87,8 @@ impl GaitRun {
         if let Some(champion) = &outcome.champion {
             run.judge(champion, &outcome.folder, registry, robust)?;
         }
-        // The verdict at the end is of one episode: it says nothing of a higher tier.
-        if run.usable && first.is_none() && tier == USABLE {
+        // At the last re-evaluation, after the last generation. The verdict at the end is of one episode: it says nothing of a higher tier.
+        if run.usable && first.is_none() && (tier == USABLE || tier_of_stages(&outcome.folder)? >= Some(tier)) {
             (run.seconds_to_usable, run.steps_to_usable) = (Some(run.seconds), Some(run.steps));
         }
         Ok(run)
@@ -123,6 +123,12 @@ impl GaitRun {
         }
         Ok(())
     }
+}
+
+/// The tier of the champion of a run with stages.
+fn tier_of_stages(folder: &RunFolder) -> Result<Option<u8>, ShapingError> {
+    let stage_runs = stage_runs(folder)?;
+    Ok(leading(&stage_runs).and_then(|stage_run| stage_run.champion).map(|champion| champion.tier))
 }
 
 /// When the champion first had the tier to reach: seconds, and physics steps.

@@ -10,8 +10,8 @@ const GUESSES: Purpose = Purpose::new("guesses of a held search");
 const EVALUATIONS: u64 = 4;
 
 /// These weights, made by hand, or their mirror image where that is worth more in a task: of two legs that go apart in a jump the one
-/// that is in front in the stride has to go to the front, and which that is a search finds by chance (docs/playing-experiments.md). The
-/// weights themselves where both are worth the same, or there is no net of them.
+/// that is in front in the stride has to go to the front, and a search finds by chance which leg that is (docs/playing-experiments.md).
+/// The weights themselves where both are worth the same, or there is no net of them. No progress counts these evaluations.
 pub(super) fn better_guess<P: Phenotype>(
     weights: &[f32],
     express: impl Fn(&[f32]) -> Option<P>,

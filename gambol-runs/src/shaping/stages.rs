@@ -5,9 +5,10 @@ use super::{
 use crate::Registry;
 use crate::{
     assembly::{Assembly, ConfigError},
-    champion_selection::highest_tier,
+    champion_selection,
     config::{GiveUp, RunConfig, StageSettings, Transferred},
     episode_parts::SetupError,
+    judge::USABLE,
     setup::Setup,
 };
 use creatures::Sensor;
@@ -88,8 +89,8 @@ impl Stages {
                         .map_err(|error| wrong(StageProblem::Demotion(error.into())))?;
                 }
             }
+            stages.push((within_reach(settings, &setup), resolved));
             setup_before = Some(setup);
-            stages.push((settings.clone(), resolved));
             before = changed;
         }
         Ok(Self { stages })
@@ -321,20 +322,37 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     Ok(())
 }
 
-/// A tier that is asked for can be reached.
+/// A tier that is asked for can be reached, or could be if worlds varied.
 fn check_tier(rule: &PromotionRule, setup: &Setup) -> Result<(), SettingError> {
     let Some((asking, tier)) = rule.highest_tier() else { return Ok(()) };
-    let highest = setup.reference.as_ref().filter(|reference| reference.judge.is_some()).map(highest_tier);
-    let allowed = match highest {
-        Some(highest) if tier <= u64::from(highest) => return Ok(()),
+    let allowed = match highest_tier(setup) {
+        Some(highest) if tier <= u64::from(highest) || highest == USABLE => return Ok(()),
         Some(highest) => format!("from 1 to {highest}"),
         None => "asked for only where gaits are judged during training: of movements that are judged, in runs with a \
                  variation, shortened training episodes or further_bodies"
             .into(),
     };
-    let (field, found) =
-        if *asking == PromotionRule::Usable { ("usable", "usable".into()) } else { ("tier", tier.to_string()) };
+    let is_usable = *asking == PromotionRule::Usable;
+    let (field, found) = if is_usable { ("usable", "usable".into()) } else { ("tier", tier.to_string()) };
     Err(SettingError::new(field, found, allowed))
+}
+
+/// The highest tier of a champion; `None` where none is judged.
+fn highest_tier(setup: &Setup) -> Option<u8> {
+    setup.reference.as_ref().filter(|reference| reference.judge.is_some()).map(champion_selection::highest_tier)
+}
+
+/// The same stage, where rules ask for no tier that is out of reach: without variation every tier counts as the lowest, as of a run until
+/// usable.
+fn within_reach(settings: &StageSettings, setup: &Setup) -> StageSettings {
+    let highest = highest_tier(setup).map_or(u64::MAX, u64::from);
+    let limited = |rule: PromotionRule| rule.with_tiers_up_to(highest);
+    StageSettings {
+        promotion: settings.promotion.clone().map(limited),
+        demotion: settings.demotion.clone().map(limited),
+        give_up: settings.give_up.clone().map(|give_up| GiveUp { when: limited(give_up.when), ..give_up }),
+        ..settings.clone()
+    }
 }
 
 fn check_giving_up(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {

@@ -146,7 +146,8 @@ fn what_a_search_goes_on_from_is_champion_until_it_finds_something_better() {
     assert_ne!(run(&config, Some(Transferred::Nothing), "nothing").fitness, first.fitness);
 }
 
-/// A search with steps so fine that its champion does what it begins with.
+/// A search with steps so fine that its champion does what it begins with. Nothing is pressed in 20 steps: the jump is worth as much as its
+/// mirror image, and is not mirrored.
 #[test]
 fn a_jump_that_is_added_begins_as_one_that_is_made_by_hand() {
     let folder = tempfile::tempdir().expect("a folder");

@@ -71,6 +71,21 @@ fn what_is_told_what_to_do_is_usable_in_many_schedules() -> Outcome {
     // Where nothing varies no tier is higher than that of a single schedule.
     let (code, path) = train("playing", &["--until", "usable", "--variation", "none"]);
     assert_eq!((code, wanted(&path)), (Some(3), Some(1)));
+    // Nor is that of the preset's rules, which ask for as much of two legs.
+    let mut biped = gambol("train");
+    biped.args([
+        "biped-1",
+        "playing",
+        "--steps",
+        "2000",
+        "--population",
+        "8",
+        "--no-report",
+        "--variation",
+        "none",
+        "--out",
+    ]);
+    assert_eq!(run(biped.arg(folder.path().join("biped"))).code, Some(0));
     let (code, path) = train("playing", &[]);
     assert_eq!((code, wanted(&path)), (Some(0), None));
     let ended = run(gambol("resume").arg(&path).args(until).args(["--steps", "4000", "--no-report"]));

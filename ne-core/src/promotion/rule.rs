@@ -132,6 +132,19 @@ impl PromotionRule {
         }
     }
 
+    /// The same rule, where a tier above this one counts as this one.
+    #[must_use]
+    pub fn with_tiers_up_to(self, highest: u64) -> Self {
+        let all = |rules: Vec<Self>| rules.into_iter().map(|rule| rule.with_tiers_up_to(highest)).collect();
+        match self {
+            Self::Tier(tier) => Self::Tier(tier.min(highest)),
+            Self::Any(rules) => Self::Any(all(rules)),
+            Self::All(rules) => Self::All(all(rules)),
+            Self::Not(rule) => Self::Not(Box::new(rule.with_tiers_up_to(highest))),
+            rule => rule,
+        }
+    }
+
     /// The names of all measurements it asks for.
     pub fn measurements(&self) -> Vec<&str> {
         match self {
@@ -142,7 +155,7 @@ impl PromotionRule {
         }
     }
 
-    /// The rule in it that asks for the highest tier of the champion selection, and that tier; `None` where no rule asks for one.
+    /// The rule with the highest tier that it asks for, and that tier; `None` where it asks for none.
     pub fn highest_tier(&self) -> Option<(&Self, u64)> {
         match self {
             Self::Usable => Some((self, 1)),

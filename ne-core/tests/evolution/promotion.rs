@@ -92,6 +92,8 @@ fn the_highest_tier_that_is_asked_for_is_known() {
     assert_eq!(rules.highest_tier(), Some((&PromotionRule::Tier(8), 8)));
     assert_eq!(PromotionRule::Any(vec![PromotionRule::Usable]).highest_tier(), Some((&PromotionRule::Usable, 1)));
     assert_eq!(PromotionRule::Fitness(20.0).highest_tier(), None);
+    let limited = rules.with_tiers_up_to(2).to_string();
+    assert_eq!(limited, "usable and 9 steps and not (tier ≥ 2) and tier ≥ 2");
 }
 
 #[test]

@@ -8,8 +8,8 @@ use crate::{Body, Snapshot};
 /// way the torso made while legs were idle, m, forwards or backwards, in proportion to how many: all of it counts where a
 /// third of the legs are idle. With a weight of −1 such way earns nothing. It ends the episode when half of the legs are idle.
 ///
-/// A foot counts as off the ground once it is 3 cm above it, or 2.5 % of the body length if that is more: feet that shiver or drag do not
-/// step. Creatures without legs are left alone.
+/// A foot counts as off the ground once it is 3 cm above it, or 2.5 % of the body length if that is more, and on uneven ground as high above
+/// where it last stood: feet that shiver or drag do not step. Creatures without legs are left alone.
 #[derive(Clone, Debug, Default)]
 pub struct Footfalls {
     legs: Vec<Leg>,

@@ -66,7 +66,8 @@ impl Phase {
     /// hand-made one. In the crouch legs leave the vertical, which lowers the body; in the push-off they swing back through it; for the
     /// landing they leave it again. Two legs side by side go apart. Those before and behind a long body go to the front together, since
     /// the latter are mirror images. Of many legs those in the middle would stay straight, and carry the body: they all have one
-    /// threshold, with which the mirror images go to the back.
+    /// threshold, with which the mirror images go to the back. A held search begins about the mirror image of all of it where that is worth
+    /// more.
     pub(super) fn by_hand(self, feet: usize) -> [f32; 2] {
         match (self, feet > MOST_OF_FEW_FEET) {
             (Self::Crouch | Self::Landing, false) => [0.0, 1.0],
