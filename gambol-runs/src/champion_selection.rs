@@ -3,9 +3,9 @@
 
 use crate::{
     config::EngineChoice,
-    judge::{DEPENDABLE, USABLE},
     reference::ReferenceEpisode,
     robustness_check::{RobustnessCheck, Trial},
+    tiers::{DEPENDABLE, USABLE},
 };
 use ne_core::{
     Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,

@@ -75,6 +75,7 @@ pub mod source;
 pub mod strategies;
 pub mod suggest;
 pub mod texts;
+mod tiers;
 mod topology;
 pub mod training;
 pub mod training_task;

@@ -3,7 +3,7 @@
 use super::{BodyFacts, MovementDefaults, terms, with};
 use crate::{
     config::{GiveUp, StageSettings, Transferred},
-    judge::DEPENDABLE,
+    tiers::DEPENDABLE,
 };
 use creatures::Sensor;
 use ne_core::promotion::PromotionRule::{self, All, Any, Fitness, Not, Steps, Tier, Usable};

@@ -23,6 +23,8 @@ use tasks::{
     gait::{GaitReport, Judgement, NearWorlds, Rules},
 };
 
+use crate::tiers::DEPENDABLE;
+pub use crate::tiers::USABLE;
 use near::near_worlds;
 use worlds::{Worlds, is_usable};
 
@@ -40,13 +42,6 @@ pub struct Judge {
     /// Built when they are first needed.
     near: Arc<OnceLock<Worlds>>,
 }
-
-/// The least [tier](ne_core::champion_selection::ReEvaluation::tiers) of a champion whose gait is usable. One that is usable in
-/// perturbed worlds too has up to 8 more, of one that is told what to do up to 17; a champion that is not usable has 0.
-pub const USABLE: u8 = 1;
-
-/// The tier of a gait that is told what to do, and is usable in 30 schedules of 32.
-pub(crate) const DEPENDABLE: u8 = USABLE + 7;
 
 /// The [tier](ne_core::champion_selection::ReEvaluation::tiers) that ends a run until usable. A movement without commands ends at
 /// [`USABLE`], and one with commands at the tier of 30 of 32 schedules: a gait that is usable in one schedule may fail in half of the

@@ -8,8 +8,8 @@ use crate::{
     champion_selection,
     config::{GiveUp, RunConfig, StageSettings, Transferred},
     episode_parts::SetupError,
-    judge::USABLE,
     setup::Setup,
+    tiers::USABLE,
 };
 use creatures::Sensor;
 use envs_core::Variation;
