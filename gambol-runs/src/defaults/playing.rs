@@ -104,9 +104,9 @@ const STANDING: f32 = 0.25;
 /// With 4 bipeds are playable in fewer schedules (docs/playing-experiments.md).
 const BALANCED_HIDDEN: usize = 8;
 
-/// How long the jump clocks turn, s. A body crouches for half of the first turn, and pushes off for the rest of it: half a second after
-/// the press it has to be in the air. By the end of the second turn it has landed: a shorter turn leaves more time to be on its way
-/// again. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
+/// How long the jump clocks turn, s. A body crouches in the first half of the first turn, and pushes off in the second half: it has to be
+/// in the air half a second after the press. It lands before the second clock has turned. A short second turn leaves more time for the
+/// next stride. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
 const JUMP_CLOCKS: [f32; 2] = [0.6, 0.9];
 
 /// The same for two legs with knees: with a first turn of 0.6 s, or a second of 1 s, biped-2 is playable in fewer schedules.

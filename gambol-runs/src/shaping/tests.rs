@@ -4,7 +4,7 @@ use super::*;
 use crate::Registry;
 use crate::{
     champion::Champion,
-    config::{FrozenTopology, GeneRecord, Origin, RunConfig, Transferred},
+    config::{FrozenTopology, GeneRecord, Origin, RunConfig, StrategySettings, Transferred},
     setup::Setup,
     training::{Resources, TrainError, TrainOptions, train},
 };
@@ -146,30 +146,66 @@ fn what_a_search_goes_on_from_is_champion_until_it_finds_something_better() {
     assert_ne!(run(&config, Some(Transferred::Nothing), "nothing").fitness, first.fitness);
 }
 
+/// Playing, by a search of one generation in episodes of so many steps.
+fn one_generation_of_playing(creature: &str, step_size: f64, steps: u32) -> RunConfig {
+    let body = creatures::find(creature).expect("shipped");
+    let mut config = Registry::default().config("default", body, "playing").expect("a preset");
+    config.strategy = strategy_of_steps(step_size);
+    config.stop = StopConditions { generations: Some(1), ..StopConditions::default() };
+    (config.stages, config.movement.steps) = (Vec::new(), Some(steps));
+    config
+}
+
+fn strategy_of_steps(step_size: f64) -> StrategySettings {
+    let settings = json!({ "cma-es": { "population": 4, "step_size": step_size, "least_deviation": 1e-9 } });
+    serde_json::from_value(settings).expect("settings")
+}
+
+/// Adds a jump clock. What the net hears a quarter of the clock's turn after a press, when the body crouches.
+fn add_jump_clock(config: &mut RunConfig) -> Vec<f32> {
+    config.sensors.as_mut().expect("the preset names them").push(Sensor::JumpClock { period: 0.4 });
+    let sensors = config.sensors.as_deref().expect("named");
+    let blueprint = creatures::Blueprint::new(config.creature.clone()).expect("valid");
+    let range = config.controller.input_range;
+    let senses = creatures::Senses::new(&blueprint, sensors, range).expect("it has them");
+    let heard = |probe: &creatures::Probe| match probe.source {
+        creatures::Source::JumpSine { .. } => probe.scale(1.0, range),
+        creatures::Source::JumpSwell { .. } => probe.scale(0.5, range),
+        _ => 0.0,
+    };
+    senses.probes().iter().map(heard).collect()
+}
+
+/// Each stride is a chance one, and so is the leg that has to go to the front.
+#[test]
+fn a_jump_begins_mirrored_where_that_is_worth_more() {
+    let leads = |seed: u64| {
+        let folder = tempfile::tempdir().expect("a folder");
+        let run = |config: &RunConfig, from, name: &str| champion_of(folder.path(), config, from, name);
+        let press = json!({ "given": [{ "time": 0.1, "jump": true }, { "time": 0.3 }] });
+        let mut config = RunConfig { seed, ..one_generation_of_playing("biped-1", 0.5, 100) };
+        config.commands = Some(serde_json::from_value(press).expect("commands"));
+        run(&config, None, "first");
+        config.strategy = strategy_of_steps(1e-6);
+        let inputs = add_jump_clock(&mut config);
+        let mut outputs = [0.0; 2];
+        run(&config, Some(Transferred::Held), "second").network.activate(&inputs, &mut outputs);
+        assert!(outputs[0] * outputs[1] < 0.0, "the legs go apart: {outputs:?}");
+        outputs[0] > 0.0
+    };
+    let leads: Vec<bool> = (1..=6).map(leads).collect();
+    assert!(leads.contains(&true) && leads.contains(&false), "{leads:?}");
+}
+
 /// A search with steps so fine that its champion does what it begins with. Nothing is pressed in 20 steps: the jump is worth as much as its
 /// mirror image, and is not mirrored.
 #[test]
 fn a_jump_that_is_added_begins_as_one_that_is_made_by_hand() {
     let folder = tempfile::tempdir().expect("a folder");
     let run = |config: &RunConfig, from, name: &str| champion_of(folder.path(), config, from, name);
-    let body = creatures::find("tetrapod-2").expect("shipped");
-    let mut config = Registry::default().config("default", body.clone(), "playing").expect("a preset");
-    let fine = json!({ "cma-es": { "population": 4, "step_size": 1e-6, "least_deviation": 1e-9 } });
-    config.strategy = serde_json::from_value(fine).expect("settings");
-    config.stop = StopConditions { generations: Some(1), ..StopConditions::default() };
-    (config.stages, config.movement.steps) = (Vec::new(), Some(20));
+    let mut config = one_generation_of_playing("tetrapod-2", 1e-6, 20);
     run(&config, None, "first");
-    config.sensors.as_mut().expect("the preset names them").push(Sensor::JumpClock { period: 0.4 });
-    let sensors = config.sensors.clone().expect("named");
-    let blueprint = creatures::Blueprint::new(body).expect("valid");
-    let senses = creatures::Senses::new(&blueprint, &sensors, config.controller.input_range).expect("it has them");
-    // A quarter of the turn after the press it crouches.
-    let heard = |probe: &creatures::Probe| match probe.source {
-        creatures::Source::JumpSine { .. } => probe.scale(1.0, config.controller.input_range),
-        creatures::Source::JumpSwell { .. } => probe.scale(0.5, config.controller.input_range),
-        _ => 0.0,
-    };
-    let inputs: Vec<f32> = senses.probes().iter().map(heard).collect();
+    let inputs = add_jump_clock(&mut config);
     // About the jump a held search looks with all of its first step; what goes on from a champion keeps near it.
     for (transferred, step) in [(Transferred::Held, 1e-6), (Transferred::Champion, 0.3e-6)] {
         let name = format!("{transferred:?}");
