@@ -3,6 +3,7 @@ use crate::{
     Body, Command, Snapshot,
     gait::{Findings, GaitReport, Reason, Rules, RunningRules, Trajectory},
 };
+use std::ops::{Range, RangeInclusive};
 
 /// How long the episode must be, s.
 const SECONDS: f64 = 60.0;
@@ -16,14 +17,12 @@ const DRIFT: f64 = 0.1;
 const ANSWERED: f64 = 0.75;
 /// ...within this, s. A smaller change than the speed error is none.
 const ANSWER_SECONDS: f64 = 1.2;
-/// Speeds are means over so long, s: within a stride they swing.
+/// Speeds are means over so long at least, s: within a stride they swing.
 const STRIDE: f64 = 0.5;
 /// By when it has to leave the ground, s after the press.
 const JUMP_ANSWER: f64 = 0.5;
 /// How long a jump has, from the press until the body is on its way again, s. Speeds are not judged meanwhile.
 const JUMP_SECONDS: f64 = 1.5;
-/// Less of a hold than this, apart from its jump, is not judged, s.
-const SHORTEST_HOLD: f64 = 0.4;
 /// Beyond this a torso has begun to fall, degrees.
 const LARGEST_TILT: f64 = 45.0;
 /// What stands is within this of its start, degrees.
@@ -38,8 +37,9 @@ const OTHER_CONTACT: f64 = 0.01;
 /// is told to stand, it drifts by at most 0.1 body lengths/s over the last half of the hold, its torso within 20° of its start;
 /// if within 0.5 s of each press it leaves the ground in a flight that makes a [usable jump](super::JumpingRules), and nothing
 /// but feet touches the ground in the 1.5 s after the press; if the torso stays within 45°, and parts that are no feet touch
-/// the ground for at most 1 % of the time; and if no cheat is flagged. Speeds are the torso's, as means over half a second; the
-/// 1.5 s after a press are left out. A legless body may turn and touch as it likes.
+/// the ground for at most 1 % of the time; and if no cheat is flagged. Speeds are the torso's. Of the last half of a hold the
+/// 1.5 s after each press are left out, and what is left counts if it is half a second or more; a change is measured by means
+/// over half a second. A legless body may turn and touch as it likes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PlayingRules;
 
@@ -115,10 +115,27 @@ fn holds(trajectory: &Trajectory<'_>) -> Vec<Hold> {
     holds
 }
 
+/// What is left of these steps without the jumps, each of so many steps from its press on, in order.
+fn without_jumps(steps: Range<usize>, presses: &[usize], jump: usize) -> Vec<Range<usize>> {
+    let mut left = Vec::new();
+    let mut from = steps.start;
+    for &press in presses.iter().filter(|&&press| press < steps.end) {
+        left.push(from..press);
+        from = from.max(press + jump);
+    }
+    left.push(from..steps.end);
+    left.retain(|part| !part.is_empty());
+    left
+}
+
+/// The mean speed, body lengths/s, of a torso that goes so far, m, in so many steps.
+fn speed_of(trajectory: &Trajectory<'_>, progress: f64, steps: usize) -> f64 {
+    progress / (steps as f64 * trajectory.time_step()) / f64::from(trajectory.body().body_length)
+}
+
 /// The mean speed of the torso, body lengths/s, between two snapshots.
 fn mean_speed(trajectory: &Trajectory<'_>, from: usize, to: usize) -> f64 {
-    let seconds = (to - from) as f64 * trajectory.time_step();
-    trajectory.progress(from, to) / seconds / f64::from(trajectory.body().body_length)
+    speed_of(trajectory, trajectory.progress(from, to), to - from)
 }
 
 fn steps_in(trajectory: &Trajectory<'_>, seconds: f64) -> usize {
@@ -141,24 +158,25 @@ impl Kept {
 
 fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reason>) {
     let jump = steps_in(trajectory, JUMP_SECONDS);
-    let shortest = steps_in(trajectory, SHORTEST_HOLD);
+    let shortest = steps_in(trajectory, STRIDE);
     let holds = holds(trajectory);
     let (mut moved, mut stood) = (Vec::new(), Vec::new());
     let (mut slowest, mut slow, mut changes): (Option<Reason>, usize, usize) = (None, 0, 0);
     let mut least_share = f64::INFINITY;
     for (index, hold) in holds.iter().enumerate() {
-        // What is judged begins anew after a jump.
-        let pressed = presses.iter().filter(|&&press| press + jump > hold.first && press < hold.end);
-        let after_jump = pressed.map(|press| press + jump).max().unwrap_or(hold.first);
-        let from = hold.first.midpoint(hold.end).max(after_jump);
-        if hold.end >= from + shortest {
-            let speed = mean_speed(trajectory, from, hold.end);
+        let judged = without_jumps(hold.first.midpoint(hold.end)..hold.end, presses, jump);
+        let steps: usize = judged.iter().map(ExactSizeIterator::len).sum();
+        if steps >= shortest {
+            let progress: f64 = judged.iter().map(|part| trajectory.progress(part.start, part.end)).sum();
+            let speed = speed_of(trajectory, progress, steps);
             let allowed =
                 if hold.wanted == 0.0 { DRIFT } else { SPEED_ERROR.max(SPEED_ERROR_SHARE * hold.wanted.abs()) };
             let kept = Kept { time: trajectory.time(hold.first), wanted: hold.wanted, speed, allowed };
             if hold.wanted == 0.0 { &mut stood } else { &mut moved }.push(kept);
             if hold.wanted == 0.0 && !trajectory.body().legless {
-                upright(trajectory, from..=hold.end, reasons);
+                for part in judged {
+                    upright(trajectory, part.start..=part.end, reasons);
+                }
             }
         }
         let Some(before) = index.checked_sub(1).and_then(|before| holds.get(before)) else { continue };
@@ -200,7 +218,7 @@ fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reas
 }
 
 /// Told to stand, the torso is as upright as one that stands after a jump. The first moment that is not is told, once.
-fn upright(trajectory: &Trajectory<'_>, steps: std::ops::RangeInclusive<usize>, reasons: &mut Vec<Reason>) {
+fn upright(trajectory: &Trajectory<'_>, steps: RangeInclusive<usize>, reasons: &mut Vec<Reason>) {
     if reasons.iter().any(|reason| matches!(reason, Reason::Tilted { .. })) {
         return;
     }
@@ -253,8 +271,8 @@ mod tests {
 
     /// When it moves, when the button is pressed, and when it leaves the ground, s.
     const MOVES: [f64; 2] = [5.0, 35.0];
-    const PRESSED: f64 = 40.0;
-    const LEAPS: f64 = 40.4;
+    const PRESSED: f64 = 50.0;
+    const LEAPS: f64 = 50.4;
 
     /// What a puppet does that does as it is told, but for a change; and what it is told.
     fn reasons(seconds: f64, change: impl Fn(f64, &mut Pose)) -> Vec<Reason> {
@@ -332,14 +350,26 @@ mod tests {
     }
 
     #[test]
+    fn of_the_last_half_of_a_hold_only_jumps_are_left_out() {
+        let moves_two_meters = |from: f64| names(60.0, move |time, pose| pose.x += 2.0 * (time - from).clamp(0.0, 1.0));
+        assert_eq!(moves_two_meters(PRESSED - 1.2), ["drifting"]);
+        assert_eq!(moves_two_meters(PRESSED + 0.2), Vec::<String>::new());
+        assert_eq!(moves_two_meters(PRESSED + 1.7), ["drifting"]);
+        let left = |presses: &[usize]| without_jumps(100..200, presses, 30);
+        assert_eq!(left(&[]), [100..200]);
+        assert_eq!(left(&[60, 130, 195]), [100..130, 160..195]);
+        assert_eq!(left(&[90, 110, 200]), [140..200]);
+    }
+
+    #[test]
     fn every_press_is_answered_by_a_jump() {
         let earthbound = |time: f64, pose: &mut Pose| {
-            if time > 39.0 {
+            if time > 49.0 {
                 *pose = Pose { x: pose.x, work: pose.work, ..Pose::standing() };
             }
         };
         assert_eq!(names(60.0, earthbound), ["presses", "no-jump"]);
-        let lands_on_its_torso = |time: f64, pose: &mut Pose| pose.touching[0] |= (41.2..41.3).contains(&time);
+        let lands_on_its_torso = |time: f64, pose: &mut Pose| pose.touching[0] |= (51.2..51.3).contains(&time);
         assert_eq!(names(60.0, lands_on_its_torso), ["presses", "landed-on"]);
     }
 
