@@ -229,9 +229,10 @@ impl ReferenceSelection {
     }
 
     /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
-    /// wanted at once.
+    /// wanted at once. But one that is told what to do is of little use if it does so in one schedule alone; and where it is the
+    /// champion of the stage before, a candidate that is worse would soon take its place.
     fn hoped(&self, kept: Kept, standing: Option<TieredFitness>) -> u8 {
-        let first = standing.is_none_or(|standing| standing.tier < USABLE);
+        let first = self.steadiest.is_none() && standing.is_none_or(|standing| standing.tier < USABLE);
         match kept {
             _ if first || self.steadiness.is_none() => USABLE,
             Kept::Little => USABLE + 1,

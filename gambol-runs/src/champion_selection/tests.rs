@@ -278,6 +278,18 @@ fn a_gait_that_is_told_what_to_do_is_told_more_before_it_is_tried_in_perturbed_w
     assert_eq!(selection.tried(), [Trial::MoreCommands, Trial::Short, Trial::Long]);
 }
 
+/// Else a later candidate with a low tier would take the place of what a stage before has found.
+#[test]
+fn the_first_champion_that_does_as_it_is_told_has_the_tier_that_it_earns() {
+    let selection = of_commanded();
+    let one =
+        |schedules| Candidate { reference: 1.0, varied: 1.0, usable: true, steady: [0, 0], commanded: [schedules; 2] };
+    for standing in [None, standing(0, 100.0)] {
+        assert_eq!(selection.tiers(&[one(30), one(16)], standing).0, [8, 0]);
+    }
+    assert_eq!(selection.tiers(&[one(16)], standing(8, 1.0)).0, [USABLE], "and what is worse is no better than usable");
+}
+
 /// What a gait earns says little of how often it fails.
 #[test]
 fn of_gaits_that_are_told_what_to_do_all_that_are_usable_are_compared() {
