@@ -5,7 +5,7 @@ use crate::{
     config::EngineChoice,
     reference::ReferenceEpisode,
     robustness_check::{RobustnessCheck, Trial},
-    tiers::{DEPENDABLE, USABLE},
+    tiers::USABLE,
 };
 use ne_core::{
     Evaluation, Evaluator, Fitness, Genome, Parallel, Phenotype, Seed, Task, TieredFitness,
@@ -13,6 +13,9 @@ use ne_core::{
 };
 use ne_net::Network;
 use std::{borrow::Cow, cmp::Reverse, sync::Arc};
+use steps::{Step, steps};
+
+mod steps;
 
 /// Judges candidates in the engine of training, and has the best of them confirmed by rapier. If rapier does not agree to
 /// the bit, all candidates are judged again, in rapier.
@@ -26,9 +29,11 @@ pub(crate) struct ReferenceSelection {
     usable: Option<Box<FirstUsable>>,
     /// In how many perturbed worlds it is, if training varies the world.
     steadiness: Option<Box<Steadiness>>,
-    steps: Vec<(Trial, usize)>,
+    steps: Vec<Step>,
     /// Which of the usable candidates of a re-evaluation goes on, if they are compared.
     steadiest: Option<Box<Steadiest>>,
+    /// How many candidates are looked at.
+    looks: Looks,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
@@ -40,36 +45,8 @@ type FirstUsable = dyn Fn(&[&dyn Phenotype], usize) -> Vec<usize> + Send + Sync;
 /// fewer than are given.
 type Steadiness = dyn Fn(&dyn Phenotype, Trial, usize) -> usize + Send + Sync;
 
-/// Says which of these controllers is usable in most schedules of commands; of equals the first.
+/// Says which of these controllers is usable in most worlds; of equals the first.
 type Steadiest = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
-
-/// In how many worlds of which trial a gait must be usable for one tier above [`USABLE`], for two and so on; one that fails
-/// at a step is not tried at those above. First a quarter of the worlds, half, three quarters, all but one. Finer steps would
-/// have a slow champion that is usable in one world more stand above one twice as fast.
-const STEPS: [(Trial, usize); 8] = [
-    (Trial::Short, 4),
-    (Trial::Short, 8),
-    (Trial::Short, 11),
-    (Trial::Short, Trial::Short.worlds() - 1),
-    (Trial::Long, 8),
-    (Trial::Long, 11),
-    (Trial::Long, 13),
-    (Trial::Long, Trial::Long.worlds() - 1),
-];
-
-/// In how many schedules of commands a gait that is told what to do must be usable for the first tiers above [`USABLE`]: that it does
-/// so whatever it is told comes before that it does so in any world. One of some thousand candidates that has passed nine schedules
-/// may yet fail in every second.
-const SCHEDULES: [usize; 9] = [8, 16, 20, 24, 26, 28, 30, 31, Trial::MoreCommands.worlds()];
-
-const _: () = assert!(SCHEDULES[(DEPENDABLE - USABLE - 1) as usize] == 30, "the documentation says 30");
-
-/// All steps, in their order, of a gait that is told what to do or is not.
-fn steps(commanded: bool) -> Vec<(Trial, usize)> {
-    let schedules = SCHEDULES.map(|schedules| (Trial::MoreCommands, schedules));
-    let first: &[_] = if commanded { &schedules } else { &[] };
-    [first, &STEPS].concat()
-}
 
 /// The highest tier of a champion whose gait is judged in this episode.
 pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
@@ -77,16 +54,31 @@ pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
 }
 
 /// The steps that a champion is tried at there; none where nothing varies.
-fn steps_of(reference: &ReferenceEpisode) -> Vec<(Trial, usize)> {
+fn steps_of(reference: &ReferenceEpisode) -> Vec<Step> {
     reference.robustness_check.as_ref().map_or_else(Vec::new, |check| steps(check.needs_commands()))
 }
 
-/// So many of the best candidates have their gaits judged at a re-evaluation, until one of them is usable.
-const JUDGED: usize = 8;
+/// How many of the best candidates are looked at in a re-evaluation.
+#[derive(Clone, Copy, Debug)]
+struct Looks {
+    /// So many have their gaits judged.
+    judged: usize,
+    /// So many that are usable are compared: what gaits earn says little of how often they fail.
+    compared: usize,
+    /// Whether the first that is usable becomes champion at once, whatever else there is.
+    first_at_once: bool,
+}
 
-/// So many of those that are told what to do, and as many that are usable are compared: what they earn says little of how often they
-/// fail.
-const COMPARED: usize = 16;
+impl Looks {
+    const fn of(commanded: bool) -> Self {
+        match commanded {
+            false => Self { judged: 8, compared: 4, first_at_once: true },
+            // One that does as it is told in one schedule alone is of little use; and where the champion of the stage before were no
+            // more than usable, a candidate that is worse would soon take its place.
+            true => Self { judged: 16, compared: 16, first_at_once: false },
+        }
+    }
+}
 
 /// How much of its fitness a candidate keeps in varied worlds: less than a quarter, up to three quarters, or more. Steps may
 /// be shorter there, and episodes are, so what keeps all of its speed may keep only half of its distance.
@@ -117,6 +109,11 @@ impl Task for InRapier {
     }
 }
 
+/// In how many worlds of a trial, if it was held.
+fn count(known: &[(Trial, usize)], trial: Trial) -> Option<usize> {
+    known.iter().find(|(held, _)| *held == trial).map(|&(_, usable)| usable)
+}
+
 fn network(phenotype: &dyn Phenotype) -> Option<Network> {
     Network::of(phenotype).map(Cow::into_owned)
 }
@@ -131,6 +128,7 @@ impl ReferenceSelection {
     pub(crate) fn new(reference: &ReferenceEpisode, evaluator: Arc<Parallel>) -> Self {
         let confirmed = reference.task.engine() != EngineChoice::Rapier;
         let commanded = reference.robustness_check.as_ref().is_some_and(RobustnessCheck::needs_commands);
+        let trial = if commanded { Trial::Commands } else { Trial::Short };
         Self {
             task: Box::new(reference.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(reference.clone())) as Box<dyn Task>),
@@ -151,15 +149,16 @@ impl ReferenceSelection {
                 };
                 Box::new(steadiness) as Box<Steadiness>
             }),
-            steadiest: reference.robustness_check.clone().filter(|_| commanded).map(|check| {
+            steadiest: reference.robustness_check.clone().map(|check| {
                 let evaluator = evaluator.clone();
                 let steadiest = move |phenotypes: &[&dyn Phenotype]| {
                     let networks = networks(phenotypes);
-                    evaluator.install(|| check.steadiest(&networks, Trial::Commands))
+                    evaluator.install(|| check.steadiest(&networks, trial))
                 };
                 Box::new(steadiest) as Box<Steadiest>
             }),
             steps: steps_of(reference),
+            looks: Looks::of(commanded),
             seed: reference.seed,
             evaluator,
         }
@@ -170,10 +169,13 @@ impl ReferenceSelection {
         USABLE + self.steps.len() as u8
     }
 
-    /// In how many worlds of a trial a gait must be usable for this tier.
-    fn needed(&self, trial: Trial, tier: u8) -> usize {
-        let tiers = self.steps.iter().zip(USABLE + 1..).filter(|&(&(of, _), step)| of == trial && step <= tier);
-        tiers.map(|(&(_, worlds), _)| worlds).max().unwrap_or(0)
+    /// In how many worlds of a trial a gait must be usable for this tier, if it is so in as many of others as is known, and in all of
+    /// those it has not been tried in.
+    fn needed(&self, trial: Trial, tier: u8, known: &[(Trial, usize)]) -> usize {
+        let steps = self.steps[..usize::from(tier - USABLE)].iter().filter(|step| step.trials.contains(&trial));
+        let of = |other: Trial| count(known, other).unwrap_or(other.worlds());
+        let others = |step: &Step| step.trials.iter().filter(|&&other| other != trial).map(|&other| of(other)).sum();
+        steps.map(|step| step.worlds.saturating_sub(others(step))).max().unwrap_or(0)
     }
 
     /// Tiers: 0 for a gait that is not known to be usable, and from [`USABLE`] on the more perturbed worlds it is usable in.
@@ -195,7 +197,8 @@ impl ReferenceSelection {
         // Those that keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-        let (judged, most) = if self.steadiest.is_some() { (COMPARED, COMPARED) } else { (JUDGED, 1) };
+        let Looks { judged, compared, .. } = self.looks;
+        let most = if self.steadiest.is_none() || self.is_wanted_at_once(standing) { 1 } else { compared };
         let first = &able[..able.len().min(judged)];
         let fittest = fittest.iter().take(judged).filter(|index| !first.contains(index));
         let tried: Vec<usize> = first.iter().chain(fittest).copied().collect();
@@ -228,13 +231,15 @@ impl ReferenceSelection {
         }
     }
 
-    /// The tier that a usable candidate may get. The first champion that is usable need not be more than that: it is
-    /// wanted at once. But one that is told what to do is of little use if it does so in one schedule alone; and where it is the
-    /// champion of the stage before, a candidate that is worse would soon take its place.
+    /// Whether the first that is usable becomes champion, and is not tried any further.
+    fn is_wanted_at_once(&self, standing: Option<TieredFitness>) -> bool {
+        self.looks.first_at_once && standing.is_none_or(|standing| standing.tier < USABLE)
+    }
+
+    /// The tier that a usable candidate may get.
     fn hoped(&self, kept: Kept, standing: Option<TieredFitness>) -> u8 {
-        let first = self.steadiest.is_none() && standing.is_none_or(|standing| standing.tier < USABLE);
         match kept {
-            _ if first || self.steadiness.is_none() => USABLE,
+            _ if self.steadiness.is_none() || self.is_wanted_at_once(standing) => USABLE,
             Kept::Little => USABLE + 1,
             Kept::Half | Kept::Most => self.highest(),
         }
@@ -244,15 +249,17 @@ impl ReferenceSelection {
     fn steady<G: Genome>(&self, candidate: &G, enough: u8, hoped: u8) -> u8 {
         let Some(steadiness) = &self.steadiness else { return USABLE };
         let controller = candidate.express();
-        let (mut tier, mut last) = (USABLE, None);
-        for &(trial, worlds) in &self.steps[..usize::from(hoped - USABLE)] {
-            let known = last.filter(|&(known, _)| known == trial);
-            let (_, usable) = known.unwrap_or_else(|| {
-                let span = tracing::debug_span!("perturbed worlds", ?trial);
-                (trial, span.in_scope(|| steadiness(&controller, trial, self.needed(trial, enough))))
-            });
-            last = Some((trial, usable));
-            if usable < worlds {
+        let (mut tier, mut known) = (USABLE, Vec::new());
+        for step in &self.steps[..usize::from(hoped - USABLE)] {
+            for &trial in step.trials {
+                if count(&known, trial).is_none() {
+                    let needed = self.needed(trial, enough, &known);
+                    let span = tracing::debug_span!("perturbed worlds", ?trial);
+                    known.push((trial, span.in_scope(|| steadiness(&controller, trial, needed))));
+                }
+            }
+            let usable: usize = step.trials.iter().filter_map(|&trial| count(&known, trial)).sum();
+            if usable < step.worlds {
                 break;
             }
             tier += 1;

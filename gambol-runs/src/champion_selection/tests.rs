@@ -1,4 +1,5 @@
-use super::*;
+use super::{steps::STEPS, *};
+use crate::tiers::DEPENDABLE;
 use ne_core::{Failure, Fitness};
 use serde::{Deserialize, Serialize};
 use std::sync::Mutex;
@@ -111,6 +112,7 @@ impl ScheduledSelection {
             steadiness: Some(Box::new(steadiness)),
             steps: STEPS.into(),
             steadiest: None,
+            looks: Looks::of(false),
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
@@ -222,33 +224,53 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
         selection.tiers(&[one], slow()).0[0]
     };
     let short: Vec<u8> = (0..=15).map(|worlds| tier([worlds, 0])).collect();
-    assert_eq!(short, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 5, 5]);
-    let long: Vec<u8> = (0..=16).map(|worlds| tier([14, worlds])).collect();
-    assert_eq!(long, [5, 5, 5, 5, 5, 5, 5, 5, 6, 6, 6, 7, 7, 8, 8, 9, 9]);
+    assert_eq!(short, [1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 4, 4, 4, 4, 4]);
+    let both: Vec<u8> = (0..=16).map(|worlds| tier([14, worlds])).collect();
+    assert_eq!(both, [4, 4, 4, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 8, 8, 9]);
     selection.tried();
     // A candidate less fit than the champion must be steadier, or it counts as usable and no more.
     let against = |champion: u8, steady| {
         let one = Candidate { reference: 1.0, varied: 1.0, usable: true, steady, commanded: [0, 0] };
         (selection.tiers(&[one], standing(champion, 2.0)).0[0], selection.tried())
     };
-    assert_eq!(
-        against(USABLE, [3, 16]),
-        (USABLE, vec![Trial::Short]),
-        "the long trial is for candidates that pass the short one"
-    );
-    assert_eq!(against(USABLE, [4, 16]), (USABLE + 1, vec![Trial::Short]));
-    assert_eq!(against(USABLE + 2, [11, 16]), (USABLE + 3, vec![Trial::Short]));
-    assert_eq!(against(USABLE + 3, [13, 16]), (USABLE, vec![Trial::Short]));
-    assert_eq!(against(USABLE + 3, [14, 7]), (USABLE + 4, vec![Trial::Short, Trial::Long]));
-    assert_eq!(against(USABLE + 4, [14, 7]), (USABLE, vec![Trial::Short, Trial::Long]));
-    assert_eq!(against(USABLE + 4, [14, 8]), (USABLE + 5, vec![Trial::Short, Trial::Long]));
+    let (short, both) = (vec![Trial::Short], vec![Trial::Short, Trial::Long]);
+    assert_eq!(against(USABLE, [3, 16]), (USABLE, short.clone()), "the long trial is for what passes the short one");
+    assert_eq!(against(USABLE, [4, 16]), (USABLE + 1, short.clone()));
+    assert_eq!(against(USABLE + 2, [11, 7]), (USABLE + 3, both.clone()));
+    assert_eq!(against(USABLE + 3, [10, 16]), (USABLE, short.clone()));
+    assert_eq!(against(USABLE + 3, [13, 15]), (USABLE + 7, both.clone()), "worlds of both count alike");
+    assert_eq!(against(USABLE + 3, [14, 4]), (USABLE, both.clone()));
+    assert_eq!(against(USABLE + 4, [14, 7]), (USABLE, both.clone()));
+    assert_eq!(against(USABLE + 4, [14, 8]), (USABLE + 5, both));
+    assert_eq!(against(HIGHEST - 1, [13, 16]), (USABLE, short), "not even the whole long trial would do");
     assert_eq!(against(HIGHEST, [15, 16]), (0, vec![]), "it could not become champion");
+}
+
+/// What a gait earns says little of how often it fails.
+#[test]
+fn usable_gaits_are_compared_but_for_the_first() {
+    let mut selection = ScheduledSelection::new(reference, None);
+    let steadiest = |phenotypes: &[&dyn Phenotype]| {
+        (0..phenotypes.len()).min_by_key(|&index| Reverse(candidate(phenotypes[index]).steady[0]))
+    };
+    selection.champion_selection.steadiest = Some(Box::new(steadiest));
+    let of = |reference, short| Candidate {
+        reference,
+        varied: reference,
+        usable: true,
+        steady: [short, 0],
+        commanded: [0, 0],
+    };
+    let all = [of(9.0, 4), of(8.0, 8), of(7.0, 12), of(6.0, 11), of(5.0, 15)];
+    assert_eq!(selection.tiers(&all, None).0, [USABLE, 0, 0, 0, 0]);
+    assert_eq!(selection.tiers(&all, slow()).0, [0, 0, USABLE + 3, 0, 0], "of the four that are the fittest");
 }
 
 /// A champion selection of gaits that are told what to do.
 fn of_commanded() -> ScheduledSelection {
     let mut selection = ScheduledSelection::new(reference, None);
     selection.champion_selection.steps = steps(true);
+    selection.champion_selection.looks = Looks::of(true);
     let register = selection.tried.clone();
     let steadiest = move |phenotypes: &[&dyn Phenotype]| {
         register.lock().expect("no test panics here").extend(phenotypes.iter().map(|_| Trial::Commands));
@@ -269,12 +291,13 @@ fn a_gait_that_is_told_what_to_do_is_told_more_before_it_is_tried_in_perturbed_w
     };
     let told: Vec<u8> =
         [7, 8, 15, 16, 20, 24, 25, 26, 28, 30, 31, 32].map(|schedules| tier(schedules, [15, 16])).into();
-    assert_eq!(told, [1, 2, 2, 3, 4, 5, 5, 6, 7, 8, 9, 18]);
-    assert_eq!([[3, 16], [4, 0], [15, 0]].map(|steady| tier(32, steady)), [10, 11, 14]);
+    assert_eq!(told, [1, 2, 2, 3, 4, 5, 5, 6, 7, 22, 23, 23]);
+    assert_eq!([[3, 16], [4, 0], [15, 0], [1, 0]].map(|steady| tier(32, steady)), [17, 10, 15, DEPENDABLE]);
+    assert_eq!(tier(30, [6, 0]), tier(32, [4, 0]), "a schedule is worth a world");
     selection.tried();
-    tier(31, [15, 16]);
+    tier(29, [15, 16]);
     assert_eq!(selection.tried(), [Trial::MoreCommands]);
-    tier(32, [15, 16]);
+    tier(30, [0, 0]);
     assert_eq!(selection.tried(), [Trial::MoreCommands, Trial::Short, Trial::Long]);
 }
 
@@ -311,7 +334,7 @@ fn of_gaits_that_are_told_what_to_do_all_that_are_usable_are_compared() {
     let little = Candidate { varied: 0.5, ..of(9.0, true, 16) };
     assert_eq!(selection.tiers(&[little, of(8.0, true, 10)], slow()).0, [0, 5]);
     // So many, the fittest.
-    let many: Vec<Candidate> = (0..=COMPARED).map(|index| of(100.0 + index as f64, true, COMPARED - index)).collect();
+    let many: Vec<Candidate> = (0..=16).map(|index| of(100.0 + f64::from(index), true, 16 - index as usize)).collect();
     assert_eq!(selection.tiers(&many, slow()).0[..3], [0, 5, 0]);
 }
 
