@@ -1,6 +1,6 @@
 //! `export`: a champion as files for games and other programs.
 
-use crate::program::{assert_says, fail, gambol, small_run_of, succeed, text};
+use crate::program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run_of, succeed, text};
 use std::{fs, path::Path, process::Command};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -82,7 +82,7 @@ fn character_for_dragonbones(run: &Path, folder: &Path) -> Outcome {
 fn what_cannot_be_exported_is_said_and_leaves_nothing() -> Outcome {
     let folder = tempfile::tempdir()?;
     let run = folder.path().join("run");
-    succeed(small_run_of("biped-1", "jumping", &run, 1).arg("--quiet"));
+    succeed(small_run_of("biped-1", "jumping", &run, 1).args(WITHOUT_SELECTION).arg("--quiet"));
     let (champion, out) = (run.join("champion.json"), folder.path().join("out"));
     for format in ["gif", "apng", "svg", "sprites", "gltf", "dragonbones"] {
         let said = fail(&mut export(&run, format, &out, &[]));

@@ -355,10 +355,12 @@ mod tests {
         assert_eq!(moves_two_meters(PRESSED - 1.2), ["drifting"]);
         assert_eq!(moves_two_meters(PRESSED + 0.2), Vec::<String>::new());
         assert_eq!(moves_two_meters(PRESSED + 1.7), ["drifting"]);
-        let left = |presses: &[usize]| without_jumps(100..200, presses, 30);
-        assert_eq!(left(&[]), [100..200]);
-        assert_eq!(left(&[60, 130, 195]), [100..130, 160..195]);
-        assert_eq!(left(&[90, 110, 200]), [140..200]);
+        let left = |presses: &[usize]| -> Vec<[usize; 2]> {
+            without_jumps(100..200, presses, 30).into_iter().map(|part| [part.start, part.end]).collect()
+        };
+        assert_eq!(left(&[]), [[100, 200]]);
+        assert_eq!(left(&[60, 130, 195]), [[100, 130], [160, 195]]);
+        assert_eq!(left(&[90, 110, 200]), [[140, 200]]);
     }
 
     #[test]
