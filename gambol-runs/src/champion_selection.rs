@@ -32,8 +32,7 @@ pub(crate) struct ReferenceSelection {
     steps: Vec<Step>,
     /// Which of the usable candidates of a re-evaluation goes on, if they are compared.
     steadiest: Option<Box<Steadiest>>,
-    /// How many candidates are looked at.
-    looks: Looks,
+    choice: Choice,
     seed: Seed,
     evaluator: Arc<Parallel>,
 }
@@ -45,8 +44,8 @@ type FirstUsable = dyn Fn(&[&dyn Phenotype], usize) -> Vec<usize> + Send + Sync;
 /// fewer than are given.
 type Steadiness = dyn Fn(&dyn Phenotype, Trial, usize) -> usize + Send + Sync;
 
-/// Says which of these controllers is usable in most worlds; of equals the first.
-type Steadiest = dyn Fn(&[&dyn Phenotype]) -> Option<usize> + Send + Sync;
+/// Says which of these controllers is usable in most worlds, of equals the first, and in how many.
+type Steadiest = dyn Fn(&[&dyn Phenotype]) -> Option<(usize, usize)> + Send + Sync;
 
 /// The highest tier of a champion whose gait is judged in this episode.
 pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
@@ -58,24 +57,28 @@ fn steps_of(reference: &ReferenceEpisode) -> Vec<Step> {
     reference.robustness_check.as_ref().map_or_else(Vec::new, |check| steps(check.needs_commands()))
 }
 
-/// How many of the best candidates are looked at in a re-evaluation.
+/// How the candidate that is tried for a high tier is chosen.
 #[derive(Clone, Copy, Debug)]
-struct Looks {
-    /// So many have their gaits judged.
+struct Choice {
+    /// So many of the best have their gaits judged.
     judged: usize,
     /// So many that are usable are compared: what gaits earn says little of how often they fail.
     compared: usize,
+    /// In the worlds of this trial.
+    trial: Trial,
     /// Whether the first that is usable becomes champion at once, whatever else there is.
     first_at_once: bool,
 }
 
-impl Looks {
-    const fn of(commanded: bool) -> Self {
+impl Choice {
+    /// Of gaits that are told what to do or are not, in a run that goes on from another or does not: if the champion that it brings had
+    /// only the lowest tier, a worse candidate would soon replace it.
+    const fn of(commanded: bool, goes_on: bool) -> Self {
         match commanded {
-            false => Self { judged: 8, compared: 4, first_at_once: true },
-            // One that does as it is told in one schedule alone is of little use; and where the champion of the stage before were no
-            // more than usable, a candidate that is worse would soon take its place.
-            true => Self { judged: 16, compared: 16, first_at_once: false },
+            // The trial that also gives the tier, so it is not held again.
+            false => Self { judged: 8, compared: 4, trial: Trial::Short, first_at_once: !goes_on },
+            // A gait that does as it is told in one schedule may fail in most others.
+            true => Self { judged: 16, compared: 16, trial: Trial::Commands, first_at_once: false },
         }
     }
 }
@@ -109,7 +112,7 @@ impl Task for InRapier {
     }
 }
 
-/// In how many worlds of a trial, if it was held.
+/// The count of a trial that was held.
 fn count(known: &[(Trial, usize)], trial: Trial) -> Option<usize> {
     known.iter().find(|(held, _)| *held == trial).map(|&(_, usable)| usable)
 }
@@ -124,11 +127,11 @@ fn networks(phenotypes: &[&dyn Phenotype]) -> Vec<Network> {
 }
 
 impl ReferenceSelection {
-    /// The champion selection of a run.
-    pub(crate) fn new(reference: &ReferenceEpisode, evaluator: Arc<Parallel>) -> Self {
+    /// The champion selection of a run, which goes on from what another has found or does not.
+    pub(crate) fn new(reference: &ReferenceEpisode, goes_on: bool, evaluator: Arc<Parallel>) -> Self {
         let confirmed = reference.task.engine() != EngineChoice::Rapier;
         let commanded = reference.robustness_check.as_ref().is_some_and(RobustnessCheck::needs_commands);
-        let trial = if commanded { Trial::Commands } else { Trial::Short };
+        let choice = Choice::of(commanded, goes_on);
         Self {
             task: Box::new(reference.task.clone()),
             reference: confirmed.then(|| Box::new(InRapier(reference.clone())) as Box<dyn Task>),
@@ -153,12 +156,12 @@ impl ReferenceSelection {
                 let evaluator = evaluator.clone();
                 let steadiest = move |phenotypes: &[&dyn Phenotype]| {
                     let networks = networks(phenotypes);
-                    evaluator.install(|| check.steadiest(&networks, trial))
+                    evaluator.install(|| check.steadiest(&networks, choice.trial))
                 };
                 Box::new(steadiest) as Box<Steadiest>
             }),
             steps: steps_of(reference),
-            looks: Looks::of(commanded),
+            choice,
             seed: reference.seed,
             evaluator,
         }
@@ -169,8 +172,8 @@ impl ReferenceSelection {
         USABLE + self.steps.len() as u8
     }
 
-    /// In how many worlds of a trial a gait must be usable for this tier, if it is so in as many of others as is known, and in all of
-    /// those it has not been tried in.
+    /// The least number of worlds of a trial for this tier. Other trials count with what is known of them, and before they are held with
+    /// all of their worlds.
     fn needed(&self, trial: Trial, tier: u8, known: &[(Trial, usize)]) -> usize {
         let steps = self.steps[..usize::from(tier - USABLE)].iter().filter(|step| step.trials.contains(&trial));
         let of = |other: Trial| count(known, other).unwrap_or(other.worlds());
@@ -197,7 +200,7 @@ impl ReferenceSelection {
         // Those that keep most come first; where they are slow and safe, and not usable, the fittest have their turn.
         let mut fittest = able.clone();
         fittest.sort_by_key(|&index| Reverse(evaluations[index].fitness()));
-        let Looks { judged, compared, .. } = self.looks;
+        let Choice { judged, compared, .. } = self.choice;
         let most = if self.steadiest.is_none() || self.is_wanted_at_once(standing) { 1 } else { compared };
         let first = &able[..able.len().min(judged)];
         let fittest = fittest.iter().take(judged).filter(|index| !first.contains(index));
@@ -210,30 +213,31 @@ impl ReferenceSelection {
         let most_hoped = usable.iter().map(|&place| self.hoped(kept[tried[place]], standing)).max();
         let usable: Vec<usize> =
             usable.into_iter().filter(|&place| Some(self.hoped(kept[tried[place]], standing)) == most_hoped).collect();
-        if let Some(best) = self.best_of(&controllers, &usable) {
+        if let Some((best, known)) = self.best_of(&controllers, &usable) {
             let best = tried[best];
             let hoped = self.hoped(kept[best], standing);
             let enough = (USABLE..=hoped).find(|&tier| place(best, tier) > standing).unwrap_or(hoped);
-            tiers[best] = self.steady(&candidates[best], enough, hoped);
+            tiers[best] = self.steady(&candidates[best], known, enough, hoped);
         }
         tiers
     }
 
-    /// Of these usable controllers the first, or, where they are compared, the one that is usable in most schedules.
-    fn best_of(&self, controllers: &[&dyn Phenotype], usable: &[usize]) -> Option<usize> {
+    /// Of these usable controllers the first, or, where they are compared, the one that is usable in most worlds; and in how many it is
+    /// known to be.
+    fn best_of(&self, controllers: &[&dyn Phenotype], usable: &[usize]) -> Option<(usize, Option<(Trial, usize)>)> {
         match &self.steadiest {
             Some(steadiest) if usable.len() > 1 => {
                 let _span = tracing::debug_span!("compared", candidates = usable.len()).entered();
                 let chosen: Vec<&dyn Phenotype> = usable.iter().map(|&index| controllers[index]).collect();
-                steadiest(&chosen).map(|best| usable[best])
+                steadiest(&chosen).map(|(best, worlds)| (usable[best], Some((self.choice.trial, worlds))))
             }
-            _ => usable.first().copied(),
+            _ => usable.first().map(|&first| (first, None)),
         }
     }
 
     /// Whether the first that is usable becomes champion, and is not tried any further.
     fn is_wanted_at_once(&self, standing: Option<TieredFitness>) -> bool {
-        self.looks.first_at_once && standing.is_none_or(|standing| standing.tier < USABLE)
+        self.choice.first_at_once && standing.is_none_or(|standing| standing.tier < USABLE)
     }
 
     /// The tier that a usable candidate may get.
@@ -245,17 +249,22 @@ impl ReferenceSelection {
         }
     }
 
-    /// The tier of a usable candidate, up to `hoped`. A tier below `enough` is of no use, and given as [`USABLE`].
-    fn steady<G: Genome>(&self, candidate: &G, enough: u8, hoped: u8) -> u8 {
+    /// The tier of a usable candidate, of which may be known in how many worlds of one trial it is usable, up to `hoped`. A tier below
+    /// `enough` is of no use, and given as [`USABLE`].
+    fn steady<G: Genome>(&self, candidate: &G, known: Option<(Trial, usize)>, enough: u8, hoped: u8) -> u8 {
         let Some(steadiness) = &self.steadiness else { return USABLE };
         let controller = candidate.express();
-        let (mut tier, mut known) = (USABLE, Vec::new());
+        let (mut tier, mut known) = (USABLE, Vec::from_iter(known));
         for step in &self.steps[..usize::from(hoped - USABLE)] {
             for &trial in step.trials {
+                let needed = self.needed(trial, enough, &known);
                 if count(&known, trial).is_none() {
-                    let needed = self.needed(trial, enough, &known);
                     let span = tracing::debug_span!("perturbed worlds", ?trial);
                     known.push((trial, span.in_scope(|| steadiness(&controller, trial, needed))));
+                }
+                // Other trials could not make up for it.
+                if count(&known, trial) < Some(needed) {
+                    return USABLE;
                 }
             }
             let usable: usize = step.trials.iter().filter_map(|&trial| count(&known, trial)).sum();

@@ -86,8 +86,8 @@ impl RobustnessCheck {
         self.worlds(trial).usable(network, needed)
     }
 
-    /// The one of these controllers whose gait is usable in most of the worlds; of equals the first.
-    pub(crate) fn steadiest(&self, networks: &[Network], trial: Trial) -> Option<usize> {
+    /// The one of these controllers whose gait is usable in most of the worlds, of equals the first, and in how many.
+    pub(crate) fn steadiest(&self, networks: &[Network], trial: Trial) -> Option<(usize, usize)> {
         let worlds = self.worlds(trial);
         let mut steadiest = None;
         let mut places = 0..;
@@ -100,7 +100,7 @@ impl RobustnessCheck {
                 }
             }
         }
-        steadiest.map(|(place, _)| place)
+        steadiest
     }
 
     fn worlds(&self, trial: Trial) -> &Worlds {
@@ -225,6 +225,7 @@ pub(crate) mod tests {
         assert!(alone.len() >= 2, "{alone:?}");
         let counts: Vec<usize> = networks.iter().map(|network| check.usable(network, Trial::Short, 0)).collect();
         let most = (0..counts.len()).min_by_key(|&index| std::cmp::Reverse(counts[index]));
+        let most = most.map(|index| (index, counts[index]));
         for threads in [1, 2, 5] {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("threads start");
             for first in [1, 2, networks.len()] {

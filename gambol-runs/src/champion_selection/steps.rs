@@ -12,8 +12,7 @@ pub(super) struct Step {
     pub(super) worlds: usize,
 }
 
-/// Of a gait that is told nothing, for one tier above [`USABLE`], for two and so on; a gait that fails at a step is not tried at those
-/// above. First a quarter of the worlds of the short trial, half, three quarters; then of both, up to all but one. Finer steps would
+/// The steps of a gait that is told nothing; one that fails at a step is not tried at those above. First a quarter of the worlds of the short trial, half, three quarters; then of both, up to all but one. Finer steps would
 /// have a slow champion that is usable in one world more stand above one twice as fast.
 pub(super) const STEPS: [Step; 8] = {
     const fn short(worlds: usize) -> Step {
@@ -32,13 +31,19 @@ const SCHEDULES: [usize; (DEPENDABLE - USABLE) as usize] = [8, 16, 20, 24, 26, 2
 
 const _: () = assert!(SCHEDULES[SCHEDULES.len() - 1] == 30, "the documentation says 30");
 
-/// For the tiers above these all worlds count alike: else a champion of 31 schedules that falls over every bump is not replaced by one of
-/// 30 that does not.
+/// Above these tiers all worlds count alike. Otherwise a gait of 30 schedules that bears bumps would not replace one of 31 that falls
+/// over each.
 const TOGETHER: [Trial; 3] = [Trial::MoreCommands, Trial::Short, Trial::Long];
 
-/// In how many of them a gait must be usable for the first of these tiers, and for the last; of any two neighbours the higher asks for
-/// two more.
+/// In how many of them a gait must be usable for the first of these tiers, and for the last: all but one. Each asks for two more than the
+/// one below, since of gaits that are equal in that the one that earns more is better.
 const ALL_WORLDS: [usize; 2] = [34, 62];
+
+const _: () = {
+    let [short, long, schedules] = [Trial::Short.worlds(), Trial::Long.worlds(), Trial::MoreCommands.worlds()];
+    assert!(STEPS[STEPS.len() - 1].worlds == short + long - 1);
+    assert!(ALL_WORLDS[1] == short + long + schedules - 1);
+};
 
 /// All steps, in their order, of a gait that is told what to do or is not.
 pub(super) fn steps(commanded: bool) -> Vec<Step> {

@@ -91,18 +91,16 @@ impl ScheduledSelection {
         };
         let tried: Arc<Mutex<Vec<Trial>>> = Arc::default();
         let register = tried.clone();
-        let steadiness = move |phenotype: &dyn Phenotype, trial: Trial, needed: usize| {
+        let steadiness = move |phenotype: &dyn Phenotype, trial: Trial, _: usize| {
             register.lock().expect("no test panics here").push(trial);
             let candidate = candidate(phenotype);
             let ([short, long], [commands, more_commands]) = (candidate.steady, candidate.commanded);
-            let worlds = match trial {
+            match trial {
                 Trial::Short => short,
                 Trial::Long => long,
                 Trial::Commands => commands,
                 Trial::MoreCommands => more_commands,
-            };
-            // What is too little need not be counted.
-            if worlds < needed { 0 } else { worlds }
+            }
         };
         let champion_selection = ReferenceSelection {
             task: Box::new(Fake(lanes)),
@@ -112,7 +110,7 @@ impl ScheduledSelection {
             steadiness: Some(Box::new(steadiness)),
             steps: STEPS.into(),
             steadiest: None,
-            looks: Looks::of(false),
+            choice: Choice::of(false, false),
             seed: Seed::of_run(7),
             evaluator: Arc::new(Parallel::new(1).expect("a thread starts")),
         };
@@ -217,6 +215,14 @@ fn the_first_usable_champion_is_not_tried() {
 }
 
 #[test]
+fn a_champion_that_a_run_begins_with_has_the_tier_that_it_earns() {
+    let mut selection = ScheduledSelection::new(reference, None);
+    selection.champion_selection.choice = Choice::of(false, true);
+    let brought = candidates(&[(5.0, 5.0, true)]);
+    assert_eq!(selection.tiers(&brought, None).0, [HIGHEST]);
+}
+
+#[test]
 fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     let selection = ScheduledSelection::new(reference, None);
     let tier = |steady| {
@@ -246,14 +252,18 @@ fn the_more_worlds_a_gait_is_usable_in_the_higher_its_tier() {
     assert_eq!(against(HIGHEST, [15, 16]), (0, vec![]), "it could not become champion");
 }
 
+/// The first of the candidates that are usable in most worlds, and in how many.
+fn most(phenotypes: &[&dyn Phenotype], worlds: fn(&Candidate) -> usize) -> Option<(usize, usize)> {
+    let counts = phenotypes.iter().map(|phenotype| worlds(candidate(*phenotype))).enumerate();
+    counts.min_by_key(|&(_, worlds)| Reverse(worlds))
+}
+
 /// What a gait earns says little of how often it fails.
 #[test]
 fn usable_gaits_are_compared_but_for_the_first() {
     let mut selection = ScheduledSelection::new(reference, None);
-    let steadiest = |phenotypes: &[&dyn Phenotype]| {
-        (0..phenotypes.len()).min_by_key(|&index| Reverse(candidate(phenotypes[index]).steady[0]))
-    };
-    selection.champion_selection.steadiest = Some(Box::new(steadiest));
+    selection.champion_selection.steadiest =
+        Some(Box::new(|phenotypes| most(phenotypes, |candidate| candidate.steady[0])));
     let of = |reference, short| Candidate {
         reference,
         varied: reference,
@@ -264,18 +274,18 @@ fn usable_gaits_are_compared_but_for_the_first() {
     let all = [of(9.0, 4), of(8.0, 8), of(7.0, 12), of(6.0, 11), of(5.0, 15)];
     assert_eq!(selection.tiers(&all, None).0, [USABLE, 0, 0, 0, 0]);
     assert_eq!(selection.tiers(&all, slow()).0, [0, 0, USABLE + 3, 0, 0], "of the four that are the fittest");
+    assert_eq!(selection.tried(), [Trial::Long], "the short trial is not held again");
 }
 
 /// A champion selection of gaits that are told what to do.
 fn of_commanded() -> ScheduledSelection {
     let mut selection = ScheduledSelection::new(reference, None);
     selection.champion_selection.steps = steps(true);
-    selection.champion_selection.looks = Looks::of(true);
+    selection.champion_selection.choice = Choice::of(true, false);
     let register = selection.tried.clone();
     let steadiest = move |phenotypes: &[&dyn Phenotype]| {
         register.lock().expect("no test panics here").extend(phenotypes.iter().map(|_| Trial::Commands));
-        let worlds = |index: &usize| candidate(phenotypes[*index]).commanded[0];
-        (0..phenotypes.len()).min_by_key(|index| Reverse(worlds(index)))
+        most(phenotypes, |candidate| candidate.commanded[0])
     };
     selection.champion_selection.steadiest = Some(Box::new(steadiest));
     selection

@@ -184,15 +184,16 @@ pub struct RecordSettings {
     pub populations_at: Vec<u64>,
     /// With variation, shortened training episodes or further bodies: with each checkpoint, or more seldom where that takes much longer than
     /// training, so many of the best of the generation, and the best of each few generations since, are evaluated in whole episodes of
-    /// the creature without variation, and the best of them may become champion; from 1 to 1000, default 23.
+    /// the creature without variation, and the best of them may become champion; from 1 to 1000, default 22. What the
+    /// strategy recommends is one more.
     #[serde(default = "default_candidates")]
     #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 1000)))]
     pub candidates: usize,
 }
 
-/// With the nine generations between checkpoints they are 32: two batches of 16 lanes. Of `playing` the mean of the population is one more.
+/// With the nine generations between checkpoints, and what the strategy recommends, they are 32: two batches of 16 lanes.
 pub(crate) fn default_candidates() -> usize {
-    23
+    22
 }
 
 impl RecordSettings {

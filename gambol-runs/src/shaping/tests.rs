@@ -548,6 +548,14 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): promotion.tier = 10: must be from 1 to 9",
         ),
         (
+            two(json!({
+                "name": "b",
+                "promotion": { "tier": 24 },
+                "changes": { "movement": { "name": "playing" }, "commands": { "random": {} } },
+            })),
+            "stages[1] (\"b\"): promotion.tier = 24: must be from 1 to 23",
+        ),
+        (
             two(json!({ "name": "b", "promotion": { "tier": 0 } })),
             "stages[1] (\"b\"): promotion.tier = 0: must be at least 1",
         ),

@@ -174,7 +174,7 @@ impl Training {
         if let Some(reference) = &setup.reference {
             evolution = evolution.with_champion_selection(
                 setup.re_evaluations(&config),
-                ReferenceSelection::new(reference, evaluator.clone()),
+                ReferenceSelection::new(reference, config.origin.is_some(), evaluator.clone()),
             );
         }
         let recorder = Recorder::new(folder.clone(), earlier)?;

@@ -220,7 +220,7 @@ fn unit_of(registry: &Registry, movement: &str) -> String {
 /// What is said where lanes and rapier should agree and do not.
 const DIVERGED_NOTE: &str = "lanes and rapier part: they give this champion another fitness; rapier's counts";
 
-/// `12.300 m in rapier (14.000 m in training)`, or only the fitness if it was the same in training.
+/// `12.300 m in rapier (14.000 m in training)`, or only the fitness if it was the same in training, or if no generation had it.
 fn worth(champion: &Champion, unit: &str) -> String {
     let fitness = champion.fitness;
     match champion.fitness_in_training() {

@@ -42,9 +42,7 @@ fn log_champion_and_verify_have_both_figures() -> Outcome {
         .ok_or("it was heard")?;
     assert_eq!(mine["re_evaluation"]["trained"], trained["fitness"]);
     // Of each of ten generations the best, two more of the last, and what the strategy recommends.
-    assert!(
-        re_evaluations.iter().all(|line| (1..=13).contains(&line["re_evaluation"]["candidates"].as_u64().unwrap_or(0)))
-    );
+    assert!(re_evaluations.iter().all(|line| line["re_evaluation"]["candidates"] == 13), "{re_evaluations:?}");
 
     let in_training = trained["fitness"].as_f64().ok_or("a number")?;
     assert_says(

@@ -17,7 +17,7 @@ const DRIFT: f64 = 0.1;
 const ANSWERED: f64 = 0.75;
 /// ...within this, s. A smaller change than the speed error is none.
 const ANSWER_SECONDS: f64 = 1.2;
-/// Speeds are means over so long at least, s: within a stride they swing.
+/// Speeds are means over so long at least, in all, s: within a stride they swing.
 const STRIDE: f64 = 0.5;
 /// By when it has to leave the ground, s after the press.
 const JUMP_ANSWER: f64 = 0.5;
@@ -38,7 +38,7 @@ const OTHER_CONTACT: f64 = 0.01;
 /// if within 0.5 s of each press it leaves the ground in a flight that makes a [usable jump](super::JumpingRules), and nothing
 /// but feet touches the ground in the 1.5 s after the press; if the torso stays within 45°, and parts that are no feet touch
 /// the ground for at most 1 % of the time; and if no cheat is flagged. Speeds are the torso's. Of the last half of a hold the
-/// 1.5 s after each press are left out, and what is left counts if it is half a second or more; a change is measured by means
+/// 1.5 s after each press are left out, and what is left counts if it is half a second or more in all; a change is measured by means
 /// over half a second. A legless body may turn and touch as it likes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PlayingRules;
@@ -355,6 +355,10 @@ mod tests {
         assert_eq!(moves_two_meters(PRESSED - 1.2), ["drifting"]);
         assert_eq!(moves_two_meters(PRESSED + 0.2), Vec::<String>::new());
         assert_eq!(moves_two_meters(PRESSED + 1.7), ["drifting"]);
+        let tilted_before = |time: f64, pose: &mut Pose| {
+            pose.tilt = 25f64.to_radians() * (0.2 * (time - 41.0).min(53.0 - time)).clamp(0.0, 1.0);
+        };
+        assert_eq!(names(60.0, tilted_before), ["tilted"]);
         let left = |presses: &[usize]| -> Vec<[usize; 2]> {
             without_jumps(100..200, presses, 30).into_iter().map(|part| [part.start, part.end]).collect()
         };
