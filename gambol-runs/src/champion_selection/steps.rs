@@ -12,8 +12,9 @@ pub(super) struct Step {
     pub(super) worlds: usize,
 }
 
-/// The steps of a gait that is told nothing; one that fails at a step is not tried at those above. First a quarter of the worlds of the short trial, half, three quarters; then of both, up to all but one. Finer steps would
-/// have a slow champion that is usable in one world more stand above one twice as fast.
+/// The steps of a gait that is told nothing; one that fails at a step is not tried at those above. First a quarter of the worlds of the
+/// short trial, half, three quarters; then of both, up to all but one. Finer steps would have a slow champion that is usable in one
+/// world more stand above one twice as fast.
 pub(super) const STEPS: [Step; 8] = {
     const fn short(worlds: usize) -> Step {
         Step { trials: &[Trial::Short], worlds }

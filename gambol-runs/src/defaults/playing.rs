@@ -104,12 +104,12 @@ const STANDING: f32 = 0.25;
 /// With 4 bipeds are playable in fewer schedules (docs/playing-experiments.md).
 const BALANCED_HIDDEN: usize = 8;
 
-/// How long the jump clocks turn, s. A body crouches in the first half of the first turn, and pushes off in the second half: it has to be
-/// in the air half a second after the press. It lands before the second clock has turned. A short second turn leaves more time for the
-/// next stride. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
+/// Periods of the jump clocks, s. The body crouches in the first half of the first period and pushes off in the second half, since it must
+/// be in the air half a second after the press. It lands before the second period is over; a short one leaves more time for the next
+/// stride. A body that runs needs 0.3 s to come down (docs/playing-experiments.md).
 const JUMP_CLOCKS: [f32; 2] = [0.6, 0.9];
 
-/// The same for two legs with knees: with a first turn of 0.6 s, or a second of 1 s, biped-2 is playable in fewer schedules.
+/// The same for two legs with knees: with a first period of 0.6 s, or a second of 1 s, biped-2 is playable in fewer schedules.
 const BALANCED_JUMP_CLOCKS: [f32; 2] = [0.7, 1.2];
 
 /// What a jump is worth while there is nothing else to learn, s.

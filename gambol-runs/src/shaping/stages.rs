@@ -376,3 +376,6 @@ fn measurements(setup: &Setup) -> Vec<String> {
     names.sort();
     names
 }
+
+#[cfg(test)]
+mod tests;
