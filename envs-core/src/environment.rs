@@ -112,7 +112,6 @@ impl<E: Engine> CreatureEnvironment<E> {
         variation: Variation,
         ground: Ground,
     ) -> Result<Self, EnvironmentError> {
-        ground.validate().map_err(|error| error.within("ground"))?;
         Self::on_landscape(blueprint, sensors, input_range, settings, variation, ground.into(), Terrain::default())
     }
 
@@ -216,7 +215,6 @@ impl<E: Engine> CreatureEnvironment<E> {
     pub fn under(&self, conditions: &Conditions, landscape: impl Into<Landscape>) -> Result<Self, EnvironmentError> {
         let landscape = landscape.into();
         conditions.validate(self.plan.motors.len()).map_err(|error| error.within("conditions"))?;
-        landscape.ground.validate().map_err(|error| error.within("ground"))?;
         let settings = conditions.settings(&self.plan.settings);
         settings.validate().map_err(|error| error.within("physics"))?;
         let landscape = around(&settings, landscape)?;
@@ -423,7 +421,10 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
 /// What is around a creature: the landscape, or in water nothing.
 fn around(settings: &PhysicsSettings, landscape: Landscape) -> Result<Landscape, SettingError> {
     match settings.water {
-        None => Ok(landscape),
+        None => {
+            landscape.ground.validate().map_err(|error| error.within("ground"))?;
+            Ok(landscape)
+        }
         Some(_) if landscape.ground == Ground::flat() || landscape.ground == Ground::none() => {
             Ok(Ground::none().into())
         }

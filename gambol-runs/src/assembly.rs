@@ -7,6 +7,7 @@ use crate::{
     layers::merge,
     strategies::StrategyError,
     suggest,
+    unique_keys::UniqueKeys,
 };
 use ne_core::{digest::Digest, field_path};
 use serde_json::{Map, Value, json};
@@ -35,6 +36,14 @@ pub enum ConfigError {
     /// A `key=value` without a key or without `=`.
     #[error("\"{0}\" is not of the form key=value, such as physics.time_step=0.01")]
     Assignment(String),
+    /// A `key=value` whose value begins as a list, an object or a text of JSON does, and is none.
+    #[error("{assignment}: {message}; a value that begins with [, {{ or \" is read as JSON")]
+    Value {
+        /// The whole assignment.
+        assignment: String,
+        /// What the parser says, with the column of the value.
+        message: String,
+    },
 }
 
 impl From<StrategyError> for ConfigError {
@@ -88,13 +97,19 @@ impl<'a> Assembly<'a> {
     /// value is JSON, or else a string.
     ///
     /// # Errors
-    /// If there is no `=` or the path leads through something that is not an object.
+    /// If there is no `=`, the path leads through something that is not an object, or the value begins as JSON and is none.
     pub fn set(&mut self, assignment: &str) -> Result<(), ConfigError> {
         let (path, text) = assignment
             .split_once('=')
             .filter(|(path, _)| !path.trim().is_empty())
             .ok_or_else(|| ConfigError::Assignment(assignment.into()))?;
-        let value = serde_json::from_str(text).unwrap_or_else(|_| Value::String(text.into()));
+        let value = match serde_json::from_str(text) {
+            Ok(value) => value,
+            Err(error) if text.trim_start().starts_with(['[', '{', '"']) => {
+                return Err(ConfigError::Value { assignment: assignment.into(), message: error.to_string() });
+            }
+            Err(_) => Value::String(text.into()),
+        };
         let keys: Vec<&str> = path.trim().split('.').collect();
         let mut layer = value;
         for key in keys.iter().rev() {
@@ -169,7 +184,7 @@ pub(super) struct FileContent {
 
 /// Reads a configuration file: one with some of the fields, or the `config.json` of another run.
 pub(super) fn parse(text: &str) -> Result<FileContent, ConfigError> {
-    let layer: Value = serde_json::from_str(text).map_err(|error| {
+    let UniqueKeys(layer) = serde_json::from_str(text).map_err(|error| {
         let full = error.to_string();
         let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
         ConfigError::Malformed { line: error.line(), column: error.column(), message }

@@ -233,6 +233,22 @@ impl Champion {
         archive::write(path, CHAMPION_FORMAT, CHAMPION_VERSION, self, Layout::Pretty)
     }
 
+    /// In what this cannot be the champion of a run with such a configuration; `None`: it may be.
+    pub(crate) fn differs_from(&self, config: &RunConfig) -> Option<&'static str> {
+        // A configuration may leave the length of an episode to the movement.
+        let movement = MovementSpec { steps: config.movement.steps, ..self.movement.clone() };
+        let differs = [
+            (self.creature != config.creature, "the creature"),
+            (movement != config.movement, "the movement"),
+            (self.physics != config.physics, "the physics"),
+            (self.terrain != config.terrain, "the terrain"),
+            (self.commands != config.commands, "the commands"),
+            (self.input_range != config.controller.input_range, "controller.input_range"),
+            (self.actuation != config.controller.actuation, "controller.actuation"),
+        ];
+        differs.into_iter().find_map(|(differs, what)| differs.then_some(what))
+    }
+
     /// The part that makes the task.
     pub fn episode_parts(&self) -> EpisodeParts<'_> {
         EpisodeParts {

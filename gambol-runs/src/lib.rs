@@ -80,6 +80,7 @@ mod topology;
 pub mod training;
 pub mod training_task;
 pub mod trajectory;
+mod unique_keys;
 
 pub use program_name::{program_name, set_program_name};
 pub use registry::{Registry, UnknownPreset};

@@ -147,7 +147,7 @@ pub(crate) mod tests {
     use crate::Registry;
     use crate::episode_parts::EpisodeParts;
     use creatures::{Actuation, DEFAULT_INPUT_RANGE, Obstacles, Terrain};
-    use envs_core::GroundShape;
+    use envs_core::{GroundShape, Water};
     use envs_rapier::{PhysicsSettings, Variation};
     use tasks::{MovementSpec, Trials};
 
@@ -155,7 +155,17 @@ pub(crate) mod tests {
         judge_on(creature, movement, &Terrain::default())
     }
 
+    /// As [`judge`], in water.
+    pub(crate) fn judge_in_water(creature: &str, movement: &str) -> Judge {
+        let physics = PhysicsSettings { water: Some(Water::default()), ..PhysicsSettings::default() };
+        judge_with(creature, movement, &Terrain::default(), physics)
+    }
+
     fn judge_on(creature: &str, movement: &str, terrain: &Terrain) -> Judge {
+        judge_with(creature, movement, terrain, PhysicsSettings::default())
+    }
+
+    fn judge_with(creature: &str, movement: &str, terrain: &Terrain, physics: PhysicsSettings) -> Judge {
         let parts = EpisodeParts {
             creature: &creatures::find(creature).expect("shipped"),
             sensors: None,
@@ -163,7 +173,7 @@ pub(crate) mod tests {
             movement: &MovementSpec::new(movement),
             trials: Trials::default(),
             variation: Variation::default(),
-            physics: PhysicsSettings::default(),
+            physics,
             terrain,
             actuation: Actuation::default(),
             commands: None,

@@ -12,8 +12,8 @@ use crate::{
     strategies::AnyStrategy,
 };
 use ne_core::{
-    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Strategy, TieredFitness,
-    promotion::Decision,
+    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Seed, Strategy,
+    TieredFitness, promotion::Decision,
 };
 use ne_net::Network;
 use std::{cmp::Reverse, time::Instant};
@@ -81,7 +81,27 @@ impl EarlierLines {
 /// # Errors
 /// If a line is damaged or missing; the error names file and line.
 pub fn check_lines(folder: &RunFolder, config: &RunConfig) -> Result<(), FolderError> {
-    EarlierLines::check(folder, config, folder.read_standing()?.progress.generations).map(drop)
+    let standing = folder.read_standing()?;
+    if standing.seed != Seed::of_run(config.seed) {
+        return Err(FolderError::Foreign { path: folder.checkpoint(), what: "the seed" });
+    }
+    EarlierLines::check(folder, config, standing.progress.generations).map(drop)
+}
+
+/// The champion of a run with this configuration, if it has one.
+///
+/// # Errors
+/// If the file cannot be read, is damaged, or is the champion of another run.
+pub fn read_champion(folder: &RunFolder, config: &RunConfig) -> Result<Option<Champion>, FolderError> {
+    let path = folder.champion();
+    if !path.is_file() {
+        return Ok(None);
+    }
+    let champion = Champion::read(&path)?;
+    match champion.differs_from(config) {
+        Some(what) => Err(FolderError::ForeignChampion { path, what }),
+        None => Ok(Some(champion)),
+    }
 }
 
 impl Recorder {

@@ -57,7 +57,7 @@ impl<S: Strategy> Checkpoint<S> {
     }
 }
 
-/// A checkpoint of borrowed parts, so that writing one clones nothing.
+/// A checkpoint of borrowed parts, so that writing one clones neither candidates nor champion.
 #[derive(Serialize)]
 #[serde(bound = "S: Strategy")]
 pub(crate) struct CheckpointRef<'a, S: Strategy> {

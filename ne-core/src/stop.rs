@@ -132,7 +132,7 @@ impl StopConditions {
         if let Some(minutes) = self.minutes
             && !(minutes > 0.0 && minutes.is_finite())
         {
-            return Err(SettingError::new("minutes", minutes, "above 0"));
+            return Err(SettingError::new("minutes", minutes, "a finite number above 0"));
         }
         if let Some(target) = self.target
             && !target.is_finite()

@@ -13,7 +13,9 @@ use std::{cmp::Reverse, fmt, sync::Arc};
 /// - An individual that is left behind keeps the evaluation of the last rung it ran. If the best of those left behind
 ///   in a rung has not less fitness than the lowest of those that went on, the fitness of all that were left behind
 ///   there is lowered by the same amount, so that it has. Their order stays, and so do their differences, as far as
-///   `f64` can tell. Only the fitness is lowered, not objectives or measurements.
+///   `f64` can tell. Each of several objectives is lowered in the same way, so that each individual that went on
+///   [dominates](crate::pareto::dominates) all that were left behind: a cheaper evaluation may cost less energy, for one. Measurements
+///   stay as they are.
 /// - A failed evaluation ranks lowest, and of equals the first goes on first.
 /// - If all individuals that went on have failed, as many of the next in rank go on too, until one succeeds or all have
 ///   been evaluated whole. So the best of a generation is never an individual that was left behind.
@@ -75,8 +77,8 @@ impl<E: Evaluator> SuccessiveHalving<E> {
         }
         let (ranking, places) = (ranking(&evaluations), places(rung.share, genomes.len()));
         let mut behind = &ranking[..];
-        let mut lowest = None;
-        while lowest.is_none() && !behind.is_empty() {
+        let mut lowest = Vec::new();
+        while lowest.is_empty() && !behind.is_empty() {
             let (group, next) = behind.split_at(places.min(behind.len()));
             behind = next;
             // In the order of the generation again, so that of equals the first goes on first in the next rung too.
@@ -87,15 +89,13 @@ impl<E: Evaluator> SuccessiveHalving<E> {
             if further.len() != group.len() {
                 return Vec::new();
             }
-            lowest = further.iter().filter_map(Evaluation::fitness).min();
+            lowest = lowest_of(&further);
             for (&index, evaluation) in group.iter().zip(further) {
                 let steps = evaluations[index].steps + evaluation.steps;
                 evaluations[index] = evaluation.with_steps(steps);
             }
         }
-        if let Some(lowest) = lowest {
-            put_below(lowest, behind, &mut evaluations);
-        }
+        put_below(&lowest, behind, &mut evaluations);
         evaluations
     }
 }
@@ -113,29 +113,64 @@ fn ranking(evaluations: &[Evaluation]) -> Vec<usize> {
     ranking
 }
 
-/// Lowers the fitness of the individuals left behind by one constant, so that the best of them is strictly below
-/// `lowest`. `behind` has them in the order of their rank.
-///
-/// Where rounding would make two different fitnesses equal, the lower one goes down to the next number. Below the
-/// lowest number of all there is only failure.
-fn put_below(lowest: Fitness, behind: &[usize], evaluations: &mut [Evaluation]) {
-    let fitness = |index: usize| evaluations[index].fitness().map(Fitness::get);
-    let Some(best) = behind.first().and_then(|&index| fitness(index)).filter(|&best| best >= lowest.get()) else {
-        return;
-    };
-    let top = lowest.get().next_down();
-    let mut above = (best, top);
-    for &index in behind {
-        // The others have failed, and are below already.
-        let Some(fitness) = evaluations[index].fitness().map(Fitness::get) else { return };
-        if fitness < above.0 {
-            // In this order the differences are exact wherever they can be, and the best comes to `top` itself.
-            let lowered = ((fitness - best) + top).max(f64::MIN);
-            above = (fitness, lowered.min(above.1.next_down()));
-        }
-        let left_behind = || Failure::Other { what: "left behind in a rung, where no number is low enough".into() };
-        evaluations[index].outcome = Fitness::new(above.1).map_err(|_| left_behind());
+/// The fitness, in place 0, or an objective, in the places after it; `None` if the evaluation failed or the objective is not finite.
+fn value(evaluation: &Evaluation, place: usize) -> Option<f64> {
+    let fitness = evaluation.fitness()?.get();
+    match place.checked_sub(1) {
+        None => Some(fitness),
+        Some(objective) => evaluation.objectives.get(objective).copied().filter(|value| value.is_finite()),
     }
+}
+
+/// The lowest fitness, and the lowest of each objective; empty if all have failed.
+fn lowest_of(evaluations: &[Evaluation]) -> Vec<f64> {
+    let lowest = |place| evaluations.iter().filter_map(|evaluation| value(evaluation, place)).min_by(f64::total_cmp);
+    (0..).map_while(lowest).collect()
+}
+
+/// Lowers fitness and objectives of the individuals left behind, each by one constant, so that the best of them is strictly below
+/// the lowest of those that went on. Those that have failed are below already.
+fn put_below(lowest: &[f64], behind: &[usize], evaluations: &mut [Evaluation]) {
+    for (place, &lowest) in lowest.iter().enumerate() {
+        let (indices, found): (Vec<usize>, Vec<f64>) =
+            behind.iter().filter_map(|&index| Some((index, value(&evaluations[index], place)?))).unzip();
+        for (index, lowered) in indices.into_iter().zip(lowered(lowest, &found)) {
+            let evaluation = &mut evaluations[index];
+            match (lowered.and_then(|value| Fitness::new(value).ok()), place.checked_sub(1)) {
+                (Some(fitness), None) => evaluation.outcome = Ok(fitness),
+                (Some(value), Some(objective)) => evaluation.objectives[objective] = value.get(),
+                (None, _) => {
+                    let what = "left behind in a rung, where no number is low enough".into();
+                    evaluation.outcome = Err(Failure::Other { what });
+                }
+            }
+        }
+    }
+}
+
+/// These values lowered by one constant, so that the greatest is strictly below `lowest`; as they are if it is so already.
+///
+/// Where rounding would make two different ones equal, the lower one goes down to the next number. Below the lowest number of all
+/// there is none.
+fn lowered(lowest: f64, values: &[f64]) -> Vec<Option<f64>> {
+    let best = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    if best < lowest {
+        return values.iter().copied().map(Some).collect();
+    }
+    let mut falling: Vec<usize> = (0..values.len()).collect();
+    falling.sort_by(|&a, &b| values[b].total_cmp(&values[a]));
+    let top = lowest.next_down();
+    let (mut above, mut found) = ((best, top), vec![None; values.len()]);
+    for index in falling {
+        let value = values[index];
+        if value < above.0 {
+            // In this order the differences are exact wherever they can be, and the best comes to `top` itself.
+            let lowered = ((value - best) + top).max(f64::MIN);
+            above = (value, lowered.min(above.1.next_down()));
+        }
+        found[index] = Some(above.1).filter(|lowered| lowered.is_finite());
+    }
+    found
 }
 
 #[cfg(test)]
@@ -150,8 +185,31 @@ mod tests {
     fn below(lowest: f64, fitness: &[f64]) -> Vec<Option<f64>> {
         let mut evaluations: Vec<Evaluation> = fitness.iter().map(|&fitness| Evaluation::new(fitness)).collect();
         let ranked = ranking(&evaluations);
-        put_below(Fitness::new(lowest).expect("finite"), &ranked, &mut evaluations);
+        put_below(&[lowest], &ranked, &mut evaluations);
         fitnesses(&evaluations)
+    }
+
+    fn with_objectives(fitness: f64, objectives: &[f64]) -> Evaluation {
+        Evaluation { objectives: objectives.to_vec(), ..Evaluation::new(fitness) }
+    }
+
+    /// Who runs a shorter way needs less energy: the second objective is better of all that were left behind.
+    #[test]
+    fn those_left_behind_are_dominated_by_all_that_went_on() {
+        let whole = [with_objectives(9.0, &[9.0, -40.0]), with_objectives(7.0, &[7.0, -50.0])];
+        let left = [with_objectives(4.0, &[4.0, -3.0]), with_objectives(3.0, &[3.0, -1.0]), Evaluation::new(f64::NAN)];
+        let mut all = left.to_vec();
+        put_below(&lowest_of(&whole), &[0, 1, 2], &mut all);
+        let top = (-50.0_f64).next_down();
+        assert_eq!(all[..2], [with_objectives(4.0, &[4.0, top - 2.0]), with_objectives(3.0, &[3.0, top])]);
+        assert_eq!(all[2].fitness(), None);
+        let objectives = |evaluation: &Evaluation| evaluation.objectives().expect("finite");
+        for (one, other) in whole.iter().flat_map(|one| all[..2].iter().map(move |other| (one, other))) {
+            assert!(crate::pareto::dominates(Some(&objectives(one)), Some(&objectives(other))));
+        }
+        let mut impossible = left.to_vec();
+        put_below(&[7.0, 7.0, f64::MIN], &[0, 1, 2], &mut impossible);
+        assert!(impossible.iter().all(|evaluation| evaluation.objectives().is_none()), "{impossible:?}");
     }
 
     #[test]

@@ -31,8 +31,11 @@ fn stop_conditions_name_the_field() {
     assert_eq!(message(StopConditions { evaluations: Some(0), ..none }), "evaluations = 0: must be at least 1");
     assert_eq!(message(StopConditions { steps: Some(0), ..none }), "steps = 0: must be at least 1");
     assert_eq!(message(StopConditions { stagnation: Some(0), ..none }), "stagnation = 0: must be at least 1");
-    assert_eq!(message(StopConditions { minutes: Some(0.0), ..none }), "minutes = 0: must be above 0");
-    assert_eq!(message(StopConditions { minutes: Some(f64::INFINITY), ..none }), "minutes = inf: must be above 0");
+    assert_eq!(message(StopConditions { minutes: Some(0.0), ..none }), "minutes = 0: must be a finite number above 0");
+    assert_eq!(
+        message(StopConditions { minutes: Some(f64::INFINITY), ..none }),
+        "minutes = inf: must be a finite number above 0"
+    );
     assert_eq!(message(StopConditions { target: Some(f64::NAN), ..none }), "target = NaN: must be a finite number");
     let never = "generations = none: must be a number, as there is no other limit and the run would never end";
     assert_eq!(message(none), never);

@@ -1,4 +1,4 @@
-use ne_core::{Selection, SettingError};
+use ne_core::{RankSelector, Roulette, Selection, SettingError, StochasticUniversal, Tournament, Truncation};
 use serde::{Serialize, de::DeserializeOwned};
 use std::fmt::Debug;
 
@@ -31,8 +31,19 @@ pub(crate) fn check_above_0(field: &str, value: f64, most: f64) -> Result<(), Se
     }
 }
 
-impl Setting for Selection {
-    fn validate(&self) -> Result<(), SettingError> {
-        Self::validate(self)
-    }
+/// Selectors of `ne-core` that check themselves.
+macro_rules! checked {
+    ($($selector:ty),+) => {$(
+        impl Setting for $selector {
+            fn validate(&self) -> Result<(), SettingError> {
+                Self::validate(self)
+            }
+        }
+    )+};
 }
+
+checked!(Selection, Tournament, RankSelector, Truncation);
+
+impl Setting for Roulette {}
+
+impl Setting for StochasticUniversal {}

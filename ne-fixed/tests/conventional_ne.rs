@@ -1,8 +1,8 @@
 //! What conventional neuroevolution promises.
 
 use ne_core::{
-    Evaluation, Evolution, Failure, Genome, Phenotype, RandomStream, Roulette, Seed, Selection, Selector, Serial,
-    StopConditions, Strategy, Task, Truncation,
+    Evaluation, Evolution, Failure, Genome, Phenotype, RandomStream, RankSelector, Roulette, Seed, Selection, Selector,
+    Serial, StochasticUniversal, StopConditions, Strategy, Task, Tournament, Truncation,
     conformance::{StrategyOptions, check_strategy},
     digest::Digest,
 };
@@ -264,6 +264,36 @@ fn operators_of_someone_else_fit_in() {
         serde_json::from_str(&text).expect("deserialises");
     assert!(generation(&mut loaded, 2).iter().all(|child| *child == first[best]));
     assert_eq!(loaded.statistics()[4].value, 1.0);
+}
+
+/// One selector by its own type, without the choice among all.
+fn with_selector<S: Setting + Selector>(selection: S) -> Result<usize, String> {
+    let ConventionalNeSettings { elites, immigrants, crossover_rate, .. } = ConventionalNeSettings::default();
+    let settings = ConventionalNeSettings {
+        population: 10,
+        elites,
+        immigrants,
+        selection,
+        crossover_rate,
+        crossover: TwoPoint {},
+        mutation: UniformMutation { rate: 0.1, limit: 1.0 },
+        initialization: ne_fixed::Initialization::Uniform { limit: 1.0 },
+        stagnation_boost: None,
+    };
+    let mut strategy = ConventionalNe::new(settings, shape()).map_err(|error| error.to_string())?;
+    generation(&mut strategy, 1);
+    Ok(generation(&mut strategy, 2).len())
+}
+
+#[test]
+fn selectors_of_the_core_fit_in() {
+    assert_eq!(with_selector(Tournament::default()), Ok(10));
+    assert_eq!(with_selector(RankSelector::default()), Ok(10));
+    assert_eq!(with_selector(Truncation::default()), Ok(10));
+    assert_eq!(with_selector(Roulette {}), Ok(10));
+    assert_eq!(with_selector(StochasticUniversal {}), Ok(10));
+    let error = with_selector(Tournament { size: 0 }).expect_err("no individual takes part");
+    assert!(error.starts_with("selection.size = 0: must be from 1"), "{error}");
 }
 
 /// Exclusive or, on inputs ±1.

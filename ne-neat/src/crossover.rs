@@ -121,6 +121,8 @@ impl Crossover {
                 (None, None) => {}
             },
         );
+        let mut touched: Vec<_> = connections.iter().flat_map(|connection| [connection.from, connection.to]).collect();
+        touched.sort_unstable();
         nodes.clear();
         align(
             first.nodes(),
@@ -128,7 +130,7 @@ impl Crossover {
             |gene| gene.id,
             |pair| {
                 let Some(gene) = pair.0.or(pair.1) else { return };
-                if gene.id < first_hidden || connections.iter().any(|connection| connection.touches(gene.id)) {
+                if gene.id < first_hidden || touched.binary_search(&gene.id).is_ok() {
                     nodes.push(pick.node(gene, pair.0.and(pair.1), stream));
                 }
             },

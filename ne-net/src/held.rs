@@ -18,7 +18,8 @@ impl Topology {
     /// ```
     ///
     /// # Errors
-    /// If nothing is free, if of a clock's two genes one is free and the other held, or if these are copies of a net.
+    /// If nothing is free, if of a clock's two genes one is free and the other held, if these are copies of a net, or if hidden
+    /// neurons are scaled, as those of a graph are not.
     ///
     /// # Panics
     /// If there are fewer genes than the topology has.
@@ -79,8 +80,8 @@ impl Topology {
                 sources: neuron.sources.iter().map(|&(node, _)| node).collect(),
             });
         }
-        if view.neurons.iter().any(|neuron| neuron.scale != 1.0) {
-            return Err(SettingError::new("topology.hidden_scale", "other than 1", "1"));
+        if let Some(neuron) = view.neurons.iter().find(|neuron| neuron.scale != 1.0) {
+            return Err(SettingError::new("hidden_scale", neuron.scale, "1 in a net of which a part is held"));
         }
         let recurrent = matches!(self, Self::Graph(shape) if shape.recurrent);
         let net = GraphShape { inputs: view.inputs, recurrent, neurons, outputs: view.outputs };
@@ -151,6 +152,6 @@ mod tests {
         );
         let scaled = Topology::from(DenseShape { hidden_scale: 2.0, ..DenseShape::new(1, vec![1], 1) });
         let said = scaled.held(&genes(4), |gene| gene == 0).expect_err("graphs have no scale").to_string();
-        assert!(said.contains("hidden_scale"), "{said}");
+        assert_eq!(said, "hidden_scale = 2: must be 1 in a net of which a part is held");
     }
 }

@@ -64,6 +64,17 @@ impl Bootstrap {
         self.percentile(scores, statistic, Scores::resample, seed)
     }
 
+    /// The intervals of several statistics of one method's scores, all of the same resamples: as [`interval`](Self::interval) gives
+    /// each, but each resample is drawn once.
+    pub(crate) fn intervals(
+        &self,
+        scores: &Scores,
+        statistics: impl Fn(&Scores) -> Vec<f64>,
+        seed: Seed,
+    ) -> Vec<Interval> {
+        self.percentiles(scores, statistics, Scores::resample, seed)
+    }
+
     /// The interval of a statistic of two methods' scores, such as a difference or
     /// [`probability_of_improvement`](crate::probability_of_improvement).
     ///
@@ -93,20 +104,34 @@ impl Bootstrap {
         draw: impl Fn(&Data, &mut Data, &mut RandomStream),
         seed: Seed,
     ) -> Interval {
+        let [interval] = self.percentiles(data, |data| [statistic(data)], draw, seed)[..] else {
+            unreachable!("one statistic has one interval")
+        };
+        interval
+    }
+
+    fn percentiles<Data: Clone, Values: AsRef<[f64]>>(
+        &self,
+        data: &Data,
+        statistics: impl Fn(&Data) -> Values,
+        draw: impl Fn(&Data, &mut Data, &mut RandomStream),
+        seed: Seed,
+    ) -> Vec<Interval> {
         let mut stream = seed.stream(BOOTSTRAP);
         let mut resample = data.clone();
-        let mut statistic_of_next = || {
+        let mut statistics_of_next = || {
             draw(data, &mut resample, &mut stream);
-            statistic(&resample)
+            statistics(&resample)
         };
-        let values: Vec<f64> = (0..self.resamples).map(|_| statistic_of_next()).collect();
-        let values = sorted(&values);
+        let resamples: Vec<Values> = (0..self.resamples).map(|_| statistics_of_next()).collect();
         let beyond = (1.0 - self.confidence) / 2.0;
-        Interval {
-            estimate: statistic(data),
-            low: quantile_of_sorted(&values, beyond),
-            high: quantile_of_sorted(&values, 1.0 - beyond),
-        }
+        let interval = |(index, &estimate): (usize, &f64)| {
+            let values: Vec<f64> = resamples.iter().map(|values| values.as_ref()[index]).collect();
+            let values = sorted(&values);
+            let [low, high] = [beyond, 1.0 - beyond].map(|share| quantile_of_sorted(&values, share));
+            Interval { estimate, low, high }
+        };
+        statistics(data).as_ref().iter().enumerate().map(interval).collect()
     }
 }
 

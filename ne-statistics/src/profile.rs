@@ -20,8 +20,7 @@ pub fn performance_profile_band(
     bootstrap: &Bootstrap,
     seed: Seed,
 ) -> Vec<Interval> {
-    let interval = |&threshold| bootstrap.interval(scores, |scores| share_above(scores, threshold), seed);
-    thresholds.iter().map(interval).collect()
+    bootstrap.intervals(scores, |scores| performance_profile(scores, thresholds), seed)
 }
 
 fn share_above(scores: &Scores, threshold: f64) -> f64 {
@@ -55,6 +54,8 @@ mod tests {
             let band = performance_profile_band(&scores, &thresholds, &bootstrap, Seed::of_run(1));
             // The same resamples everywhere, so the ends of the band fall too.
             prop_assert!(band.is_sorted_by(|left, right| left.low >= right.low && left.high >= right.high));
+            let alone = |&threshold| bootstrap.interval(&scores, |scores| share_above(scores, threshold), Seed::of_run(1));
+            prop_assert_eq!(&band, &thresholds.iter().map(alone).collect::<Vec<_>>());
             for (point, interval) in profile.iter().zip(&band) {
                 prop_assert_eq!(*point, interval.estimate);
                 prop_assert!(0.0 <= interval.low && interval.low <= *point && *point <= interval.high);

@@ -1,13 +1,13 @@
 /// The quantile of `values` at `share` (0 the lowest, 0.5 the median, 1 the highest), with linear interpolation between
 /// neighbours: type 7 of Hyndman & Fan, *Sample Quantiles in Statistical Packages*, The American Statistician 50, 1996.
 ///
-/// `None` if there are no values, or one of them or `share` is NaN. A share below 0 or above 1 gives the lowest or
-/// highest.
+/// `None` if there are no values, if one of them or `share` is NaN, or if the quantile lies between −∞ and ∞. Between a
+/// finite value and an infinite one it is infinite. A share below 0 or above 1 gives the lowest or highest.
 pub fn quantile(values: &[f64], share: f64) -> Option<f64> {
     if values.is_empty() || share.is_nan() || values.iter().any(|value| value.is_nan()) {
         return None;
     }
-    Some(quantile_of_sorted(&sorted(values), share))
+    Some(quantile_of_sorted(&sorted(values), share)).filter(|quantile| !quantile.is_nan())
 }
 
 /// The same values, ascending.
@@ -17,12 +17,17 @@ pub(crate) fn sorted(values: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// The quantile at `share` of ascending values, of which there is at least one.
+/// The quantile at `share` of ascending values, of which there is at least one; NaN between −∞ and ∞.
 pub(crate) fn quantile_of_sorted(sorted: &[f64], share: f64) -> f64 {
     let position = share.clamp(0.0, 1.0) * (sorted.len() - 1) as f64;
-    let (low, high) = (sorted[position.floor() as usize], sorted[position.ceil() as usize]);
-    // Equal neighbours first, as infinite ones have no difference. Rounding must not lead past the upper neighbour.
-    if low == high { low } else { (low + (high - low) * position.fract()).min(high) }
+    let (low, high, way) = (sorted[position.floor() as usize], sorted[position.ceil() as usize], position.fract());
+    match high - low {
+        // Infinite ones, too, which have no difference.
+        _ if low == high => low,
+        // Rounding must not lead past the upper neighbour.
+        difference if difference.is_finite() => (low + difference * way).min(high),
+        _ => low * (1.0 - way) + high * way,
+    }
 }
 
 #[cfg(test)]
@@ -44,6 +49,18 @@ mod tests {
         assert_eq!(quantile(&[1.0], f64::NAN), None);
         assert_eq!(quantile(&[1.0, f64::NAN], 0.5), None);
         assert_eq!(quantile(&[7.0], 0.3), Some(7.0));
+        assert_eq!(quantile(&[f64::NEG_INFINITY, f64::INFINITY], 0.5), None);
+    }
+
+    #[test]
+    fn infinite_values_and_differences_have_their_place() {
+        let (least, most) = (f64::NEG_INFINITY, f64::INFINITY);
+        let median = |values: &[f64]| quantile(values, 0.5).expect("there are values");
+        assert_eq!(median(&[least, 5.0]), least);
+        assert_eq!(median(&[5.0, most]), most);
+        assert_eq!(median(&[least, 5.0, most]), 5.0);
+        assert_eq!(median(&[most, most]), most);
+        assert_eq!(median(&[f64::MIN, f64::MAX]), 0.0);
     }
 
     proptest! {

@@ -30,7 +30,7 @@ pub use analysis::{Analysis, analyse};
 pub use folder::{CompareError, ComparisonFolder};
 pub use merge::merge;
 pub use outcome::write_outcome;
-pub use plan::{Cell, Job, Method, Plan, PlanError, PlanRequest};
+pub use plan::{Cell, Job, Method, Plan, PlanError, PlanRequest, is_seed_or_budget};
 pub use provenance::Provenance;
 pub use result::{Point, RunResult};
 pub use work::work;

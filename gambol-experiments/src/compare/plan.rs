@@ -173,6 +173,9 @@ impl PlanRequest {
             )));
         }
         unique("the strategy", self.methods.iter().map(|method| method.name.clone()))?;
+        // An alias is another name of the same.
+        let entries = self.methods.iter().filter_map(|method| registry.strategies.find(method.strategy.as_ref()?));
+        unique("the strategy", entries.map(|entry| entry.name().to_owned()))?;
         unique("the movement", self.movements.iter().cloned())?;
         unique("the seed", self.seeds.iter().map(u64::to_string))?;
         let mut plan = Plan {
@@ -201,10 +204,7 @@ impl PlanRequest {
     }
 
     fn cell(&self, method: &Method, creature: &str, movement: &str, registry: &Registry) -> Result<Cell, PlanError> {
-        let field = |assignment: &String| assignment.split(['=', '.']).next().map(|field| field.trim().to_owned());
-        if let Some(own) =
-            self.set.iter().find(|set| field(set).is_some_and(|field| field == "seed" || field == "stop"))
-        {
+        if let Some(own) = self.set.iter().find(|set| is_seed_or_budget(set)) {
             return Err(PlanError::Own(own.clone()));
         }
         let request = Request {
@@ -308,6 +308,11 @@ impl Method {
         let hint = "; or give it a name and a configuration file, NAME=FILE";
         Err(PlanError::Method(suggest::unknown("strategy or preset", text, &known) + hint))
     }
+}
+
+/// Whether an assignment `key=value` is of a seed or a budget, which experiments of many runs have of their own.
+pub fn is_seed_or_budget(assignment: &str) -> bool {
+    assignment.split(['=', '.']).next().is_some_and(|field| matches!(field.trim(), "seed" | "stop"))
 }
 
 /// What the folder of a scenario or strategy is called.

@@ -4,7 +4,8 @@ use gambol_runs::{
     champion::Champion,
     episode_parts::SetupError,
     gait::{self, GaitOfChampionError},
-    run_folder::{FolderError, RunFolder},
+    recorder::read_champion,
+    run_folder::RunFolder,
 };
 use serde::{Deserialize, Serialize};
 
@@ -136,12 +137,10 @@ impl RunResult {
         threads: usize,
         registry: &Registry,
     ) -> Result<Self, ReproduceError> {
-        let seed = folder.read_config()?.seed;
+        let config = folder.read_config()?;
+        let seed = config.seed;
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
-        let champion = match folder.champion().is_file() {
-            true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
-            false => None,
-        };
+        let champion = read_champion(folder, &config)?;
         let judged = champion.map(|champion| Judged::of(&champion, registry)).transpose();
         let failed = |source: SetupError| ReproduceError::run(format!("{}, seed {seed}", cell.name()), source.into());
         Ok(Self {

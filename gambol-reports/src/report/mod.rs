@@ -21,7 +21,7 @@ use gambol_runs::{
     episode_parts::SetupError,
     front::Front,
     judge::Judge,
-    recorder::check_lines,
+    recorder::{check_lines, read_champion},
     run_folder::{FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder},
     trajectory::Recording,
 };
@@ -95,10 +95,7 @@ fn compose(folder: &RunFolder, registry: &Registry, ended: Option<StopReason>) -
         check_lines(folder, &config)?;
     }
     let (log, gallery) = (folder.read_log()?, folder.read_gallery()?);
-    let champion = match folder.champion().is_file() {
-        true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
-        false => None,
-    };
+    let champion = read_champion(folder, &config)?;
     let setup = gambol_runs::setup::Setup::new(&config, registry)?;
     let stills = Stills::new(&setup, config.seed);
     let newest = champion.as_ref().filter(|_| setup.reference.is_some()).map(gallery_entry);

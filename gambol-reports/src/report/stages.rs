@@ -9,8 +9,8 @@ use crate::page::ground::GroundData;
 use creatures::Creature;
 use gambol_runs::Registry;
 use gambol_runs::{
-    champion::Champion,
     config::{RunConfig, StageSettings},
+    recorder::read_champion,
     run_folder::{FolderError, RunFolder},
     shaping::{self, StageRun},
 };
@@ -82,10 +82,7 @@ fn stage(
     registry: &Registry,
 ) -> Result<StageData, ReportError> {
     let config = folder.read_config()?;
-    let champion = match folder.champion().is_file() {
-        true => Some(Champion::read(&folder.champion()).map_err(FolderError::from)?),
-        false => None,
-    };
+    let champion = read_champion(folder, &config)?;
     let ground = champion.as_ref().map(|champion| champion.episode(registry)).transpose()?;
     let ground = ground.and_then(|episode| GroundData::new(episode.environment().ground(), DRAWN));
     let film = champion.as_ref().map(|champion| champion_film(champion, registry)).transpose()?;

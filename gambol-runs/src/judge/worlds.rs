@@ -246,7 +246,10 @@ pub(crate) fn is_usable(report: &GaitReport) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::perturbation::{self, tests::judge};
+    use crate::perturbation::{
+        self,
+        tests::{judge, judge_in_water},
+    };
     use envs_core::Ground;
     use ne_net::{DenseNet, DenseShape};
 
@@ -301,6 +304,18 @@ mod tests {
             }
         }
         assert!(lost > 0, "none fell");
+    }
+
+    #[test]
+    fn swimmers_are_measured_in_perturbed_worlds_and_on_no_ground() {
+        let judge = judge_in_water("apod", "swimming");
+        let reference = (Conditions::reference(judge.environment().outputs()), Ground::none().into());
+        let worlds: Vec<_> = perturbed(&judge).into_iter().chain([reference]).collect();
+        let network = network(&judge, 3);
+        let reports = Worlds::new(&judge, &worlds).judge(&network);
+        assert!(reports.iter().all(Option::is_some), "{reports:?}");
+        assert_eq!(reports[5], judge.measure_alone(&network).map(|gait| gait.report));
+        assert_ne!(reports[4], reports[5], "all causes but bumps");
     }
 
     #[test]

@@ -12,7 +12,7 @@ use crate::{
     run_folder::lines::read_lines,
 };
 use ne_core::{
-    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Fitness, GenerationReport, Progress,
+    CHECKPOINT_FORMAT, CHECKPOINT_VERSION, Fitness, GenerationReport, Progress, Seed,
     archive::{self, ArchiveError, Layout},
     promotion::Decision,
 };
@@ -64,10 +64,18 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
     },
-    /// Its checkpoint is of another run; nothing was touched.
+    /// Its checkpoint is of another run.
     #[error("{} is not the checkpoint of this run: it differs from config.json in {what}", path.display())]
     Foreign {
         /// The checkpoint.
+        path: PathBuf,
+        /// What differs.
+        what: &'static str,
+    },
+    /// Its champion is of another run.
+    #[error("{} is not the champion of this run: it differs from config.json in {what}", path.display())]
+    ForeignChampion {
+        /// The champion file.
         path: PathBuf,
         /// What differs.
         what: &'static str,
@@ -119,6 +127,8 @@ pub enum FolderError {
 /// Where a run stands, whichever strategy it has.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct RunStanding {
+    /// The seed of the run.
+    pub seed: Seed,
     /// What it has used up.
     pub progress: Progress,
     /// What the rules of its stage have decided after the last generation.

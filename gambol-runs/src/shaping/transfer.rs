@@ -156,7 +156,7 @@ impl PreparedTransfer {
             check_new(&genes)?;
             let [inputs, outputs] = [setup.inputs(), setup.outputs()].map(channel_names);
             let is_new = |gene: usize| genes.origins()[gene].is_none();
-            let net = setup.topology.held(&weights, is_new)?;
+            let net = setup.topology.held(&weights, is_new).map_err(|error| error.within("controller"))?;
             let records = setup.weight_names.iter().zip(&weights).enumerate();
             let records = records.map(|(gene, (name, &weight))| GeneRecord {
                 name: name.clone(),
@@ -188,7 +188,7 @@ impl PreparedTransfer {
                 let (genes, inputs, outputs) = (&self.genes, &self.inputs, &self.outputs);
                 let search = read_checkpoint(strategy, folder)?.strategy;
                 if !search.fits(&setup.topology) {
-                    let what = "the body that its nets are for";
+                    let what = "the nets that it searches";
                     return Err(FolderError::Foreign { path: folder.checkpoint(), what }.into());
                 }
                 return Ok(search.transfer(settings, &Transfer { topology, genes, inputs, outputs })?);

@@ -69,6 +69,10 @@ macro_rules! weight_search {
                 Self::remapped(self, settings.clone(), to.topology.clone(), to.genes)
             }
 
+            fn fits(&self, topology: &Topology) -> bool {
+                self.topology() == topology
+            }
+
             fn begin_at(settings: &$settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {
                 Self::build(settings, topology)?.with_start(&[weights.to_vec()])
             }
@@ -90,7 +94,13 @@ macro_rules! weight_search {
 
 weight_search!(ConventionalNe, ConventionalNeSettings, "conventional");
 weight_search!(OpenEs, OpenEsSettings, "open-es");
-weight_search!(Cosyne, CosyneSettings, "cosyne");
+weight_search!(
+    Cosyne, CosyneSettings, "cosyne"
+
+    fn has_begun_anew(&self) -> bool {
+        self.has_begun_anew()
+    }
+);
 weight_search!(Nsga2, Nsga2Settings, "nsga2");
 weight_search!(Ars, ArsSettings, "ars");
 weight_search!(HillClimbing, HillClimbingSettings, "hill-climbing");
@@ -173,9 +183,60 @@ impl NetStrategy for RandomSearch {
         self.settings()
     }
 
+    fn fits(&self, topology: &Topology) -> bool {
+        self.topology() == topology
+    }
+
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
         weights_of(genome, expressed)
     }
 
     derived_schema!();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ne_core::{Evaluation, Seed, Strategy};
+    use ne_net::DenseShape;
+
+    fn of_width(hidden: usize) -> Topology {
+        DenseShape::new(3, vec![hidden], 2).into()
+    }
+
+    fn fits<S: NetStrategy>() -> [bool; 2] {
+        let strategy = S::build(&S::Settings::default(), &of_width(4)).expect("valid");
+        [strategy.fits(&of_width(4)), strategy.fits(&of_width(5))]
+    }
+
+    #[test]
+    fn searches_of_weights_fit_their_own_topology_and_no_other_of_as_many_inputs_and_outputs() {
+        for fits in [
+            fits::<ConventionalNe>(),
+            fits::<OpenEs>(),
+            fits::<Cosyne>(),
+            fits::<Nsga2>(),
+            fits::<Ars>(),
+            fits::<HillClimbing>(),
+            fits::<CmaEs>(),
+            fits::<RandomSearch>(),
+        ] {
+            assert_eq!(fits, [true, false]);
+        }
+        assert_eq!(fits::<Neat>(), [true, true], "it finds its own");
+    }
+
+    /// A stage after such a search goes on from the champion.
+    #[test]
+    fn a_search_by_cosyne_that_has_restarted_says_so() {
+        let settings = CosyneSettings { restart: Some(2), ..CosyneSettings::default() };
+        let mut strategy = <Cosyne as NetStrategy>::build(&settings, &of_width(4)).expect("valid");
+        let has_begun_anew = (1..=4).map(|number| {
+            let seed = Seed::of_run(1).generation(number);
+            let size = strategy.ask(seed).len();
+            strategy.tell(&vec![Evaluation::new(1.0); size], seed);
+            NetStrategy::has_begun_anew(&strategy)
+        });
+        assert_eq!(has_begun_anew.collect::<Vec<_>>(), [false, false, false, true]);
+    }
 }

@@ -135,7 +135,7 @@ impl Training {
             return Err(foreign("the strategy's settings").into());
         }
         if !checkpoint.strategy.fits(&setup.topology) {
-            return Err(foreign("the body that its nets are for").into());
+            return Err(foreign("the nets that it searches").into());
         }
         if let Some(champion) = &checkpoint.champion
             && setup.episode.check_shape(&champion.genome.express()).is_err()

@@ -1,6 +1,7 @@
 use super::Outcome;
 use crate::{
     Registry,
+    compare::is_seed_or_budget,
     config::RunConfig,
     gaits::{ABLATION, GaitRun, GaitRuns, SCENARIOS, VARIANTS, Variant, ablation_row, csv, scenario_row},
     judge::tier_to_reach,
@@ -66,7 +67,7 @@ pub(super) struct Gaits {
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
     /// Count physics steps in place of seconds: the same on every machine
-    #[arg(long)]
+    #[arg(long, conflicts_with = "seconds")]
     steps: Option<u64>,
     /// Runs at the same time, where steps are counted; 0: one for each core [default: 1]
     #[arg(long, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
@@ -93,6 +94,10 @@ impl Gaits {
     pub(super) fn run(self, registry: &Registry) -> Outcome {
         if let Some(path) = &self.csv {
             super::check_output(path, self.force)?;
+        }
+        if let Some(own) = self.set.iter().find(|set| is_seed_or_budget(set)) {
+            let own_options = "--first-seed, --seeds, --seconds, --steps, --whole";
+            return Err(format!("--set {own}: these runs have seeds and a budget of their own ({own_options})").into());
         }
         // What shares the cores with others tells no seconds.
         if self.steps.is_none() && self.at_once.is_some_and(|at_once| at_once != 1) {

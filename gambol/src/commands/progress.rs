@@ -35,6 +35,8 @@ pub(super) struct Show {
     limit: Option<u64>,
     /// Whether a champion selection chooses the champion, so that the best of a generation is not yet it.
     judged: bool,
+    /// Why a line for programs could not be written.
+    unwritten: Option<io::Error>,
 }
 
 enum Output {
@@ -88,6 +90,7 @@ impl Show {
             last_line: None,
             limit,
             judged: config.has_champion_selection(),
+            unwritten: None,
         }
     }
 
@@ -100,7 +103,10 @@ impl Show {
         let origin = origin.map_or_else(String::new, |origin| format!(": {origin}"));
         match &self.output {
             Output::Quiet => {}
-            Output::Json => print_json(&json!({ "stage": { "number": number, "name": name } })),
+            Output::Json => {
+                let line = json!({ "stage": { "number": number, "name": name } });
+                self.print_json(&line);
+            }
             Output::Bar(bar) => bar.println(printable(&format!("stage {number} of {stages}, {name}{origin}"))),
             Output::Lines => tell!("stage {number} of {stages}, {name}{origin}"),
         }
@@ -121,7 +127,7 @@ impl Show {
         };
         match &self.output {
             Output::Quiet => {}
-            Output::Json => print_json(&json!({ "generation": report })),
+            Output::Json => self.print_json(&json!({ "generation": report })),
             Output::Bar(bar) => {
                 bar.set_position(report.generation);
                 bar.set_message(message);
@@ -144,23 +150,35 @@ impl Show {
         }
     }
 
+    /// A line for programs. A run goes on without the lines that cannot be written, and the first reason is told when it has ended.
+    fn print_json(&mut self, value: &serde_json::Value) {
+        if let Err(error) = heard(say!("{value}")) {
+            self.unwritten.get_or_insert(error);
+        }
+    }
+
     /// Tells what came of the run.
-    pub(super) fn result(&self, ended: &Ended<'_>) {
+    ///
+    /// # Errors
+    /// If this, or a line for programs before it, could not be written.
+    pub(super) fn result(&mut self, ended: &Ended<'_>) -> io::Result<()> {
         let Ended { outcome, verdict, too_early, seconds, .. } = ended;
         let Outcome { folder, reason, progress, champion } = outcome;
         let fitness = champion.as_ref().map(|champion| champion.fitness);
         if matches!(self.output, Output::Json) {
             let trained = champion.as_ref().and_then(|champion| champion.trained);
-            print_json(&json!({ "result": {
+            self.print_json(&json!({ "result": {
                 "folder": folder.path().display().to_string(), "reason": reason, "progress": progress, "fitness": fitness,
                 "trained": trained, "verdict": verdict, "ended_early": too_early, "seconds": seconds,
             }}));
         }
-        if matches!(self.output, Output::Quiet | Output::Json) {
-            return;
+        if let Some(error) = self.unwritten.take() {
+            return Err(error);
         }
-        // A reader that went away (`| head`) does not make a run that went well a failure.
-        let _ = self.summary(ended);
+        match self.output {
+            Output::Quiet | Output::Json => Ok(()),
+            Output::Bar(_) | Output::Lines => heard(self.summary(ended)),
+        }
     }
 
     fn summary(&self, ended: &Ended<'_>) -> io::Result<()> {
@@ -239,7 +257,10 @@ fn bar(limit: Option<u64>) -> ProgressBar {
     bar
 }
 
-/// A reader that went away (`| head`) is no reason to end a run.
-fn print_json(value: &serde_json::Value) {
-    let _ = say!("{value}");
+/// A reader that went away (`| head`) does not make a run that went well a failure.
+fn heard(written: io::Result<()>) -> io::Result<()> {
+    match written {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        written => written,
+    }
 }

@@ -1,5 +1,6 @@
 use super::{
     INTERRUPTED, NOT_USABLE, Outcome,
+    gait::champion_file,
     progress::{Ended, Show},
 };
 use crate::{
@@ -89,7 +90,7 @@ pub(crate) struct Train {
     engine: Option<String>,
     /// How the world varies in training: none, near, pushed, shoved, physics, light (friction, mass, start pose, pushes, and the
     /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for one to
-    /// four legs that run, else light; none with --preset thesis and stanley-2002]
+    /// four legs that run, else light; none with --preset plain, thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// What it moves on (see: gambol terrains), and how hard that is, from 0 to 1: gaps, hurdles:0.3 [default: flat]
@@ -129,7 +130,7 @@ pub(super) struct Limits {
     #[arg(long)]
     steps: Option<u64>,
     /// End after so many minutes since the start, or since the resume
-    #[arg(long)]
+    #[arg(long, allow_negative_numbers = true)]
     minutes: Option<f64>,
     /// End after so much time since the start, or since the resume, such as 10s, 90s, 5m or 1h
     #[arg(long, value_name = "TIME", value_parser = minutes_of, conflicts_with = "minutes")]
@@ -165,12 +166,18 @@ pub(super) struct RunFlags {
 
 impl Limits {
     /// These limits in place of the planned ones, for a run that may have ended: one whose champion is usable goes on if it is
-    /// given more of anything.
+    /// given more of anything, and a budget takes the place of those that earlier calls had.
     pub(super) fn beyond(self, planned: StopConditions) -> StopConditions {
         let limits = self.conditions();
-        let more = limits != StopConditions::default();
-        let planned = StopConditions { tier: planned.tier.filter(|_| !more), ..planned };
-        planned.giving_way_to(&limits).overlaid(limits)
+        let StopConditions { generations, evaluations, steps, minutes, .. } = limits;
+        let has_budget = generations.or(evaluations).or(steps).is_some() || minutes.is_some();
+        let StopConditions { target, stagnation, .. } = planned;
+        let planned = match limits == StopConditions::default() {
+            true => planned,
+            false if has_budget => StopConditions { target, stagnation, ..StopConditions::default() },
+            false => StopConditions { tier: None, ..planned },
+        };
+        planned.overlaid(limits)
     }
 
     /// A run until usable goes on to the tier that its movement asks for.
@@ -222,7 +229,7 @@ impl Train {
             further_bodies: self.further_body.clone(),
             preset: preset.clone(),
             strategy: strategy.clone(),
-            topology_from: topology_from.clone(),
+            topology_from: topology_from.as_deref().map(champion_file).transpose()?,
             from: self.from.clone(),
             config: config.clone(),
             seed: self.seed,
@@ -313,7 +320,7 @@ pub(super) fn carry_out(
         options,
         StageProgress { on_stage_run: &mut |stage, origin| show.borrow_mut().leg(stage, stages, origin) },
     );
-    let show = show.into_inner();
+    let mut show = show.into_inner();
     show.end();
     let outcome = match ended {
         Ok(outcome) => outcome,
@@ -331,7 +338,7 @@ pub(super) fn carry_out(
     // What cannot be read again was trained all the same.
     let too_early = usable && !shaping::is_of_goal(&outcome.folder, &registry).unwrap_or(true);
     let verdict = verdict.as_ref();
-    show.result(&Ended { outcome: &outcome, verdict, too_early, seconds, report: !flags.no_report });
+    show.result(&Ended { outcome: &outcome, verdict, too_early, seconds, report: !flags.no_report })?;
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
         _ if until_usable && (!usable || too_early) => ExitCode::from(NOT_USABLE),

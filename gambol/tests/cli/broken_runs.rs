@@ -3,7 +3,7 @@
 use crate::{
     damage::{edit, edit_and_seal, flip, json, places, raise_version, truncate, write},
     folder::{assert_same_run, assert_untouched, contents, read},
-    program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, fail, gambol, small_run, small_run_of, succeed, text},
 };
 use serde_json::Value;
 use std::{fs, path::Path, process::Command};
@@ -25,6 +25,27 @@ fn assert_refused(run: &Path, says: &[&str]) {
     let before = contents(run);
     assert_says(&fail(&mut resume(run)), says);
     assert_untouched(run, &before);
+}
+
+/// A file of another run, whole as it is, is no file of this one.
+#[test]
+fn a_report_is_not_made_of_two_runs() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let [run, other] = ["run", "other"].map(|name| folder.path().join(name));
+    succeed(&mut small_run(&run, 4));
+    succeed(small_run_of("tetrapod-1", "running", &other, 4).args(["--seed", "2"]));
+    for (name, says) in [
+        ("champion.json", "is not the champion of this run: it differs from config.json in the creature"),
+        ("config.json", "is not the checkpoint of this run: it differs from config.json in the seed"),
+    ] {
+        let own = read(&run.join(name));
+        fs::copy(other.join(name), run.join(name))?;
+        assert_says(&fail(gambol("report").arg(&run)), &[says]);
+        write(&run.join(name), &own);
+    }
+    assert!(!run.join("report.html").exists(), "no page was written");
+    succeed(gambol("report").arg(&run));
+    Ok(())
 }
 
 #[test]

@@ -140,6 +140,7 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&gaits, &["--seconds", "soon"], "'--seconds <SECONDS>': must be a number above 0"),
         (&gaits, &["--seconds", "inf"], "'--seconds <SECONDS>': must be a number above 0"),
         (&gaits, &["--keep", "runs"], "--steps <STEPS>"),
+        (&gaits, &["--seconds", "1", "--steps", "1000"], "'--seconds <SECONDS>' cannot be used with"),
         (&gaits, &["--seeds", "0"], "'--seeds <SEEDS>': 0 is not in 1..=10000"),
     ] {
         let ended = run(gambol(command[0]).args(&command[1..]).args(flags).current_dir(folder.path()));
@@ -153,6 +154,8 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&["--preset", "defualt"], "did you mean \"default\"?"),
         (&["--set", "training_steps=0"], "training_steps = 0: must be from 1 to 1000000"),
         (&["--steps", "0"], "stop.steps = 0: must be at least 1"),
+        (&["--set", "seed=3"], "--set seed=3: these runs have seeds and a budget of their own (--first-seed, --seeds"),
+        (&["--set", "stop.generations=1"], "--set stop.generations=1: these runs have seeds and a budget of their own"),
         (&["--ablate", "the tern"], "no variant has \"the tern\" in its name"),
         (
             &["--at-once", "2"],

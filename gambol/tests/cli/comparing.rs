@@ -198,6 +198,7 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "gaa"][..], "there is no strategy or preset \"gaa\"; did you mean \"ga\"?"),
         (&["--strategies", "../x=y.json"], "\"../x\" is no name for a strategy"),
         (&["--strategies", "ga,ga"], "the strategy \"ga\" is there twice"),
+        (&["--strategies", "ga,conventional"], "the strategy \"conventional\" is there twice"),
         (&["--strategies", "ga", "--movements", "running,running"], "the movement \"running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "biped-1"], "the scenario \"biped-1 running\" is there twice"),
         (&["--strategies", "ga", "--creatures", "bipde-2"], "did you mean \"biped-2\"?"),

@@ -75,6 +75,31 @@ fn a_resumed_run_that_meets_a_full_disk_can_be_resumed_again() -> Outcome {
     Ok(())
 }
 
+/// The run itself is whole.
+#[test]
+fn lines_for_programs_that_cannot_be_written_are_an_error() -> Outcome {
+    const LARGEST: usize = 4096;
+    let folder = tempfile::tempdir()?;
+    let full = folder.path().join("full");
+    fs::write(&full, vec![b' '; LARGEST * BLOCK])?;
+    let (whole, path) = (folder.path().join("whole"), folder.path().join("run"));
+    succeed(&mut small_run(&whole, 4));
+    let train = |output: &[&str]| {
+        let train = small_run(&path, 4);
+        let script = format!("trap '' XFSZ; ulimit -f {LARGEST}; exec \"$@\" >> \"$0\"");
+        let mut limited = Command::new("sh");
+        run(limited.args(["-c", &script]).arg(&full).arg(train.get_program()).args(train.get_args()).args(output))
+    };
+    for output in [&["--json"][..], &[]] {
+        let ended = train(output);
+        assert_eq!(ended.code, Some(1), "{output:?}: {}", ended.stderr);
+        assert_says(&ended.stderr, &["File too large"]);
+        assert_same_run(&whole, &path);
+        fs::remove_dir_all(&path)?;
+    }
+    Ok(())
+}
+
 #[test]
 fn a_folder_without_room_for_the_configuration_names_it() -> Outcome {
     let folder = tempfile::tempdir()?;

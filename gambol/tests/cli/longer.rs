@@ -1,6 +1,7 @@
 //! A run that is over can be given more; it is then the run that had so much from the start.
 
 use crate::{
+    damage::json,
     folder::{assert_same_run, assert_untouched, contents},
     program::{assert_says, fail, gambol, small_run, succeed, text},
 };
@@ -31,6 +32,31 @@ fn more_evaluations_give_the_bytes_of_a_run_that_had_them_from_the_start() -> Ou
     }
     succeed(gambol("resume").arg(&grown).args(["--no-report", "--evaluations", "56"]));
     assert_same_run(&whole, &grown);
+    Ok(())
+}
+
+/// A limit of an earlier call would end a run that is given more of something else.
+#[test]
+fn a_budget_takes_the_place_of_all_that_earlier_calls_had() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    let stop = || {
+        let mut stop = json(&path.join("config.json"))["content"]["stop"].take();
+        stop.as_object_mut().expect("an object").retain(|_, limit| !limit.is_null());
+        stop
+    };
+    succeed(small_run(&path, 3).args(["--minutes", "60", "--stagnation", "500"]));
+    let resume = |limits: &[&str]| {
+        succeed(gambol("resume").arg(&path).args(["--no-report"]).args(limits));
+    };
+    resume(&["--generations", "5"]);
+    assert_eq!(stop(), serde_json::json!({ "generations": 5, "stagnation": 500 }));
+    resume(&["--budget", "6ms"]);
+    assert_eq!(stop(), serde_json::json!({ "minutes": 0.0001, "stagnation": 500 }));
+    let generations = || json(&path.join("checkpoint"))["content"]["progress"]["generations"].as_u64();
+    let more = generations().expect("a number") + 2;
+    resume(&["--generations", &more.to_string()]);
+    assert_eq!((stop().get("minutes").is_none(), generations()), (true, Some(more)));
     Ok(())
 }
 

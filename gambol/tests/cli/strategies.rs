@@ -257,7 +257,7 @@ fn neat_finds_one_net_for_all_limbs() -> Outcome {
     // A checkpoint of another body is none of this run.
     fs::copy(path("hexapod").join("checkpoint"), path("whole").join("checkpoint"))?;
     let message = fail(gambol("resume").arg(path("whole")).args(["--generations", "20", "--no-report"]));
-    assert_says(&message, &["the body that its nets are for"]);
+    assert_says(&message, &["the nets that it searches"]);
     Ok(())
 }
 
@@ -281,6 +281,8 @@ fn a_topology_for_another_creature_is_refused_with_what_differs() -> Outcome {
     );
     let message = fail(&mut train("biped-1", "neat"));
     assert_says(&message, &["topology: neat finds its own, and cannot keep one"]);
+    let message = fail(gambol("train").args(["biped-2", "running", "--topology-from"]).arg(&found));
+    assert_says(&message, &["the topology does not fit the creature"]);
     let message = fail(gambol("train").args(["biped-1", "running", "--topology-from", "nowhere.json"]));
     assert_says(&message, &["nowhere.json"]);
     let config = found.join("config.json");

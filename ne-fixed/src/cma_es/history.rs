@@ -53,7 +53,7 @@ impl History {
     /// (EqualFunValues), or neither best nor median have been better in the last 30 % of at least 120 + 30 n / λ
     /// generations, and of the last fifth of all, than in the first 30 % of them (Stagnation).
     pub(super) fn stagnates(&self, n: usize, population: usize) -> bool {
-        let equal_length = 10 + (30 * n).div_ceil(population);
+        let equal_length = equal_length(n, population);
         let bests = || self.generations.iter().rev().take(equal_length).map(|[best, _]| best.get());
         let range = bests().fold(f64::MIN, f64::max) - bests().fold(f64::MAX, f64::min);
         if self.generations.len() >= equal_length && range <= EQUAL {
@@ -72,6 +72,11 @@ impl History {
         let last = self.generations.len() - part;
         (0..2).all(|which| median(which, last) <= median(which, 0))
     }
+}
+
+/// A search whose best fitness stays the same, or which has none, ends after so many generations.
+pub(super) fn equal_length(n: usize, population: usize) -> usize {
+    10 + (30 * n).div_ceil(population)
 }
 
 fn stagnation_length(n: usize, population: usize) -> usize {

@@ -3,14 +3,16 @@ use ne_core::{RandomStream, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
 
-/// When the search of [`CmaEs`](crate::CmaEs) has ended, whether it begins anew, and how. The mean is drawn again, or
-/// is once more where the search was told to begin ([`with_start`](crate::CmaEs::with_start)); nothing else is kept of the
-/// search before, but with [`Returning`](Self::Returning).
+/// When the search of [`CmaEs`](crate::CmaEs) has ended, whether it begins anew, and how. The mean is drawn again, from
+/// [`initial_mean`](CmaEsSettings::initial_mean), also where the first search was told where to begin; nothing else is kept of the
+/// search before, but with [`Returning`](Self::Returning). The default mean is 0, so that restarts differ in their populations, step
+/// sizes and samples; in the papers the mean is drawn from the domain, which weights have not.
 ///
 /// A search has ended, by the criteria of Hansen's tutorial, appendix B.3, and of Auger & Hansen,
 /// - when no weight deviates by more than the least deviation (TolX), or one by 10,000 times the first (TolXUp);
 /// - when the condition number of the covariance passes 1e14 (ConditionCov);
-/// - when the best fitness was the same for 10 + ⌈30 n / λ⌉ generations (EqualFunValues);
+/// - when the best fitness was the same, to within 1e-12, for 10 + ⌈30 n / λ⌉ generations (EqualFunValues);
+/// - when all individuals failed for as many generations in a row, which no paper needs;
 /// - when best and median fitness have not risen in a long while (Stagnation).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
@@ -39,7 +41,8 @@ pub enum Restart {
     Anew,
 }
 
-/// The population grows to at most this many times the first: nine doublings, as in the papers.
+/// The population grows to at most this many times the first: nine doublings, as in the papers; and never beyond
+/// [`MOST_GENES`](CmaEsSettings::MOST_GENES).
 const GREATEST_GROWTH: usize = 512;
 
 /// What the restarts so far have come to, and what the present search is like.
@@ -54,6 +57,9 @@ pub(super) struct Restarts {
     pub(super) step_size: f64,
     /// The evaluations of the present search.
     pub(super) evaluations: u64,
+    /// The generations of it, up to the last, that failed as a whole.
+    #[serde(default)]
+    pub(super) failed_generations: usize,
     /// The regime of the present search.
     regime: Regime,
     /// The evaluations after which the present search ends in any case.
@@ -90,6 +96,7 @@ impl Restarts {
             population,
             step_size,
             evaluations: 0,
+            failed_generations: 0,
             regime: Regime::First,
             evaluation_limit: None,
             large_population: population,
@@ -121,8 +128,8 @@ impl Restarts {
         matches!(self.regime, Regime::Large | Regime::Small)
     }
 
-    /// Begins the next search anew; `first` is the population of the first.
-    pub(super) fn next(&mut self, settings: &CmaEsSettings, first: usize, stream: &mut RandomStream) {
+    /// Begins the next search anew, for so many weights; `first` is the population of the first.
+    pub(super) fn next(&mut self, settings: &CmaEsSettings, first: usize, weights: usize, stream: &mut RandomStream) {
         self.close();
         let bipop = matches!(settings.restart, Restart::Bipop | Restart::Returning | Restart::Anew);
         if bipop && self.small_evaluations < self.large_evaluations {
@@ -134,7 +141,8 @@ impl Restarts {
             self.regime = Regime::Small;
             self.evaluation_limit = Some(self.last_large_evaluations / 2);
         } else {
-            let greatest = (first * GREATEST_GROWTH).min(CmaEsSettings::MAX_POPULATION);
+            let most = CmaEsSettings::most_individuals(weights).max(first);
+            let greatest = (first * GREATEST_GROWTH).min(most);
             self.large_population = (2 * self.large_population).min(greatest);
             self.population = self.large_population;
             self.step_size = settings.step_size;
@@ -163,6 +171,6 @@ impl Restarts {
             Regime::Return => {}
         }
         self.count += 1;
-        self.evaluations = 0;
+        (self.evaluations, self.failed_generations) = (0, 0);
     }
 }

@@ -77,6 +77,14 @@ impl CmaEsSettings {
     /// The greatest population.
     pub(super) const MAX_POPULATION: usize = 1_000_000;
 
+    /// The most weights of all individuals together: 1 GiB of them.
+    pub(super) const MOST_GENES: usize = 1 << 28;
+
+    /// The most individuals of nets with so many weights.
+    pub(super) fn most_individuals(weights: usize) -> usize {
+        Self::MAX_POPULATION.min(Self::MOST_GENES / weights.max(1))
+    }
+
     /// Checks the numbers.
     ///
     /// # Errors

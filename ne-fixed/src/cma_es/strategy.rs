@@ -1,6 +1,11 @@
 use super::{
-    CmaEsSettings, CovarianceModel, Restart, covariance::Covariance, distribution::Distribution, history::History,
-    parameters::Parameters, restart::Restarts, state::State,
+    CmaEsSettings, CovarianceModel, Restart,
+    covariance::Covariance,
+    distribution::Distribution,
+    history::{History, equal_length},
+    parameters::Parameters,
+    restart::Restarts,
+    state::State,
 };
 use crate::{
     WeightVector,
@@ -104,8 +109,14 @@ impl CmaEs {
             let allowed = format!("separable for nets of more than {} weights", Self::MOST_WEIGHTS_OF_FULL);
             return Err(SettingError::new("covariance", format!("full for {weights} weights"), allowed));
         }
+        let (population, most) =
+            (Self::first_population(&settings, &topology), CmaEsSettings::most_individuals(weights));
+        if population > most {
+            let allowed = format!("at most {most} for nets of {weights} weights");
+            return Err(SettingError::new("population", population, allowed));
+        }
         Ok(Self {
-            restarts: Restarts::new(Self::first_population(&settings, &topology), settings.step_size),
+            restarts: Restarts::new(population, settings.step_size),
             settings,
             topology,
             start: None,
@@ -220,6 +231,7 @@ impl CmaEs {
             || deviation >= GREATEST_GROWTH * self.restarts.step_size
             || distribution.covariance.is_degenerate()
             || self.history.stagnates(self.topology.weight_count(), self.restarts.population)
+            || self.restarts.failed_generations >= equal_length(self.topology.weight_count(), self.restarts.population)
             || self.restarts.is_over()
     }
 
@@ -252,6 +264,7 @@ impl CmaEs {
     fn end_start(&mut self, distribution: Distribution) {
         self.keep(distribution);
         self.restarts.starts += 1;
+        self.restarts.failed_generations = 0;
         if self.is_starting() {
             self.restarts.evaluations = 0;
         } else if let Some(kept) = self.kept.take() {
@@ -276,7 +289,8 @@ impl CmaEs {
             self.distribution = Some(distribution);
         } else {
             let first = Self::first_population(&self.settings, &self.topology);
-            self.restarts.next(&self.settings, first, &mut seed.stream(RESTART));
+            let weights = self.topology.weight_count();
+            self.restarts.next(&self.settings, first, weights, &mut seed.stream(RESTART));
         }
         self.history = History::default();
     }
@@ -327,13 +341,16 @@ impl Strategy for CmaEs {
         let scores: Vec<_> = evaluations.iter().map(Evaluation::fitness).collect();
         let order = best_first(&scores);
         let Some(mut distribution) = self.distribution.take() else { return };
-        if scores[order[0]].is_some() {
+        if scores[order[0]].is_none() {
+            self.restarts.failed_generations += 1;
+        } else {
+            self.restarts.failed_generations = 0;
             let ranked = order.iter().map(|&index| self.population[index].weights());
             let ranked = ranked.map(|genes| genes.iter().map(|&gene| gene.into()).collect()).collect();
             let n = self.topology.weight_count();
             let parameters = Parameters::new(n, order.len(), self.settings.covariance);
             distribution.update(ranked, &parameters);
-            if scores[order[0]] == scores[order[order.len() * 7 / 10]] {
+            if scores[order[0]] == scores[order[(order.len() * 7).div_ceil(10) - 1]] {
                 // Flat fitness, appendix B.3: the answer is farther away.
                 distribution.step_size *= libm::exp(0.2 + parameters.step_size_rate / parameters.step_size_damping);
             }

@@ -20,6 +20,8 @@ pub(super) struct State {
     best: Option<Fitness>,
     #[serde(default, skip_serializing_if = "is_zero")]
     stagnation: u64,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    has_begun_anew: bool,
     /// The generation asked and not told yet; empty between generations.
     asked: Vec<Vec<f32>>,
 }
@@ -46,6 +48,7 @@ impl From<Cosyne> for State {
             start: start.iter().map(Vec::from).collect(),
             best: strategy.best,
             stagnation: strategy.stagnation,
+            has_begun_anew: strategy.has_begun_anew,
             settings: strategy.settings,
             topology: strategy.nets.topology,
         }
@@ -63,6 +66,7 @@ impl TryFrom<State> for Cosyne {
         strategy.parents.nets = generation("parents", parents, size, &strategy.nets.topology)?;
         strategy.nets.load(state.asked, size)?;
         (strategy.best, strategy.stagnation) = (state.best, state.stagnation);
+        strategy.has_begun_anew = state.has_begun_anew;
         Ok(strategy)
     }
 }

@@ -47,6 +47,7 @@ pub struct Cosyne {
     /// The best score since the search began, and the generations since it was beaten; known only where it may begin anew.
     pub(super) best: Option<Fitness>,
     pub(super) stagnation: u64,
+    pub(super) has_begun_anew: bool,
 }
 
 impl Cosyne {
@@ -56,7 +57,8 @@ impl Cosyne {
     /// If a setting or a width of the topology (`topology.hidden[0]`) is out of range.
     pub fn new(settings: CosyneSettings, topology: impl Into<Topology>) -> Result<Self, SettingError> {
         settings.validate()?;
-        Ok(Self { settings, nets: Nets::new(topology)?, parents: Parents::default(), best: None, stagnation: 0 })
+        let (nets, parents) = (Nets::new(topology)?, Parents::default());
+        Ok(Self { settings, nets, parents, best: None, stagnation: 0, has_begun_anew: false })
     }
 
     /// The settings.
@@ -67,6 +69,11 @@ impl Cosyne {
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
         &self.nets.topology
+    }
+
+    /// Whether a restart has left what the search had found.
+    pub fn has_begun_anew(&self) -> bool {
+        self.has_begun_anew
     }
 
     /// The search whose first generation has nets of these weights, best first, in place of drawn ones. If they are more
@@ -133,7 +140,7 @@ impl Strategy for Cosyne {
         let size = self.settings.population;
         if self.settings.restart.is_some_and(|patience| self.stagnation >= patience) {
             self.parents = Parents::default();
-            (self.best, self.stagnation) = (None, 0);
+            (self.best, self.stagnation, self.has_begun_anew) = (None, 0, true);
         }
         let mut population = self.nets.make_room(size);
         let place = |index: usize| seed.individual(index as u64);

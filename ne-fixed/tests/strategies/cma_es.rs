@@ -116,6 +116,9 @@ fn errors_of_settings_name_the_field() {
     let flat = ne_net::DenseShape::new(3, vec![0], 2);
     let error = CmaEs::new(CmaEsSettings::default(), flat).expect_err("no neuron").to_string();
     assert_eq!(error, "topology.hidden[0] = 0: must be from 1 to 4096");
+    let wide = ne_net::DenseShape::new(3, vec![4096, 4000], 2);
+    let error = CmaEs::new(CmaEsSettings::default(), wide).expect_err("3 GiB of weights").to_string();
+    assert_eq!(error, "population = 53: must be at most 16 for nets of 16412386 weights");
     let error = new(CmaEsSettings::default()).with_start(&[vec![0.0; 3]]).expect_err("three weights").to_string();
     assert_eq!(error, "start[0] = weights: found 3, a net of shape 3-4-2 has 26: must be weights of the net");
 }
@@ -228,6 +231,37 @@ fn a_generation_of_failures_teaches_nothing() {
     generation_of(&mut strategy, 2, &Evaluation::failed(Failure::Other { what: "test".into() }));
     assert_eq!((strategy.mean().expect("asked").to_vec(), statistic(&strategy, "step_size")), before);
     assert_eq!(statistic(&strategy, "evaluations_since_restart"), 26.0);
+}
+
+/// A place where every body explodes is left as well as one where none gets better.
+#[test]
+fn a_search_of_failures_alone_begins_anew() {
+    let failed = Evaluation::failed(Failure::Other { what: "test".into() });
+    let after = |restart, good: u64, generations: u64| {
+        let mut strategy = new(CmaEsSettings { population: Some(6), restart, ..Default::default() });
+        for number in 1..=good {
+            generation(&mut strategy, number);
+        }
+        (good + 1..=good + generations).for_each(|number| {
+            strategy = crate::common::reload(&strategy);
+            generation_of(&mut strategy, number, &failed);
+        });
+        statistic(&strategy, "restarts")
+    };
+    // 10 + 30 · 26 / 6.
+    for restart in [Restart::Ipop, Restart::Bipop, Restart::Returning, Restart::Anew] {
+        assert_eq!([after(restart, 0, 139), after(restart, 3, 139), after(restart, 0, 140)], [0.0, 0.0, 1.0]);
+    }
+    assert_eq!(after(Restart::None, 0, 200), 0.0);
+    let mut strategy = new(CmaEsSettings { population: Some(6), restart: Restart::Ipop, ..Default::default() });
+    for number in 1..=200 {
+        if number % 100 == 0 {
+            generation(&mut strategy, number);
+        } else {
+            generation_of(&mut strategy, number, &failed);
+        }
+    }
+    assert_eq!(statistic(&strategy, "restarts"), 0.0, "not in a row");
 }
 
 #[test]

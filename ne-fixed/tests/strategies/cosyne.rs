@@ -56,9 +56,11 @@ fn a_search_without_progress_begins_anew() {
     let settings = CosyneSettings { restart: Some(3), ..CosyneSettings::default() };
     let mut strategy = new(settings.clone());
     (1..=4).for_each(|number| generation_of(&mut strategy, number, &Evaluation::new(1.0)));
+    assert!(!strategy.has_begun_anew());
     let seed = Seed::of_run(1).generation(5);
     assert_eq!(reload(&strategy).ask(seed), new(settings.clone()).ask(seed), "drawn as a first generation is");
     generation_of(&mut strategy, 5, &Evaluation::new(0.5));
+    assert!(reload(&strategy).has_begun_anew());
     let next = Seed::of_run(1).generation(6);
     assert_ne!(strategy.ask(next), new(settings).ask(next), "and goes on from it");
 }
