@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Trains champions, plays them in Box2D and Chipmunk, and writes how many are usable there as a Markdown table.
 # usage: transfer.sh OUT.md [GAMBOL] [TRAINING-OPTION]...
+# CREATURES, MOVEMENTS and SEEDS in the environment name others than the seven, running and jumping, 1001 to 1003.
 # Needs cargo, g++, Box2D 2.4 and Chipmunk 7 (Debian: libbox2d-dev, libchipmunk-dev). See docs/transfer.md.
 set -euo pipefail
 
@@ -16,9 +17,9 @@ shift $(($# < 2 ? $# : 2))
 if [ $# -gt 0 ]; then training=("$@"); else training=(--until usable --steps 10000000); fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
-creatures="apod biped-1 biped-2 tetrapod-1 tetrapod-2 decapod-1 decapod-2"
-movements="running jumping"
-seeds="1001 1002 1003"
+creatures=${CREATURES:-apod biped-1 biped-2 tetrapod-1 tetrapod-2 decapod-1 decapod-2}
+movements=${MOVEMENTS:-running jumping}
+seeds=${SEEDS:-1001 1002 1003}
 # An engine, the frames a second, and the settings of its judge.
 plays="box2d 50 substeps=8 velocities=10 positions=4
 box2d 60 substeps=8 velocities=10 positions=4
@@ -52,10 +53,18 @@ judge() {
     "$gambol" export "$folder/$name" --to player --out "$folder/$name.player" >"$folder/$name.text"
     verdict "$folder/$name"
     echo $code >"$folder/$name.gambol-0"
+    local commands=()
+    if [ "$movement" = playing ]; then
+        # What `gambol gait` tells it: a line for each change.
+        "$gambol" replay "$folder/$name" --trajectory "$folder/$name.csv" >"$folder/$name.text"
+        awk -F, 'NR > 1 && $1 != step { step = $1; now = $12 " " $13; if (now != told) print $2, now; told = now }' \
+            "$folder/$name.csv" >"$folder/$name.commands"
+        commands=("commands=$folder/$name.commands")
+    fi
     while read -r engine rate settings; do
         # shellcheck disable=SC2086
         "$folder/$engine" "$folder/$name.player" "$folder/$name.csv" seconds=$seconds rate="$rate" $settings \
-            >"$folder/$name.text" 2>&1 || { cat "$folder/$name.text" >&2; exit 255; }
+            "${commands[@]}" >"$folder/$name.text" 2>&1 || { cat "$folder/$name.text" >&2; exit 255; }
         verdict "$folder/$name.csv" --creature "$creature" --movement "$movement"
         echo $code >"$folder/$name.$engine-$rate"
     done <<<"$plays"

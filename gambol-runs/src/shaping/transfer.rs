@@ -242,7 +242,7 @@ impl PreparedTransfer {
             (Kind::Run { setup, .. }, Transferred::Population) => (setup.searched.clone(), self.setup.searched.clone()),
             _ => (before.each_ref().map(|channels| names_of(channels)), after.map(channel_names)),
         };
-        let lost = (0..2).flat_map(|which| missing(&old[which], &new[which])).collect();
+        let lost = lost(&old, &new);
         let rescaled = before.iter().zip(after).flat_map(|(before, after)| {
             let is_rescaled = |old: &&ChannelRecord| {
                 after.iter().any(|channel| channel.name == old.name && channel.range != old.range)
@@ -303,8 +303,7 @@ pub(super) fn check_planned(
     // The genomes of a strategy that finds topologies, and the net of a champion that is taken as it is, are not the planned one.
     let matters = transferred != Transferred::Topology && !from.finds_topology();
     if !how.allow_loss && transferred != Transferred::Nothing {
-        let lost = (0..2).flat_map(|which| missing(&old[which], &new[which]));
-        let mut what: Vec<String> = lost.map(|name| format!("\"{name}\"")).collect();
+        let mut what: Vec<String> = lost(&old, &new).iter().map(|name| format!("\"{name}\"")).collect();
         let lost = genes.lost().len();
         if what.is_empty() && lost > 0 && matters {
             what.push(format!("{lost} of {} weights", genes.old_weight_count()));
@@ -325,6 +324,14 @@ pub(super) fn check_planned(
     let search = strategies.build(from_settings, &before.topology).map_err(SetupError::from)?;
     search.transfer(from_settings, &transfer)?;
     Ok(())
+}
+
+/// The inputs and outputs of the old net that the new one has not; one of either kind may have the same name.
+fn lost(old: &[Vec<String>; 2], new: &[Vec<String>; 2]) -> Vec<String> {
+    let of_kind = |(kind, (old, new)): (_, (&Vec<String>, &Vec<String>))| {
+        missing(old, new).into_iter().map(move |name| format!("{kind} {name}"))
+    };
+    ["input", "output"].into_iter().zip(old.iter().zip(new)).flat_map(of_kind).collect()
 }
 
 /// Checks that something is left to be searched for where all that was learned is held.

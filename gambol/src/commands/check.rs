@@ -67,9 +67,10 @@ impl Check {
 }
 
 fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Result<(), Box<dyn Error>> {
+    let of_file = |error: &dyn Error| format!("{}: {error}", path.display());
     let blueprint = Blueprint::new(creature)?;
-    let sensors = registry.sensors.telling(&blueprint.creature().sensors, &blueprint)?;
-    let senses = Senses::new(&blueprint, &sensors, DEFAULT_INPUT_RANGE)?;
+    let sensors = registry.sensors.telling(&blueprint.creature().sensors, &blueprint).map_err(|it| of_file(&it))?;
+    let senses = Senses::new(&blueprint, &sensors, DEFAULT_INPUT_RANGE).map_err(|error| of_file(&error))?;
     let motors = Motors::new(&blueprint);
     say!(
         "{}: a valid creature, \"{}\": {} parts, {} joints, {} inputs, {} outputs",

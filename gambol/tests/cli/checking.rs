@@ -1,7 +1,10 @@
 //! `check`, `creatures` and `movements`.
 
-use crate::program::{assert_says, fail, gambol, small_run, succeed, text};
-use serde_json::Value;
+use crate::{
+    bad_creatures,
+    program::{assert_says, fail, gambol, small_run, succeed, text},
+};
+use serde_json::{Value, json};
 use std::fs;
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -47,6 +50,17 @@ fn every_shipped_creature_is_valid() -> Outcome {
         );
         assert!(!printed.contains("warning"), "{printed}");
     }
+    Ok(())
+}
+
+#[test]
+fn a_sensor_that_is_not_known_is_named_with_its_file() -> Outcome {
+    let mut creature = bad_creatures::creature();
+    creature["sensors"] = json!([{ "custom": { "name": "lift" } }]);
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("stroller.json");
+    fs::write(&path, creature.to_string())?;
+    assert_says(&fail(gambol("check").arg(&path)), &[text(&path), "sensors[0].custom.name", "\"lift\""]);
     Ok(())
 }
 

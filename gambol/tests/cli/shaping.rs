@@ -179,7 +179,7 @@ fn a_population_that_is_sent_back_gives_up_what_the_stage_had_added() -> Outcome
     assert_eq!(legs(&run_folder), ["01-run", "02-feel", "03-run", "04-feel"]);
     assert_says(
         &ended.stderr,
-        &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); ", "; given up: speed of "],
+        &["stage 1 of 2, run: goes on with the population of 02-feel (generation 3); ", "; given up: input speed of "],
     );
     succeed(gambol("verify").arg(run_folder.join("stages/03-run/champion.json")));
     // So does a topology that NEAT has found; but NEAT itself takes no population back.
