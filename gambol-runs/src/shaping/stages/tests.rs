@@ -377,7 +377,7 @@ fn errors_name_stage_and_field() {
         ),
         (
             two(json!({ "name": "b", "changes": { "sensors": ["joint-angles"] } })),
-            "stages[1] (\"b\"): \"rotation of torso\", ",
+            "stages[1] (\"b\"): \"input rotation of torso\", ",
         ),
         (
             two(json!({ "name": "b", "changes": { "controller": { "modular": "alternating" } } })),
