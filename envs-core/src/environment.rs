@@ -213,10 +213,23 @@ impl<E: Engine> CreatureEnvironment<E> {
     /// If a condition is out of range, the ground is not valid, the engine cannot build it, or the creature does not
     /// come to rest there.
     pub fn under(&self, conditions: &Conditions, landscape: impl Into<Landscape>) -> Result<Self, EnvironmentError> {
+        conditions.validate(self.plan.motors.len()).map_err(|error| error.within("conditions"))?;
+        conditions.settings(&self.plan.settings).validate().map_err(|error| error.within("physics"))?;
+        self.under_varied(conditions, landscape)
+    }
+
+    /// The same, for conditions that a variation has drawn: they may lead settings beyond the end of their range, as in trials.
+    ///
+    /// # Errors
+    /// As [`under`](Self::under), but for the settings.
+    pub fn under_varied(
+        &self,
+        conditions: &Conditions,
+        landscape: impl Into<Landscape>,
+    ) -> Result<Self, EnvironmentError> {
         let landscape = landscape.into();
         conditions.validate(self.plan.motors.len()).map_err(|error| error.within("conditions"))?;
         let settings = conditions.settings(&self.plan.settings);
-        settings.validate().map_err(|error| error.within("physics"))?;
         let landscape = around(&settings, landscape)?;
         let blueprint = &self.plan.blueprint;
         let engine = E::new(blueprint, &settings, &landscape.ground, conditions)?;
@@ -472,8 +485,11 @@ impl<E: Engine> State<E> {
     /// One step, with everything that is measured after it.
     fn advance(&mut self, plan: &Plan<E>) -> Result<(), Failure> {
         let clock = self.steps as f32 * self.time_step;
+        let mut torso = self.snapshot.torso().vx;
         while let Some(velocity) = self.pushes.take(clock) {
             self.engine.nudge(0, [velocity, 0.0], 0.0);
+            self.snapshot.push_work += self.pushes.work(torso, velocity);
+            torso += velocity;
         }
         advance(&mut self.engine, &mut self.snapshot.parts, plan.settings.unstable_speed, clock)?;
         self.steps += 1;

@@ -17,18 +17,26 @@ pub struct PushSchedule {
     /// By time; velocities are the torso's.
     pushes: Arc<[Push]>,
     next: usize,
+    /// Of the torso, kg.
+    mass: f32,
 }
 
 impl PushSchedule {
-    /// All of these pushes, for this creature.
-    pub fn new(pushes: &[Push], blueprint: &Blueprint) -> Self {
+    /// All of these pushes, for this creature, whose masses are multiplied with a factor.
+    pub fn new(pushes: &[Push], blueprint: &Blueprint, mass_factor: f32) -> Self {
         let parts = blueprint.parts();
         let whole: f32 = parts.iter().map(|part| part.mass()).sum();
         let share = whole / parts[0].mass();
         let of_torso = |push: &Push| Push { velocity: push.velocity * share, ..*push };
         let mut pushes: Vec<Push> = pushes.iter().map(of_torso).collect();
         pushes.sort_by(|one, other| one.time.total_cmp(&other.time));
-        Self { pushes: pushes.into(), next: 0 }
+        Self { pushes: pushes.into(), next: 0, mass: parts[0].mass() * mass_factor }
+    }
+
+    /// The energy, J, that a torso of this velocity along the ground is given by a push, both in m/s.
+    pub fn work(&self, velocity: f32, push: f32) -> f64 {
+        let [mass, velocity, push] = [self.mass, velocity, push].map(f64::from);
+        mass * push * (velocity + 0.5 * push)
     }
 
     /// When the next push comes, s; infinity if none does.

@@ -63,7 +63,7 @@ impl<E: Engine> Settled<E> {
             engine.look(&mut snapshot.parts);
         }
         let gaps = landscape.gaps().collect();
-        let pushes = PushSchedule::new(&conditions.pushes, blueprint);
+        let pushes = PushSchedule::new(&conditions.pushes, blueprint, conditions.mass);
         let commands = CommandSchedule::default();
         Ok(Self { engine, rest, gaps, pushes, commands, snapshot, time_step: settings.time_step })
     }

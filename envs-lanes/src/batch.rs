@@ -44,6 +44,8 @@ pub(crate) struct Batch<const W: usize> {
     rest_height: Lanes<W>,
     gaps: [Arc<[[f32; 2]]>; W],
     pushes: [PushSchedule; W],
+    /// What pushes have given so far, J.
+    push_work: [f64; W],
     /// When each lane is pushed next, s from the start of its trial.
     next_push: Lanes<W>,
     commands: [CommandSchedule; W],
@@ -92,6 +94,7 @@ impl<const W: usize> Batch<W> {
             rest_height: Lanes::ZERO,
             gaps: std::array::from_fn(|_| settled.gaps.clone()),
             pushes: std::array::from_fn(|_| settled.pushes.clone()),
+            push_work: [0.0; W],
             next_push: Lanes::splat(f32::INFINITY),
             commands: std::array::from_fn(|_| CommandSchedule::default()),
             command: [Command::default(); W],
@@ -115,6 +118,7 @@ impl<const W: usize> Batch<W> {
         self.rest_height.0[lane] = settled.rest.height();
         self.gaps[lane] = settled.gaps.clone();
         self.pushes[lane] = settled.pushes.clone();
+        self.push_work[lane] = 0.0;
         self.next_push.0[lane] = settled.pushes.next_time();
         self.commands[lane] = settled.commands.clone();
         self.commanded |= !settled.commands.is_empty();
@@ -220,6 +224,7 @@ impl<const W: usize> Batch<W> {
     fn push(&mut self) {
         for lane in 0..W {
             while let Some(velocity) = self.pushes[lane].take(self.time.0[lane]) {
+                self.push_work[lane] += self.pushes[lane].work(self.world.velocity_x(lane, 0), velocity);
                 self.world.nudge(lane, 0, [velocity, 0.0], 0.0);
             }
             self.next_push.0[lane] = self.pushes[lane].next_time();
@@ -256,6 +261,7 @@ impl<const W: usize> Batch<W> {
         self.world.look(lane, &mut snapshot.parts);
         snapshot.time = self.time.0[lane];
         snapshot.command = self.command[lane];
+        snapshot.push_work = self.push_work[lane];
         snapshot.motor_work += f64::from(self.power.0[lane]) * f64::from(self.time_step.0[lane]);
         Ok(())
     }

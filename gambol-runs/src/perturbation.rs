@@ -1,7 +1,7 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::judge::Judge;
-use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
+use envs_core::{BUMPS_BEHIND, Conditions, Ground, Landscape, Variation, bumps};
 use ne_core::{Purpose, Seed};
 use rand::RngExt;
 use serde::Serialize;
@@ -90,7 +90,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    /// The world of this index: causes take turns. Bumps reach `reach` m from the start, at most 500.
+    /// The world of this index: causes take turns. Bumps reach `reach` m from the start, at most 500, to where the movement leads.
     pub(crate) fn draw(seed: Seed, index: u32, judge: &Judge, reach: f32) -> Self {
         Self::draw_with(seed, index, judge, reach, |variation| variation)
     }
@@ -115,7 +115,11 @@ impl World {
         } else if cause.has_bumps() {
             let [left, _, right, _] = blueprint.bounding_box();
             let mut ground = Ground::flat();
-            ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach.min(FARTHEST)));
+            let mut reach = [BUMPS_BEHIND, reach.min(FARTHEST)];
+            if judge.rules().is_some_and(|rules| rules.view().backwards) {
+                reach.reverse();
+            }
+            ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach));
             ground.into()
         } else {
             environment.landscape().clone()
@@ -165,7 +169,7 @@ pub(crate) mod tests {
         judge_with(creature, movement, terrain, PhysicsSettings::default())
     }
 
-    fn judge_with(creature: &str, movement: &str, terrain: &Terrain, physics: PhysicsSettings) -> Judge {
+    pub(crate) fn judge_with(creature: &str, movement: &str, terrain: &Terrain, physics: PhysicsSettings) -> Judge {
         let parts = EpisodeParts {
             creature: &creatures::find(creature).expect("shipped"),
             sensors: None,
@@ -223,6 +227,19 @@ pub(crate) mod tests {
         assert!((6.0..8.0).contains(&farthest(8.0)), "{}", farthest(8.0));
         assert!((42.0..48.0).contains(&farthest(45.0)), "{}", farthest(45.0));
         assert!(farthest(1e9) <= FARTHEST);
+    }
+
+    #[test]
+    fn bumps_are_where_the_movement_leads() {
+        let ends = |movement: &str| {
+            let world = World::draw(Seed::of_run(1), 0, &judge("tetrapod-1", movement), 30.0);
+            let x = |shape: &GroundShape| if let GroundShape::Circle { x, .. } = *shape { x } else { 0.0 };
+            let places: Vec<f32> = world.landscape.ground.shapes.iter().map(x).collect();
+            [f32::min, f32::max].map(|which| places.iter().copied().fold(0.0, which))
+        };
+        let ([left, right], [back, front]) = (ends("running"), ends("backwards"));
+        assert!(left > -8.0 && right > 25.0, "{left} {right}");
+        assert!(back < -25.0 && front < 8.0, "{back} {front}");
     }
 
     #[test]

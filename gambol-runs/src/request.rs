@@ -6,6 +6,7 @@ use crate::{
     catalogue::UnknownName,
     champion::{Champion, ChannelRecord},
     config::{EngineChoice, FrozenTopology, RunConfig},
+    defaults,
     presets::Preset,
     shaping::{self, ShapingError},
     source::{self, SourceError},
@@ -169,6 +170,7 @@ impl Request {
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
+        defaults::follow_clock(&mut config, &base.movement);
         config.seed = self.seed.unwrap_or(config.seed);
         config.stop = config.stop.overlaid(self.limits);
         if let Some(population) = self.population {

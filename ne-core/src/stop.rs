@@ -173,6 +173,21 @@ impl StopConditions {
         Self { generations, steps, ..self }
     }
 
+    /// For a run that goes on, and may have ended: a budget of `newer` (generations, evaluations, steps or minutes) takes the place of
+    /// all budgets, and any condition that of the tier, so that a run with a usable champion goes on if it is given more of anything.
+    #[must_use]
+    pub fn resumed_with(self, newer: Self) -> Self {
+        let Self { generations, evaluations, steps, minutes, .. } = newer;
+        let has_budget = generations.or(evaluations).or(steps).is_some() || minutes.is_some();
+        let Self { target, stagnation, .. } = self;
+        let kept = match newer == Self::default() {
+            true => self,
+            false if has_budget => Self { target, stagnation, ..Self::default() },
+            false => Self { tier: None, ..self },
+        };
+        kept.overlaid(newer)
+    }
+
     /// The first condition that is met, if any.
     pub fn reached(&self, progress: &Progress, best: Option<TieredFitness>, elapsed: Duration) -> Option<StopReason> {
         let used_up = |limit: Option<u64>, used: u64| limit.is_some_and(|limit| used >= limit);

@@ -55,3 +55,28 @@ fn a_selection_is_written_as_its_name_with_its_settings() -> Result<(), serde_js
     assert!(unknown.to_string().contains("unknown field `sise`, expected `size`"), "{unknown}");
     Ok(())
 }
+
+#[test]
+fn a_run_that_goes_on_has_the_newer_budget_alone() {
+    let none = StopConditions::default();
+    let planned = StopConditions {
+        generations: Some(9),
+        minutes: Some(0.5),
+        target: Some(3.0),
+        tier: Some(1),
+        stagnation: Some(50),
+        ..none
+    };
+    assert_eq!(planned.resumed_with(none), planned);
+    let kept = StopConditions { target: Some(3.0), stagnation: Some(50), ..none };
+    for newer in [
+        StopConditions { generations: Some(20), ..none },
+        StopConditions { evaluations: Some(20), ..none },
+        StopConditions { steps: Some(20), ..none },
+        StopConditions { minutes: Some(2.0), ..none },
+    ] {
+        assert_eq!(planned.resumed_with(newer), kept.overlaid(newer));
+    }
+    let higher = StopConditions { target: Some(5.0), ..none };
+    assert_eq!(planned.resumed_with(higher), StopConditions { target: Some(5.0), tier: None, ..planned });
+}

@@ -19,7 +19,12 @@ pub unsafe extern "C" fn gambol_character_load(
     length: usize,
     character: *mut *mut GambolCharacter,
 ) -> GambolStatus {
-    if bytes.is_null() || character.is_null() {
+    if character.is_null() {
+        return GambolStatus::NullPointer;
+    }
+    if bytes.is_null() {
+        // SAFETY: the caller promises it.
+        unsafe { character.write(ptr::null_mut()) };
         return GambolStatus::NullPointer;
     }
     // SAFETY: the caller promises both.

@@ -99,12 +99,12 @@ pub unsafe extern "C" fn gambol_player_tick(
     // SAFETY: the caller promises all of these.
     let (player, parts, outside, speeds) =
         unsafe { (player.as_mut(), read(parts, part_count), read(outside, outside_count), write(speeds, speed_count)) };
-    let (Some(GambolPlayer(player)), Some(parts), Some(outside), Some(speeds)) = (player, parts, outside, speeds)
-    else {
+    let Some(speeds) = speeds else { return GambolStatus::NullPointer };
+    speeds.fill(0.0);
+    let (Some(GambolPlayer(player)), Some(parts), Some(outside)) = (player, parts, outside) else {
         return GambolStatus::NullPointer;
     };
     let command = Command { speed: commanded_speed, jump };
-    speeds.fill(0.0);
     if speeds.len() != player.speeds().len() {
         return GambolStatus::Count;
     }

@@ -30,8 +30,9 @@ static unsigned char *read_file(const char *path, size_t *length) {
 
 // Damaged files are refused, each with its own status.
 static int check_damage(unsigned char *bytes, size_t length) {
-    GambolCharacter *character;
+    GambolCharacter *character = (GambolCharacter *)bytes;
     if (gambol_character_load(NULL, 0, &character) != GAMBOL_STATUS_NULL_POINTER) return fail("null bytes");
+    if (character) return fail("a character of null bytes");
     if (gambol_character_load(bytes, length, NULL) != GAMBOL_STATUS_NULL_POINTER) return fail("null character");
     if (gambol_character_load(bytes, 5, &character) != GAMBOL_STATUS_NOT_A_CHARACTER) return fail("five bytes");
     if (gambol_character_load(bytes, length - 1, &character) != GAMBOL_STATUS_LENGTH) return fail("one byte short");
@@ -70,6 +71,8 @@ static int check_calls(const GambolCharacter *character, GambolPlayer *player, c
         != GAMBOL_STATUS_NOT_FINITE) return fail("a command that is no number");
     if (gambol_player_tick(player, NULL, part_count, outside, outside_count, 0, 0, 0.02f, speeds, count)
         != GAMBOL_STATUS_NULL_POINTER) return fail("null parts");
+    for (size_t i = 0; i < count; i++)
+        if (speeds[i] != 0) return fail("a motor goes on without parts");
     if (gambol_player_tick(NULL, parts, part_count, outside, outside_count, 0, 0, 0.02f, speeds, count)
         != GAMBOL_STATUS_NULL_POINTER) return fail("a null player");
     if (gambol_player_face(NULL, 1) != GAMBOL_STATUS_NULL_POINTER) return fail("nobody turns");

@@ -86,7 +86,8 @@ pub(crate) fn resume(
             None => None,
             Some(generations) => {
                 let config = RunFolder::open(&folder).and_then(|folder| folder.read_config()).map_err(unreadable)?;
-                Some(ne_core::StopConditions { generations: Some(generations), ..config.stop })
+                let more = StopConditions { generations: Some(generations), ..StopConditions::default() };
+                Some(config.stop.resumed_with(more))
             }
         };
         let run = Run::resume(&folder, stop, resources(threads)?).map_err(broken)?;

@@ -137,3 +137,20 @@ fn no_address_leads_out_of_the_runs() {
         }
     }
 }
+
+/// A run folder may be of somebody else, and the report in it anything.
+#[test]
+fn what_runs_in_a_report_is_kept_from_the_studio() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let run = folder.path().join("foreign");
+    std::fs::create_dir(&run).expect("a folder");
+    for (name, text) in [("config.json", "{}"), ("log.jsonl", ""), ("report.html", "<script>hostile()</script>")] {
+        std::fs::write(run.join(name), text).expect("a file");
+    }
+    let served = Served::new(folder.path());
+    let (status, answer) = served.get(&format!("{}runs/foreign/report", served.page()), &[]);
+    assert_eq!(status, 200, "{answer}");
+    let policy = answer.lines().find(|line| line.to_lowercase().starts_with("content-security-policy:"));
+    let policy = policy.expect("a policy");
+    assert!(policy.contains("sandbox allow-scripts") && !policy.contains("allow-same-origin"), "{policy}");
+}

@@ -10,6 +10,8 @@ pub struct Snapshot {
     /// Work of all motors since the clock started, in J: the sum of |torque × relative speed| × time step, so that
     /// braking costs as much as driving.
     pub motor_work: f64,
+    /// Energy that pushes from outside have given the body since the clock started, in J; below 0 where they slowed it down.
+    pub push_work: f64,
     /// What the body is told to do from this moment on; to stand, where it is told nothing.
     pub command: Command,
 }

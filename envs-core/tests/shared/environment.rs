@@ -173,7 +173,8 @@ fn a_push_changes_the_torsos_velocity_before_the_first_step_that_begins_at_its_t
     let conditions = Conditions { pushes, ..Conditions::reference(environment.outputs()) };
     let mut world = environment.under(&conditions, Ground::flat()).expect("settles");
     let body = world.body().expect("a creature");
-    let share = body.mass() / body.parts[0].mass;
+    let torso = body.parts[0].mass;
+    let share = body.mass() / torso;
     assert!(share > 1.0, "a torso that is all of the body would not show");
     for _ in 0..2 {
         world.reset(Seed::of_run(1)).expect("settles");
@@ -184,6 +185,8 @@ fn a_push_changes_the_torsos_velocity_before_the_first_step_that_begins_at_its_t
             assert!(parts[1..].iter().all(|part| part.vx == 0.0) && parts[0].vy == 0.0);
             moved.push(parts[0].vx / share);
         }
+        let energy = 0.5 * f64::from(torso) * f64::from(world.snapshot().torso().vx).powi(2);
+        assert!((world.snapshot().push_work / energy - 1.0).abs() < 1e-5, "{energy} J");
         // Steps begin at 0, 0.02, 0.04, 0.06, 0.08 and 0.1 s.
         let expected = [1.0, 1.0, 1.0, 0.75, 0.75, 2.75, 2.75, 2.75];
         let same = moved.iter().zip(expected).all(|(found, expected)| (found - expected).abs() < 1e-5);

@@ -212,6 +212,11 @@ impl<const W: usize> LaneWorld<W> {
         }
     }
 
+    /// The velocity of a lane's part along the ground, m/s.
+    pub(crate) fn velocity_x(&self, lane: usize, part: usize) -> f32 {
+        self.bodies[part].velocity_x.0[lane]
+    }
+
     /// Adds to the velocity of a lane's part, m/s, and to its spin, rad/s.
     pub(crate) fn nudge(&mut self, lane: usize, part: usize, [x, y]: [f32; 2], spin: f32) {
         let body = &mut self.bodies[part];

@@ -94,11 +94,12 @@ impl Movement for Fingerprint {
         self.observe(start);
     }
 
-    fn observe(&mut self, Snapshot { time, parts, motor_work, command }: &Snapshot) -> Verdict {
+    fn observe(&mut self, Snapshot { time, parts, motor_work, push_work, command }: &Snapshot) -> Verdict {
         self.add(u64::from(time.to_bits()));
         self.add(u64::from(command.speed.to_bits()));
         self.add(u64::from(command.since_press.to_bits()));
         self.add(motor_work.to_bits());
+        self.add(push_work.to_bits());
         for part in parts {
             for value in [part.x, part.y, part.cos, part.sin, part.vx, part.vy, part.spin] {
                 self.add(u64::from(value.to_bits()));

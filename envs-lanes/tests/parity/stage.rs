@@ -159,13 +159,14 @@ struct Bits {
     touching: Vec<bool>,
     time: u32,
     motor_work: u64,
+    push_work: u64,
     command: (u32, bool, u32),
     inputs: Vec<u32>,
     torques: Vec<u32>,
 }
 
 fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
-    let Snapshot { time, parts, motor_work, command } = environment.snapshot();
+    let Snapshot { time, parts, motor_work, push_work, command } = environment.snapshot();
     let mut inputs = vec![0.0; environment.inputs()];
     environment.sense(&mut inputs);
     Bits {
@@ -176,6 +177,7 @@ fn bits<E: Engine>(environment: &CreatureEnvironment<E>) -> Bits {
         touching: parts.iter().map(|part| part.touching).collect(),
         time: time.to_bits(),
         motor_work: motor_work.to_bits(),
+        push_work: push_work.to_bits(),
         command: (command.speed.to_bits(), command.jump, command.since_press.to_bits()),
         inputs: inputs.into_iter().map(f32::to_bits).collect(),
         torques: environment.motor_torques().map(f32::to_bits).collect(),

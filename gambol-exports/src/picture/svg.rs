@@ -126,6 +126,23 @@ fn decorate(decoration: &Decoration, opacity: f32, svg: &mut String) {
     };
 }
 
+/// A text as XML has it, without the characters that it may not have at all.
 fn escaped(text: &str) -> String {
+    let is_allowed = |character: &char| match character {
+        '\t' | '\n' | '\r' => true,
+        '\u{fffe}' | '\u{ffff}' => false,
+        other => *other >= ' ',
+    };
+    let text: String = text.chars().filter(is_allowed).collect();
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_keeps_nothing_that_xml_may_not_have() {
+        assert_eq!(escaped("a\u{1}b\u{1b}[m <i> & \"c\"\tü\u{ffff}"), "ab[m &lt;i&gt; &amp; &quot;c&quot;\tü");
+    }
 }

@@ -1,10 +1,13 @@
 //! From what is known of a movement to the settings of a run.
 
-use super::{BodyFacts, DefaultsCatalogue, MovementDefaults};
+use super::{
+    BodyFacts, DefaultsCatalogue, MovementDefaults,
+    running::{RHYTHM, stride_of},
+};
 use crate::config::{EngineChoice, RunConfig};
 use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
-use tasks::Commands;
+use tasks::{Commands, MovementSpec};
 
 /// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
 const MOTOR_GAIN: f32 = 200.0;
@@ -46,6 +49,16 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     // What lanes refuse is trained in rapier rather than not at all.
     if config.creature.self_collision {
         config.engine = EngineChoice::Rapier;
+    }
+}
+
+/// Has the stride that the defaults ask for take as long as the clock that the net hears, where that is another than the body's own:
+/// one that was chosen, or that of a run that goes on. `planned`: the movement as the defaults have it.
+pub(crate) fn follow_clock(config: &mut RunConfig, planned: &MovementSpec) {
+    let Some(rhythm) = planned.terms.iter().find(|term| term.term == RHYTHM) else { return };
+    let Some(period) = clock(config.sensors.as_ref().unwrap_or(&config.creature.sensors)) else { return };
+    for term in config.movement.terms.iter_mut().filter(|term| **term == *rhythm) {
+        term.settings.insert("period".into(), stride_of(period).into());
     }
 }
 

@@ -14,6 +14,7 @@ mod swimming;
 mod tests;
 mod walking;
 
+pub(crate) use apply::follow_clock;
 pub use apply::{apply, steps};
 
 use crate::config::{LimbPhases, StageSettings};
@@ -116,11 +117,12 @@ pub struct DefaultsCatalogue {
 impl Default for DefaultsCatalogue {
     fn default() -> Self {
         let mut catalogue = Self { makers: BTreeMap::new() };
-        for like_a_run in ["running", "climbing", "carrying", "cruising"] {
+        for like_a_run in ["running", "climbing", "carrying"] {
             catalogue.add(like_a_run, running::running);
         }
         catalogue
             .add("backwards", running::backwards)
+            .add("cruising", running::cruising)
             .add("walking", walking::walking)
             .add("jumping", jumping::jumping)
             .add("long-jump", jumping::long_jump)

@@ -22,6 +22,21 @@ const ON_LEGS: [(&str, f64); 7] = [
     ("haste", -0.95),
 ];
 
+/// The term that asks for a stride in each turn of the clock.
+pub(super) const RHYTHM: &str = "rhythm";
+
+/// The period of the stride of a clock of this one, s: as short in a file as it is meant.
+pub(super) fn stride_of(clock: f32) -> f64 {
+    f64::from(libm::roundf(1000.0 * clock)) / 1000.0
+}
+
+/// As a run, but what is beyond the speed asked for does not count anyway.
+pub(super) fn cruising(body: &BodyFacts) -> MovementDefaults {
+    let mut defaults = running(body);
+    defaults.terms.retain(|term| term.term != "haste");
+    defaults
+}
+
 pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
     let BodyFacts { legs, joints, .. } = *body;
     let is_biped = (1..=2).contains(&legs);
@@ -38,9 +53,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
     }
     // Many legs keep time by themselves; two legs with knees find a rhythm of their own, and are not helped by another.
     if legs <= 4 && (legs > 2 || joints == 1) {
-        // As short in a file as it is meant.
-        let stride = f64::from(libm::roundf(1000.0 * body.clock.unwrap_or(period)) / 1000.0);
-        on_legs.push(with(TermSpec::new("rhythm", -1.0), "period", stride));
+        on_legs.push(with(TermSpec::new(RHYTHM, -1.0), "period", stride_of(body.clock.unwrap_or(period))));
     }
     let unknown = MovementDefaults::unknown(body);
     MovementDefaults {

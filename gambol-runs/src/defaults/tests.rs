@@ -2,6 +2,7 @@ use super::{BodyFacts, MovementDefaults};
 use crate::{
     Registry,
     config::{LimbPhases, RunConfig, StageSettings},
+    request::Request,
     setup::Setup,
     shaping::Stages,
 };
@@ -216,4 +217,27 @@ fn re_evaluations_are_rarer_where_each_takes_long() {
     };
     assert_eq!(of_stages("biped-2"), [110, 40, 20, 20, 20]);
     assert_eq!(of_stages("tetrapod-1"), [20, 20, 20, 20, 20]);
+}
+
+/// The period of the stride that is asked for, s.
+fn stride(set: &[&str]) -> Option<f64> {
+    let request = Request {
+        creature: Some("tetrapod-1".into()),
+        movement: Some("running".into()),
+        set: set.iter().map(|&set| set.to_owned()).collect(),
+        ..Request::default()
+    };
+    let config = request.resolve(&Registry::default()).expect("valid");
+    config.movement.terms.iter().find(|term| term.term == "rhythm")?.settings["period"].as_f64()
+}
+
+/// Otherwise a body that hears a slower clock is charged for each of its strides, and learns to stand still.
+#[test]
+fn the_stride_that_is_asked_for_takes_as_long_as_the_clock_that_is_heard() {
+    let clock = r#"sensors=["torso-rotation","joint-angles",{"clock":{"period":0.8}}]"#;
+    let own = r#"movement.terms=[{"term":"rhythm","weight":-1,"settings":{"period":0.7}}]"#;
+    assert_eq!(stride(&[]), Some(0.46));
+    assert_eq!(stride(&[clock]), Some(0.8));
+    assert_eq!(stride(&[clock, own]), Some(0.7), "what was chosen stays");
+    assert_eq!(stride(&[r#"sensors=["torso-rotation","joint-angles"]"#]), Some(0.46), "there is no clock");
 }

@@ -150,7 +150,9 @@ impl Judge {
         self.near.get_or_init(|| {
             let landscape: &Landscape = self.environment().landscape();
             let conditions = near_worlds(self.environment().motors().len()).into_iter();
-            Worlds::new(self, &conditions.map(|conditions| (conditions, landscape.clone())).collect::<Vec<_>>())
+            let conditions: Vec<_> = conditions.map(|conditions| (conditions, landscape.clone())).collect();
+            // The first trial is the reference episode's.
+            Worlds::new(self, &conditions).beginning_with_trial(1)
         })
     }
 

@@ -148,10 +148,13 @@ impl Worlds {
     pub(crate) fn usable_all(&self, networks: &[Network], needed: usize) -> Vec<usize> {
         let length = |reason: &Reason| matches!(reason, Reason::TooShort { .. });
         let sound = |verdict: &Judgement| verdict.reasons.iter().all(length);
+        // A body that explodes breaks off before.
+        let is_whole = |report: &GaitReport| report.duration > self.seconds - report.time_step;
         let most = self.len().saturating_sub(needed);
         let reports = self.play(networks, Until::Lost { most });
         let count = |reports: Vec<Option<GaitReport>>| {
-            reports.into_iter().flatten().filter_map(|report| report.verdict).filter(sound).count()
+            let whole = reports.into_iter().flatten().filter(is_whole);
+            whole.filter_map(|report| report.verdict).filter(sound).count()
         };
         reports.into_iter().map(count).collect()
     }
@@ -204,11 +207,11 @@ impl Worlds {
 impl World {
     /// `None` if the world makes no sense, or the creature does not come to rest there.
     fn new(judge: &Judge, conditions: &Conditions, landscape: &Landscape) -> Option<Self> {
-        match judge.lanes().map(|lanes| lanes.under(conditions, landscape.clone())) {
+        match judge.lanes().map(|lanes| lanes.under_varied(conditions, landscape.clone())) {
             Some(Ok(environment)) => Some(Self::InLanes(Box::new(environment))),
             // What lanes refuse rapier may simulate.
             None | Some(Err(EnvironmentError::Unsupported { .. })) => {
-                let environment = judge.environment().under(conditions, landscape.clone()).ok()?;
+                let environment = judge.environment().under_varied(conditions, landscape.clone()).ok()?;
                 let steps = steps_of(judge.seconds(), environment.settings().time_step);
                 let episode = Episode::new(environment, judge.movement(), steps, Trials::default()).ok()?;
                 Some(Self::InRapier(Box::new(episode)))
@@ -246,11 +249,13 @@ pub(crate) fn is_usable(report: &GaitReport) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::judge::near::near_worlds;
     use crate::perturbation::{
         self,
-        tests::{judge, judge_in_water},
+        tests::{judge, judge_in_water, judge_with},
     };
-    use envs_core::Ground;
+    use creatures::Terrain;
+    use envs_core::{Ground, PhysicsSettings};
     use ne_net::{DenseNet, DenseShape};
 
     fn network(judge: &Judge, seed: usize) -> Network {
@@ -316,6 +321,21 @@ mod tests {
         assert!(reports.iter().all(Option::is_some), "{reports:?}");
         assert_eq!(reports[5], judge.measure_alone(&network).map(|gait| gait.report));
         assert_ne!(reports[4], reports[5], "all causes but bumps");
+    }
+
+    /// A near world of the longest step has a longer one.
+    #[test]
+    fn worlds_are_built_about_settings_at_the_ends_of_their_ranges() {
+        let longest = PhysicsSettings { time_step: 0.05, gravity: 100.0, ..PhysicsSettings::default() };
+        let shortest = PhysicsSettings { time_step: 0.001, ..PhysicsSettings::default() };
+        for physics in [longest, shortest] {
+            let judge = judge_with("biped-1", "jumping", &Terrain::default(), physics);
+            let motors = judge.environment().outputs();
+            let near = near_worlds(motors).into_iter().map(|conditions| (conditions, Ground::flat().into()));
+            let worlds: Vec<_> = perturbed(&judge).into_iter().chain(near).collect();
+            let built = Worlds::new(&judge, &worlds).worlds;
+            assert!(built.iter().all(Option::is_some), "{:?}", built.iter().map(Option::is_some).collect::<Vec<_>>());
+        }
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::{
     assembly::{Assembly, ConfigError},
     champion_selection,
     config::{GiveUp, RunConfig, StageSettings, Transferred},
+    defaults,
     episode_parts::SetupError,
     setup::Setup,
     tiers::USABLE,
@@ -236,6 +237,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         // A creature is chosen as a whole, too.
         assembly.lay_over(json!({ "creature": null }));
     }
+    let mut planned = None;
     let movement = settings.changes.get("movement");
     let renamed = movement.and_then(|movement| movement.get("name")).and_then(Value::as_str);
     if let Some(name) = renamed.filter(|&name| name != before.movement.name)
@@ -251,6 +253,7 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         // Null first: a movement is merged, and terms of the old one must not stay.
         assembly.lay_over(json!({ "movement": null, "training_steps": fresh.training_steps }));
         assembly.lay_over(json!({ "movement": fresh.movement }));
+        planned = Some(fresh.movement);
     }
     let chosen = settings.changes.get("strategy").and_then(Value::as_object).and_then(|choice| choice.keys().next());
     let chosen = chosen.and_then(|name| registry.strategies.find(name));
@@ -268,6 +271,9 @@ fn resolve(before: &RunConfig, settings: &StageSettings, registry: &Registry) ->
         let own = config.creature.sensors.clone();
         let sensors: &mut Vec<Sensor> = config.sensors.get_or_insert(own);
         sensors.extend(settings.add_sensors.iter().cloned());
+    }
+    if let Some(planned) = planned {
+        defaults::follow_clock(&mut config, &planned);
     }
     Ok(config)
 }

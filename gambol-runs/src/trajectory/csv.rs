@@ -290,7 +290,7 @@ impl Reader<'_> {
                 Some(before) => before.command.then(speed, jump, time, time - before.time),
                 None => Command::default().then(speed, jump, time, 0.0),
             };
-            self.snapshots.push(Snapshot { time, parts, motor_work: 0.0, command });
+            self.snapshots.push(Snapshot { time, parts, command, ..Snapshot::default() });
             self.torques.push(vec![0.0; self.names.len()]);
             self.lines.push(line);
         } else if step + 1 != steps {

@@ -1,6 +1,6 @@
 use super::Outcome;
 use crate::{
-    Registry,
+    Registry, Setup,
     compare::is_seed_or_budget,
     config::RunConfig,
     gaits::{ABLATION, GaitRun, GaitRuns, SCENARIOS, VARIANTS, Variant, ablation_row, csv, scenario_row},
@@ -119,6 +119,15 @@ impl Gaits {
 
     /// Every creature with every movement.
     fn scenarios(&self, creatures: &[String], runs: &mut GaitRuns, registry: &Registry) -> Outcome {
+        let mut scenarios = Vec::new();
+        for creature in creatures {
+            for movement in &self.movements {
+                let configs = self.configs(creature, movement, registry)?;
+                // What cannot be run is told before hours are spent on the others.
+                configs.first().map(|config| Setup::new(config, registry)).transpose()?;
+                scenarios.push(configs);
+            }
+        }
         if !self.json {
             let until = if self.whole { "" } else { ", or until usable" };
             let budget = match self.steps {
@@ -129,23 +138,21 @@ impl Gaits {
             say!("{}", line(&SCENARIOS.map(String::from)))?;
         }
         let mut table = Vec::new();
-        for creature in creatures {
-            for movement in &self.movements {
-                let runs = runs.of(&self.configs(creature, movement, registry)?)?;
-                let row = scenario_row(&runs, self.steps.is_some(), registry);
-                for run in &runs {
-                    if self.json {
-                        say!("{}", json!(run))?;
-                    }
+        for configs in scenarios {
+            let runs = runs.of(&configs)?;
+            let row = scenario_row(&runs, self.steps.is_some(), registry);
+            for run in &runs {
+                if self.json {
+                    say!("{}", json!(run))?;
                 }
-                if !self.json {
-                    say!("{}", line(&row))?;
-                    for run in runs.iter().filter(|run| !run.usable) {
-                        say!("    seed {}: {}", run.seed, run.reasons.join("; "))?;
-                    }
-                }
-                table.push(row);
             }
+            if !self.json {
+                say!("{}", line(&row))?;
+                for run in runs.iter().filter(|run| !run.usable) {
+                    say!("    seed {}: {}", run.seed, run.reasons.join("; "))?;
+                }
+            }
+            table.push(row);
         }
         self.write_csv(&SCENARIOS, &table)?;
         Ok(ExitCode::SUCCESS)

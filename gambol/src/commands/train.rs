@@ -165,19 +165,9 @@ pub(super) struct RunFlags {
 }
 
 impl Limits {
-    /// These limits in place of the planned ones, for a run that may have ended: one whose champion is usable goes on if it is
-    /// given more of anything, and a budget takes the place of those that earlier calls had.
+    /// These limits in place of the planned ones, for a run that may have ended.
     pub(super) fn beyond(self, planned: StopConditions) -> StopConditions {
-        let limits = self.conditions();
-        let StopConditions { generations, evaluations, steps, minutes, .. } = limits;
-        let has_budget = generations.or(evaluations).or(steps).is_some() || minutes.is_some();
-        let StopConditions { target, stagnation, .. } = planned;
-        let planned = match limits == StopConditions::default() {
-            true => planned,
-            false if has_budget => StopConditions { target, stagnation, ..StopConditions::default() },
-            false => StopConditions { tier: None, ..planned },
-        };
-        planned.overlaid(limits)
+        planned.resumed_with(self.conditions())
     }
 
     /// A run until usable goes on to the tier that its movement asks for.

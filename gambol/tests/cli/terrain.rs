@@ -2,7 +2,7 @@
 
 use crate::{
     damage::json,
-    program::{gambol, run, small_run_of, succeed, text},
+    program::{assert_says, fail, gambol, run, small_run_of, succeed, text},
 };
 use serde_json::Value;
 use std::fs;
@@ -64,4 +64,10 @@ fn terrains_are_listed() -> Outcome {
     let rows: Value = serde_json::from_str(&succeed(gambol("terrains").arg("--json")))?;
     assert_eq!(rows[1]["terrain"]["obstacles"][0], serde_json::json!({ "gaps": {} }));
     Ok(())
+}
+
+#[test]
+fn a_movement_that_goes_backwards_has_no_terrain() {
+    let message = fail(gambol("train").args(["tetrapod-1", "backwards", "--terrain", "gaps:0.3", "--generations", "1"]));
+    assert_says(&message, &["terrain = a terrain: must be flat for a movement that goes backwards"]);
 }

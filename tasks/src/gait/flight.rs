@@ -58,7 +58,7 @@ impl Aloft {
             .collect();
         let seconds = flights.iter().map(|flight| flight.interval.seconds());
         Self {
-            share: seconds.clone().sum::<f64>() / trajectory.seconds(),
+            share: seconds.clone().fold(0.0, |sum, flight| sum + flight) / trajectory.seconds(),
             longest: seconds.fold(0.0, f64::max),
             highest: flights.iter().map(|flight| flight.rise).reduce(f64::max),
             flights,

@@ -61,13 +61,14 @@ impl LegUse {
         let touchdowns = contact::touchdowns(trajectory, &downs);
         let liftoffs = contact::liftoffs(trajectory, &downs);
         let joints = body.hinges.iter().enumerate().filter(|(_, hinge)| leg.contains(&hinge.child));
-        let slip: f64 = ranges.iter().map(|stance| slip(trajectory, foot, stance)).sum();
+        let slip: f64 = ranges.iter().map(|stance| slip(trajectory, foot, stance)).fold(0.0, |sum, slip| sum + slip);
         let distance = trajectory.progress(0, trajectory.steps());
         Self {
             foot: body.parts[foot].name.clone(),
             footfalls: touchdowns.len(),
             liftoffs: liftoffs.len(),
-            duty_factor: stances.iter().map(Interval::seconds).sum::<f64>() / trajectory.seconds(),
+            duty_factor: stances.iter().map(Interval::seconds).fold(0.0, |sum, stance| sum + stance)
+                / trajectory.seconds(),
             longest_without_touchdown: contact::longest_gap(trajectory, &touchdowns),
             longest_without_liftoff: contact::longest_gap(trajectory, &liftoffs),
             joints: joints

@@ -584,3 +584,16 @@ proptest! {
         prop_assert!(matches!(error, Err(GaitError::NotFinite { .. })), "{:?}", error);
     }
 }
+
+/// A sum of nothing is written as 0.
+#[test]
+fn what_never_happens_has_no_sign() {
+    let still = film(3.0, |_| Pose::standing());
+    let report = GaitReport::measure(&body(), &still, None).expect("a script");
+    assert!(report.aloft.share.is_sign_positive(), "{}", report.aloft.share);
+    let floating = film(3.0, |_| Pose { touching: [false; 3], ..Pose::standing() });
+    let report = GaitReport::measure(&body(), &floating, None).expect("a script");
+    for leg in &report.legs {
+        assert!(leg.duty_factor.is_sign_positive() && leg.slip.is_sign_positive(), "{leg:?}");
+    }
+}

@@ -256,7 +256,7 @@ fn angle_of(state: &PartState) -> f64 {
 }
 
 /// The same turn, at most half round.
-fn shorter_way(turn: f64) -> f64 {
+pub(super) fn shorter_way(turn: f64) -> f64 {
     turn - TAU * libm::floor((turn + PI) / TAU)
 }
 

@@ -8,12 +8,15 @@ const TOLERANCE: f64 = 10.0;
 /// The same for heavy bodies, as a share of the energy of their height.
 const TOLERANCE_SHARE: f64 = 0.25;
 
-/// A body that gains more energy in a short time than its motors gave in it. Motors that brake count as if they drove,
+/// A body that gains more energy in a short time than its motors, and pushes against it, gave in it. Motors that brake count as if they drove,
 /// so that an honest body stays well below.
 pub(super) fn find(trajectory: &Trajectory<'_>) -> Option<Cheat> {
     let gravity = trajectory.gravity();
     let surplus: Vec<f64> = (0..=trajectory.steps())
-        .map(|step| trajectory.work(step).map(|work| energy(trajectory, step, gravity) - work))
+        .map(|step| {
+            let work = trajectory.work(step)? + trajectory.snapshots()[step].push_work;
+            Some(energy(trajectory, step, gravity) - work)
+        })
         .collect::<Option<_>>()?;
     let threshold = TOLERANCE + TOLERANCE_SHARE * trajectory.mass() * gravity.abs() * trajectory.start_height();
     let steps = libm::round(WINDOW / trajectory.time_step()) as usize;
@@ -53,6 +56,17 @@ mod tests {
         let cheat = find(&Trajectory::new(&body(), &launched).expect("a script")).expect("flagged");
         // 12 kg at 3 m/s.
         assert!((cheat.worst - 54.0).abs() < 6.0, "{cheat}");
+    }
+
+    #[test]
+    fn what_pushes_give_is_not_gained() {
+        let mut pushed = film(5.0, |step| Pose { work: 0.0, ..Pose::jumping(step) });
+        let (body, unaware) = (body(), pushed.clone());
+        let trajectory = Trajectory::new(&body, &unaware).expect("a script");
+        for (step, snapshot) in pushed.iter_mut().enumerate() {
+            snapshot.push_work = energy(&trajectory, step, trajectory.gravity());
+        }
+        assert_eq!(find(&Trajectory::new(&body, &pushed).expect("a script")), None);
     }
 
     #[test]

@@ -1,5 +1,5 @@
 use super::{Cheat, CheatKind};
-use crate::gait::{Trajectory, contact};
+use crate::gait::{Trajectory, contact, trajectory::shorter_way};
 use std::f64::consts::FRAC_PI_2;
 
 /// A torso tilted farther than 60° is falling,
@@ -18,8 +18,10 @@ const NOWHERE: f64 = 0.1;
 ///
 /// A runner that leans over farther than 60° and never comes to lie has not fallen.
 pub(super) fn find(trajectory: &Trajectory<'_>) -> Option<Cheat> {
-    let lies = |step: usize| trajectory.tilts()[step].abs() > LYING || trajectory.snapshots()[step].torso().touching;
-    let falls: Vec<_> = contact::ranges(trajectory.tilts().iter().map(|tilt| tilt.abs() > FALLING))
+    // A body that has turned over is up again.
+    let tilt = |step: usize| shorter_way(trajectory.tilts()[step]).abs();
+    let lies = |step: usize| tilt(step) > LYING || trajectory.snapshots()[step].torso().touching;
+    let falls: Vec<_> = contact::ranges((0..trajectory.tilts().len()).map(|step| tilt(step) > FALLING))
         .into_iter()
         .filter(|fall| fall.clone().any(lies))
         .collect();
@@ -72,6 +74,16 @@ mod tests {
     #[test]
     fn one_that_gets_ahead_lying_is_flagged() {
         assert_eq!(tipping(0.5, false).map(|cheat| cheat.kind), Some(CheatKind::Fall));
+    }
+
+    #[test]
+    fn one_that_turns_over_and_goes_on_upright_is_not() {
+        let tumbling = |step: usize| {
+            let time = step as f64 * 0.02;
+            let tilt = -2.0 * PI * time.min(1.0);
+            Pose { x: 0.5 * time, tilt, touching: [(0.3..0.7).contains(&time), true, true], ..Pose::standing() }
+        };
+        assert_eq!(find(&Trajectory::new(&body(), &film(20.0, tumbling)).expect("a script")), None);
     }
 
     #[test]
