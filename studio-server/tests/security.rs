@@ -142,8 +142,8 @@ fn no_address_leads_out_of_the_runs() {
 #[test]
 fn what_runs_in_a_report_is_kept_from_the_studio() {
     let folder = tempfile::tempdir().expect("a folder");
-    let run = folder.path().join("foreign");
-    std::fs::create_dir(&run).expect("a folder");
+    let run = folder.path().join("runs/foreign");
+    std::fs::create_dir_all(&run).expect("a folder");
     for (name, text) in [("config.json", "{}"), ("log.jsonl", ""), ("report.html", "<script>hostile()</script>")] {
         std::fs::write(run.join(name), text).expect("a file");
     }

@@ -93,7 +93,8 @@ impl Library {
                 Ok(Download { name: None, media: "application/json", bytes: found.to_string().into_bytes() })
             }
             &Wanted::Export { format, file } => {
-                let options = Options { name: run.to_owned(), steps: None, picture: Picture::default() };
+                // Files that belong together name each other as they are saved.
+                let options = Options { name: saved_as(run, ""), steps: None, picture: Picture::default() };
                 let exported = gambol_exports::export(&champion_of(&folder)?, self.registry(), format, &options);
                 let files = exported.map_err(|error| failed(&error))?;
                 let count = files.len();

@@ -124,7 +124,8 @@ impl Gaits {
             for movement in &self.movements {
                 let configs = self.configs(creature, movement, registry)?;
                 // What cannot be run is told before hours are spent on the others.
-                configs.first().map(|config| Setup::new(config, registry)).transpose()?;
+                let alone = configs.first().filter(|config| config.stages.is_empty());
+                alone.map(|config| Setup::new(config, registry)).transpose()?;
                 scenarios.push(configs);
             }
         }

@@ -93,7 +93,7 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
     if blueprint.symmetry().is_none() {
         say!("  note: it looks the same from both sides: what it learns one way, a game can play the other way")?;
     }
-    for warning in balance::warnings(&blueprint) {
+    for warning in balance::warnings(&blueprint).into_iter().chain(ends_in_passive(&blueprint)) {
         say!("  warning: {warning}")?;
     }
     for channel in senses.channels() {
@@ -103,6 +103,21 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
         say!("  out  {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;
     }
     Ok(())
+}
+
+/// Chains of actuated parts that are no legs, since what hangs on their last part is not actuated.
+fn ends_in_passive(blueprint: &Blueprint) -> Vec<String> {
+    let (parts, hinges) = (blueprint.parts(), blueprint.hinges());
+    let hanging =
+        |part: usize| hinges.iter().filter(move |hinge| hinge.parent == part).map(|hinge| &parts[hinge.child]);
+    let warning = |part: usize| {
+        let first = hanging(part).next()?;
+        let (name, on) = (&first.name, &parts[part].name);
+        (parts[part].actuated && parts[part].leg && hanging(part).all(|child| !child.actuated)).then(|| {
+            format!("{name} is not actuated and hangs on {on}, so that {on} is no foot and its chain no leg: have {name} actuated, or say \"leg\": false of {on}")
+        })
+    };
+    (1..parts.len()).filter_map(warning).collect()
 }
 
 fn check_champion(path: &Path, registry: &Registry) -> Result<(), Box<dyn Error>> {

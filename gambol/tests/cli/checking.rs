@@ -64,6 +64,24 @@ fn a_sensor_that_is_not_known_is_named_with_its_file() -> Outcome {
     Ok(())
 }
 
+#[test]
+fn a_leg_that_ends_in_a_passive_part_is_warned_of() -> Outcome {
+    let mut creature = bad_creatures::creature();
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("stroller.json");
+    let checked = |creature: &Value| -> Result<String, Box<dyn std::error::Error>> {
+        fs::write(&path, creature.to_string())?;
+        Ok(succeed(gambol("check").arg(&path)))
+    };
+    let warning = "foot is not actuated and hangs on thigh, so that thigh is no foot and its chain no leg";
+    assert!(!checked(&creature)?.contains(warning));
+    creature["parts"][3]["tag"] = "toe".into();
+    assert_says(&checked(&creature)?, &[warning]);
+    creature["parts"][2]["leg"] = false.into();
+    assert!(!checked(&creature)?.contains(warning), "it is said to be none");
+    Ok(())
+}
+
 /// This shipped creature with something changed, checked: what is printed. It stays valid.
 fn checked(name: &str, change: impl FnOnce(&mut creatures::Creature)) -> Result<String, Box<dyn std::error::Error>> {
     let mut creature = creatures::find(name)?;

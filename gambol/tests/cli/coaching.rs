@@ -251,8 +251,18 @@ fn bench_gaits_trains_a_movement_with_stages() -> Outcome {
     };
     let told = |second: &str, more: &[&str]| -> Result<Value, serde_json::Error> {
         let mut bench = gambol("bench");
-        bench.args(["gaits", "--creatures", "tetrapod-1", "--movements", "running", "--seeds", "1", "--json"]);
-        serde_json::from_str(&succeed(bench.args(["--set", &stages(second)]).args(more)))
+        bench.args([
+            "gaits",
+            "--creatures",
+            "tetrapod-1",
+            "--movements",
+            "running",
+            "--first-seed",
+            "2",
+            "--seeds",
+            "1",
+        ]);
+        serde_json::from_str(&succeed(bench.args(["--json", "--set", &stages(second)]).args(more)))
     };
     let gaps = r#"{"terrain":"gaps:0.1"}"#;
     // Usable after ten generations; the second stage is of the same gaits on another ground.

@@ -68,6 +68,7 @@ fn terrains_are_listed() -> Outcome {
 
 #[test]
 fn a_movement_that_goes_backwards_has_no_terrain() {
-    let message = fail(gambol("train").args(["tetrapod-1", "backwards", "--terrain", "gaps:0.3", "--generations", "1"]));
+    let message =
+        fail(gambol("train").args(["tetrapod-1", "backwards", "--terrain", "gaps:0.3", "--generations", "1"]));
     assert_says(&message, &["terrain = a terrain: must be flat for a movement that goes backwards"]);
 }
