@@ -34,6 +34,8 @@ struct Plan<E> {
     motors: Motors,
     settings: PhysicsSettings,
     variation: Variation,
+    /// Whether bumps are behind the start, and not in front of it.
+    backwards: bool,
     landscape: Landscape,
     /// What the landscape was laid out from, if trials may have others; else flat.
     terrain: Terrain,
@@ -170,6 +172,7 @@ impl<E: Engine> CreatureEnvironment<E> {
             variation,
             landscape,
             terrain,
+            backwards: false,
             commands: None,
             actuated,
             settled,
@@ -203,6 +206,13 @@ impl<E: Engine> CreatureEnvironment<E> {
         let plan = Arc::make_mut(&mut self.plan);
         plan.motors = Motors::with_actuation(&plan.blueprint, actuation);
         Ok(self)
+    }
+
+    /// The same environment for a movement that goes backwards: the [bumps](Variation::bumps) of its trials are there.
+    #[must_use]
+    pub fn going_backwards(mut self, backwards: bool) -> Self {
+        Arc::make_mut(&mut self.plan).backwards = backwards;
+        self
     }
 
     /// The same environment in one world alone: every trial has these conditions, on this ground, and nothing varies.
@@ -333,7 +343,7 @@ impl<E: Engine> CreatureEnvironment<E> {
 
     /// The same if the world differed from trial to trial as this variation has it.
     pub fn landscape_under(&self, variation: &Variation, seed: Seed) -> Cow<'_, Landscape> {
-        let Plan { blueprint, settings, landscape, terrain, .. } = &*self.plan;
+        let Plan { blueprint, settings, landscape, terrain, backwards, .. } = &*self.plan;
         if settings.water.is_some() {
             return Cow::Borrowed(landscape);
         }
@@ -344,7 +354,7 @@ impl<E: Engine> CreatureEnvironment<E> {
             };
         }
         let [left, _, right, _] = blueprint.bounding_box();
-        let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length());
+        let bumps = variation.draw_bumps(seed, [left, right], blueprint.body_length(), *backwards);
         if bumps.is_empty() {
             return Cow::Borrowed(landscape);
         }

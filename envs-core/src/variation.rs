@@ -389,12 +389,22 @@ impl Variation {
     }
 
     /// The bumps of the trial with this seed, for a creature that stands from `left` to `right`, m, and is so long.
-    pub(crate) fn draw_bumps(&self, seed: Seed, [left, right]: [f32; 2], body_length: f32) -> Vec<GroundShape> {
+    pub(crate) fn draw_bumps(
+        &self,
+        seed: Seed,
+        [left, right]: [f32; 2],
+        body_length: f32,
+        backwards: bool,
+    ) -> Vec<GroundShape> {
         if self.bumps == 0.0 || self.is_near(seed) {
             return Vec::new();
         }
         let heights = [0.1 * self.bumps, self.bumps];
-        bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], [BUMPS_BEHIND, BUMPS_REACH * body_length])
+        let mut reach = [BUMPS_BEHIND, BUMPS_REACH * body_length];
+        if backwards {
+            reach.reverse();
+        }
+        bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], reach)
     }
 
     /// The seed of the terrain of the trial with this seed, if it has one of its own.
@@ -415,8 +425,9 @@ mod tests {
 
     #[test]
     fn a_near_trial_has_no_bumps() {
-        let bumps =
-            |variation: Variation, trial| variation.draw_bumps(Seed::of_run(1).trial(trial), [-0.5, 0.5], 1.0).len();
+        let bumps = |variation: Variation, trial| {
+            variation.draw_bumps(Seed::of_run(1).trial(trial), [-0.5, 0.5], 1.0, false).len()
+        };
         let strong = Variation::strong();
         assert!(bumps(strong, 0) == 0 && bumps(strong, 1) > 0);
         assert!(bumps(Variation { near_first: false, ..strong }, 0) > 0, "no trial is near");

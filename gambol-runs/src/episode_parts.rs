@@ -124,6 +124,10 @@ const SCHEDULES: u32 = 8;
 const PROOFS: u32 = 4;
 
 impl EpisodeParts<'_> {
+    fn goes_backwards(&self, registry: &Registry) -> bool {
+        registry.movements.rules(&self.movement.name).is_some_and(|rules| rules.view().backwards)
+    }
+
     /// Builds the task.
     ///
     /// # Errors
@@ -135,6 +139,7 @@ impl EpisodeParts<'_> {
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
             RapierEnvironment::on_terrain(blueprint, &sensors, self.input_range, physics, variation, terrain)?
+                .going_backwards(self.goes_backwards(registry))
                 .with_actuation(self.actuation)?
                 .with_commands(self.commands.cloned(), self.trials.lessons)?;
         Ok(Episode::new(environment, movement, steps, self.trials)?)
@@ -154,7 +159,7 @@ impl EpisodeParts<'_> {
         let (physics, terrain) = (self.physics, self.terrain.clone());
         let environment =
             LaneEnvironment::on_terrain(blueprint, sensors, self.input_range, physics, variation, terrain)
-                .and_then(|environment| environment.with_actuation(self.actuation))
+                .and_then(|it| it.going_backwards(self.goes_backwards(registry)).with_actuation(self.actuation))
                 .and_then(|environment| environment.with_commands(self.commands.cloned(), self.trials.lessons))
                 .map_err(SetupError::Engine)?;
         Ok(LaneEpisode::new(environment, movement, steps, self.trials)?)

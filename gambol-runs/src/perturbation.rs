@@ -229,6 +229,7 @@ pub(crate) mod tests {
         assert!(farthest(1e9) <= FARTHEST);
     }
 
+    /// In the trials of training as well.
     #[test]
     fn bumps_are_where_the_movement_leads() {
         let ends = |movement: &str| {
@@ -240,6 +241,13 @@ pub(crate) mod tests {
         let ([left, right], [back, front]) = (ends("running"), ends("backwards"));
         assert!(left > -8.0 && right > 25.0, "{left} {right}");
         assert!(back < -25.0 && front < 8.0, "{back} {front}");
+        let middle = |movement: &str| {
+            let judge = judge("tetrapod-1", movement);
+            let landscape = judge.environment().landscape_under(&Variation::bumpy(), Seed::of_run(1).trial(1));
+            let x = |shape: &GroundShape| if let GroundShape::Circle { x, .. } = *shape { x } else { 0.0 };
+            landscape.ground.shapes.iter().map(x).sum::<f32>()
+        };
+        assert!(middle("running") > 0.0 && middle("backwards") < 0.0);
     }
 
     #[test]
