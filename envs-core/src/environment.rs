@@ -215,6 +215,11 @@ impl<E: Engine> CreatureEnvironment<E> {
         self
     }
 
+    /// Whether it is for a movement that goes backwards.
+    pub fn goes_backwards(&self) -> bool {
+        self.plan.backwards
+    }
+
     /// The same environment in one world alone: every trial has these conditions, on this ground, and nothing varies.
     /// The settings are then those of that world's trials, its time step and gravity in them, and so are the masses and the
     /// gravity of [`body`](Environment::body).

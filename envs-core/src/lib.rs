@@ -59,7 +59,7 @@ mod water;
 
 pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose, next_gap};
-pub use bumps::{BUMPS_BEHIND, bumps};
+pub use bumps::bumps;
 pub use conditions::Conditions;
 pub use engine::Engine;
 pub use environment::{ActuatedHinge, CreatureEnvironment, check_start};

@@ -1,4 +1,4 @@
-use crate::{BUMPS_BEHIND, Conditions, GroundShape, Push, bumps};
+use crate::{Conditions, GroundShape, Push, bumps};
 use ne_core::{Purpose, Seed, SettingError};
 use rand::RngExt;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -400,11 +400,7 @@ impl Variation {
             return Vec::new();
         }
         let heights = [0.1 * self.bumps, self.bumps];
-        let mut reach = [BUMPS_BEHIND, BUMPS_REACH * body_length];
-        if backwards {
-            reach.reverse();
-        }
-        bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], reach)
+        bumps(&mut seed.stream(TRIAL_BUMPS), heights, [left, right], BUMPS_REACH * body_length, backwards)
     }
 
     /// The seed of the terrain of the trial with this seed, if it has one of its own.

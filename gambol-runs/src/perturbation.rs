@@ -1,7 +1,7 @@
 //! Worlds that are not quite the one a champion learned in.
 
 use crate::judge::Judge;
-use envs_core::{BUMPS_BEHIND, Conditions, Ground, Landscape, Variation, bumps};
+use envs_core::{Conditions, Ground, Landscape, Variation, bumps};
 use ne_core::{Purpose, Seed};
 use rand::RngExt;
 use serde::Serialize;
@@ -115,11 +115,8 @@ impl World {
         } else if cause.has_bumps() {
             let [left, _, right, _] = blueprint.bounding_box();
             let mut ground = Ground::flat();
-            let mut reach = [BUMPS_BEHIND, reach.min(FARTHEST)];
-            if judge.rules().is_some_and(|rules| rules.view().backwards) {
-                reach.reverse();
-            }
-            ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach));
+            let (reach, backwards) = (reach.min(FARTHEST), environment.goes_backwards());
+            ground.shapes.extend(bumps(&mut stream, BUMP_HEIGHTS, [left, right], reach, backwards));
             ground.into()
         } else {
             environment.landscape().clone()

@@ -193,7 +193,7 @@ mod tests {
         Evaluation { objectives: objectives.to_vec(), ..Evaluation::new(fitness) }
     }
 
-    /// Who runs a shorter way needs less energy: the second objective is better of all that were left behind.
+    /// A shorter run needs less energy: in the second objective all that were left behind were better.
     #[test]
     fn those_left_behind_are_dominated_by_all_that_went_on() {
         let whole = [with_objectives(9.0, &[9.0, -40.0]), with_objectives(7.0, &[7.0, -50.0])];

@@ -241,3 +241,13 @@ fn the_stride_that_is_asked_for_takes_as_long_as_the_clock_that_is_heard() {
     assert_eq!(stride(&[clock, own]), Some(0.7), "what was chosen stays");
     assert_eq!(stride(&[r#"sensors=["torso-rotation","joint-angles"]"#]), Some(0.46), "there is no clock");
 }
+
+/// It would hold a body below the speed that it is told.
+#[test]
+fn cruising_is_a_run_without_haste() {
+    let terms = |movement| config("tetrapod-1", movement).movement.terms;
+    let mut running = terms("running");
+    running.retain(|term| term.term != "haste");
+    assert_eq!(terms("cruising"), running);
+    assert!(running.len() < terms("running").len());
+}

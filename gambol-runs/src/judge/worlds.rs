@@ -257,6 +257,7 @@ mod tests {
     use creatures::Terrain;
     use envs_core::{Ground, PhysicsSettings};
     use ne_net::{DenseNet, DenseShape};
+    use tasks::gait::Findings;
 
     fn network(judge: &Judge, seed: usize) -> Network {
         let shape = DenseShape::new(judge.environment().inputs(), vec![], judge.environment().outputs());
@@ -321,6 +322,47 @@ mod tests {
         assert!(reports.iter().all(Option::is_some), "{reports:?}");
         assert_eq!(reports[5], judge.measure_alone(&network).map(|gait| gait.report));
         assert_ne!(reports[4], reports[5], "all causes but bumps");
+    }
+
+    #[test]
+    fn near_worlds_draw_commands_of_their_own() {
+        let judge = judge("biped-1", "running");
+        let near = judge.near();
+        assert!((0..near.len()).all(|place| near.seed_of(place) != judge.seed().trial(0)));
+        assert_eq!(judge.seed().trial(0), judge.seed(), "the reference episode's");
+    }
+
+    /// Has nothing against any gait.
+    #[derive(Debug)]
+    struct Lenient;
+
+    impl Rules for Lenient {
+        fn name(&self) -> &str {
+            "lenient"
+        }
+
+        fn seconds(&self) -> f64 {
+            2.0
+        }
+
+        fn judge(&self, _: &GaitReport, _: &Trajectory<'_>) -> Findings {
+            Findings::default()
+        }
+    }
+
+    /// A body that explodes breaks off, and a short recording alone speaks against no gait in a short trial.
+    #[test]
+    fn a_world_in_which_the_body_explodes_does_not_count() {
+        let usable = |unstable_speed: f32, seconds: f64| {
+            let physics = PhysicsSettings { unstable_speed, ..PhysicsSettings::default() };
+            let judge = judge_with("biped-1", "jumping", &Terrain::default(), physics);
+            let world = (Conditions::reference(judge.environment().outputs()), Ground::flat().into());
+            let worlds = Worlds { rules: Some(Arc::new(Lenient)), seconds: 2.0, ..Worlds::new(&judge, &[world]) };
+            worlds.shortened(seconds).usable(&network(&judge, 3), 0)
+        };
+        assert_eq!([usable(100.0, 2.0), usable(100.0, 1.5)], [1, 1]);
+        // It is faster than 2 m/s after 1.36 s.
+        assert_eq!([usable(2.0, 2.0), usable(2.0, 1.5), usable(2.0, 1.0)], [0, 0, 1]);
     }
 
     /// A near world of the longest step has a longer one.

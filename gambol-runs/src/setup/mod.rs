@@ -134,9 +134,9 @@ impl Setup {
         check_size(&config.strategy, &topology)?;
         let unit = registry.movements.build(&config.movement)?.unit().to_owned();
         let objectives = objectives(&config.movement, registry, &unit);
-        let goes_backwards = || registry.movements.rules(&config.movement.name).is_some_and(|it| it.view().backwards);
-        if !config.terrain.is_flat() && goes_backwards() {
-            let allowed = "flat for a movement that goes backwards: obstacles are in front of the start, and behind it the ground ends";
+        if !config.terrain.is_flat() && episode.environment().goes_backwards() {
+            let allowed = "flat for a movement that goes backwards: obstacles are in front of the start, \
+                           and behind it the ground ends";
             return Err(SettingError::new("terrain", "a terrain", allowed).into());
         }
         if let Some(steps) = config.training_steps {

@@ -114,7 +114,10 @@ fn ends_in_passive(blueprint: &Blueprint) -> Vec<String> {
         let first = hanging(part).next()?;
         let (name, on) = (&first.name, &parts[part].name);
         (parts[part].actuated && parts[part].leg && hanging(part).all(|child| !child.actuated)).then(|| {
-            format!("{name} is not actuated and hangs on {on}, so that {on} is no foot and its chain no leg: have {name} actuated, or say \"leg\": false of {on}")
+            format!(
+                "{name} is not actuated and hangs on {on}, so that {on} is no foot and its chain no leg: \
+                 have {name} actuated, or say \"leg\": false of {on}"
+            )
         })
     };
     (1..parts.len()).filter_map(warning).collect()

@@ -56,9 +56,8 @@ struct Thesis {
     /// Add a timed run of each preset on each scenario, which is looked at after some minutes
     #[arg(long)]
     clock: bool,
-    /// The minutes after which timed runs are looked at, rising, separated by commas [default: 1,5]
+    /// The minutes after which timed runs are looked at, rising, separated by commas
     #[arg(long, value_delimiter = ',', value_name = "MINUTES", default_values_t = CLOCK_MINUTES, requires = "clock")]
-    #[arg(hide_default_value = true)]
     clock_minutes: Vec<f64>,
     /// Do only a share of the runs, such as 2/4
     #[arg(long, default_value = "1/1", hide_default_value = true)]

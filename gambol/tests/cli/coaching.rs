@@ -166,6 +166,9 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         assert_eq!(ended.code, Some(1), "{flags:?}: {}{}", ended.stdout, ended.stderr);
         assert_says(&ended.stderr, &[says]);
     }
+    let unjudged = bench(&["--movements", "running,walking", "--creatures", "biped-1", "--steps", "20000"]);
+    assert_eq!((unjudged.code, &*unjudged.stdout), (Some(1), ""), "before the first run");
+    assert_says(&unjudged.stderr, &["stop.tier = a tier"]);
     // Where no gaits are judged, no champion is ever usable.
     for flags in
         [&["running", "--set", "training_steps=null", "--variation", "none"][..], &["running", "--preset", "thesis"]]

@@ -174,3 +174,26 @@ impl Restarts {
         (self.evaluations, self.failed_generations) = (0, 0);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ne_core::{Purpose, Seed};
+
+    /// 2²¹ weights of 128 individuals are a GiB.
+    #[test]
+    fn a_population_grows_no_further_than_memory_allows() {
+        let settings = CmaEsSettings { restart: Restart::Ipop, ..CmaEsSettings::default() };
+        let mut stream = Seed::of_run(1).stream(Purpose::new("test"));
+        let mut populations = |weights| {
+            let mut restarts = Restarts::new(32, settings.step_size);
+            [(); 4].map(|()| {
+                restarts.next(&settings, 32, weights, &mut stream);
+                restarts.population
+            })
+        };
+        assert_eq!(populations(100), [64, 128, 256, 512]);
+        assert_eq!(populations(1 << 21), [64, 128, 128, 128]);
+        assert_eq!(populations(1 << 24), [32; 4], "never fewer than at first");
+    }
+}
