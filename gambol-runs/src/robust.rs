@@ -41,6 +41,9 @@ pub struct Robustness {
     /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world. Nor has water.
     #[serde(skip)]
     pub bumpy: bool,
+    /// Whether it follows commands: those of each world are others, so that its progress says nothing.
+    #[serde(skip)]
+    pub commanded: bool,
     /// Whether it is usable without perturbation, and in near worlds.
     pub usable_unperturbed: bool,
     /// How far it runs, or how high it jumps, without perturbation, m.
@@ -51,7 +54,8 @@ pub struct Robustness {
     /// The share of each cause's worlds in which it is usable, in order of [`Cause::ALL`], or of the given variation's worlds alone;
     /// causes without a world are left out.
     pub causes: Vec<CauseShare>,
-    /// The median of progress in a perturbed world over that without perturbation; `None` if there was none without.
+    /// The median of progress in a perturbed world over that without perturbation; `None` if there was none without, and where it
+    /// follows commands.
     pub fitness_kept: Option<f64>,
     /// The share of the perturbed worlds in which each [reason](tasks::gait::Reason::name) speaks against it, the most
     /// frequent first.
@@ -187,6 +191,7 @@ pub struct PerturbedReplays {
     /// How the rules are called, and how they look at gaits.
     rules: (String, View),
     bumpy: bool,
+    commanded: bool,
 }
 
 impl PerturbedReplays {
@@ -210,6 +215,7 @@ impl PerturbedReplays {
         })?;
         Ok(Self {
             rules: (rules.name().to_owned(), rules.view()),
+            commanded: rules.needs_commands(),
             unperturbed: judge.judge(&champion.network),
             bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
             network: champion.network.clone(),
@@ -235,7 +241,7 @@ impl PerturbedReplays {
     /// What is left of its gait in the worlds that it was replayed in.
     pub fn robustness(self) -> Robustness {
         let progress_unperturbed = self.progress_unperturbed();
-        let Self { trials, unperturbed, rules: (judged_as, view), bumpy, .. } = self;
+        let Self { trials, unperturbed, rules: (judged_as, view), bumpy, commanded, .. } = self;
         let share = |count: usize| count as f64 / trials.len().max(1) as f64;
         let kept = || median(trials.iter().map(|trial| trial.progress / progress_unperturbed).collect());
         let reasons = reasons(&trials).into_iter();
@@ -243,11 +249,12 @@ impl PerturbedReplays {
             judged_as,
             view,
             bumpy,
+            commanded,
             usable_unperturbed: unperturbed.as_ref().is_some_and(is_usable),
             progress_unperturbed,
             usable_share: share(trials.iter().filter(|trial| trial.usable).count()),
             causes: causes(&trials),
-            fitness_kept: (progress_unperturbed > 0.0 && !trials.is_empty()).then(kept),
+            fitness_kept: (!commanded && progress_unperturbed > 0.0 && !trials.is_empty()).then(kept),
             reasons: reasons
                 .map(|(reason, count)| ReasonShare { reason: reason.to_owned(), share: share(count) })
                 .collect(),

@@ -86,6 +86,7 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     say!("\n  unperturbed      {usable}, {what} {progress:.2} m")?;
     match robustness.fitness_kept {
         Some(kept) => say!("  keeps            {} of the {what} (median)", percent(kept))?,
+        None if robustness.commanded => say!("  keeps            – (each world has commands of its own)")?,
         None => say!("  keeps            – (it gets nowhere unperturbed)")?,
     }
     say!("\n  worlds           usable")?;

@@ -52,6 +52,8 @@ pub enum Reason {
     /// It neither stands again in the last second nor jumps on: degrees, m from the start height, body lengths/s; and the
     /// most of each that is allowed.
     NotStanding { tilt: f64, height: f64, speed: f64, allowed: [f64; 3] },
+    /// The commands ask for nothing that could be judged: no hold in which it is told to move leaves so many seconds.
+    NeverToldToMove { required: f64 },
     /// The mean speed over the last half of a hold is too far from the commanded one, body lengths/s; the worst of so many holds
     /// that begin at `time`.
     OffSpeed { time: f64, wanted: f64, speed: f64, allowed: f64, holds: usize, of: usize },
@@ -97,6 +99,7 @@ impl Reason {
             Self::UnevenPushOff { .. } => "uneven-push-off",
             Self::LandedOn { .. } => "landed-on",
             Self::NotStanding { .. } => "not-standing",
+            Self::NeverToldToMove { .. } => "never-told-to-move",
             Self::OffSpeed { .. } => "off-speed",
             Self::SlowAnswer { .. } => "slow-answer",
             Self::Drifting { .. } => "drifting",
@@ -194,6 +197,11 @@ impl fmt::Display for Reason {
                      its start height (at most {most_height:.2} m), {speed:.2} body lengths/s (at most {most_speed})"
                 )
             }
+            Self::NeverToldToMove { required } => write!(
+                f,
+                "the commands never tell it to move for long enough: no last half of a hold has {required} s outside of jumps, one \
+                 required"
+            ),
             Self::OffSpeed { time, wanted, speed, allowed, holds, of } => write!(
                 f,
                 "told to move at {wanted:.2} body lengths/s from {time:.1} s on: {speed:.2} over the last half, at most \
@@ -247,6 +255,7 @@ mod tests {
             Reason::LowFlight { time: 0.0, rise: 0.0, required: 1.0 },
             Reason::NoPushOff { time: 0.0, foot: foot() },
             Reason::UnevenPushOff { time: 0.0, spread: 1.0, allowed: 0.3 },
+            Reason::NeverToldToMove { required: 0.5 },
             Reason::OffSpeed { time: 0.0, wanted: 1.0, speed: 0.0, allowed: 0.2, holds: 1, of: 1 },
             Reason::SlowAnswer { time: 0.0, from: 0.0, to: 1.0, share: 0.0, required: 0.7, changes: 1, of: 1 },
             Reason::Drifting { time: 0.0, speed: 1.0, allowed: 0.1, holds: 1, of: 1 },

@@ -32,7 +32,7 @@ const OTHER_CONTACT: f64 = 0.01;
 
 /// Playing: 60 s of commands.
 ///
-/// It is playable if, while it is told to move, its mean speed over the last half of each hold is within 0.25 body lengths/s or
+/// It is playable if it is told to move at all; if, while it is told to move, its mean speed over the last half of each hold is within 0.25 body lengths/s or
 /// 20 % of the commanded speed, whichever is more, and three quarters of a change of speed are done within 1.2 s; if, while it
 /// is told to stand, it drifts by at most 0.1 body lengths/s over the last half of the hold, its torso within 20° of its start;
 /// if within 0.5 s of each press it leaves the ground in a flight that makes a [usable jump](super::JumpingRules), and nothing
@@ -202,6 +202,10 @@ fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reas
             }
         }
     }
+    // A short trial of training may happen to tell it nothing.
+    if moved.is_empty() && trajectory.seconds() > SECONDS - 0.5 * trajectory.time_step() {
+        reasons.push(Reason::NeverToldToMove { required: STRIDE });
+    }
     if let Some(Reason::SlowAnswer { time, from, to, share, required, .. }) = slowest {
         reasons.push(Reason::SlowAnswer { time, from, to, share, required, changes: slow, of: changes });
     }
@@ -274,8 +278,15 @@ mod tests {
     const PRESSED: f64 = 50.0;
     const LEAPS: f64 = 50.4;
 
-    /// What a puppet does that does as it is told, but for a change; and what it is told.
+    /// What is told from second 5 to second 35, and 0 before and after.
+    const SPEED: f32 = 1.0;
+
     fn reasons(seconds: f64, change: impl Fn(f64, &mut Pose)) -> Vec<Reason> {
+        reasons_told(SPEED, seconds, change)
+    }
+
+    /// What a puppet does that does as it is told, but for a change; and what it is told.
+    fn reasons_told(speed: f32, seconds: f64, change: impl Fn(f64, &mut Pose)) -> Vec<Reason> {
         let pose = |step: usize| {
             let time = step as f64 * TIME_STEP;
             let [begins, ends] = MOVES;
@@ -299,7 +310,7 @@ mod tests {
             let time = f64::from(snapshot.time) + 1e-4;
             let jump = (PRESSED..PRESSED + 0.2).contains(&time);
             since_press = if jump && since_press.is_infinite() { 0.0 } else { since_press + TIME_STEP as f32 };
-            let speed = if (MOVES[0]..MOVES[1]).contains(&time) { 1.0 } else { 0.0 };
+            let speed = if (MOVES[0]..MOVES[1]).contains(&time) { speed } else { 0.0 };
             snapshot.command = Command { speed, jump, since_press, ..Command::default() };
         }
         let report = GaitReport::measure(&body, &snapshots, Some(&PlayingRules)).expect("a trajectory");
@@ -314,6 +325,14 @@ mod tests {
     fn what_does_as_it_is_told_is_playable() {
         assert_eq!(reasons(60.0, |_, _| ()), []);
         assert_eq!(names(50.0, |_, _| ()), ["too-short"]);
+    }
+
+    #[test]
+    fn what_is_never_told_to_move_shows_nothing() {
+        let stands = |seconds: f64| reasons_told(0.0, seconds, |_, pose| pose.x = 0.0);
+        assert_eq!(stands(60.0), [Reason::NeverToldToMove { required: 0.5 }]);
+        let short = stands(54.0);
+        assert!(matches!(short[..], [Reason::TooShort { .. }]), "{short:?}");
     }
 
     #[test]
