@@ -125,7 +125,7 @@ impl Format {
             Self::Trace => &[".trace.csv"],
             Self::Csv => &[".csv"],
             Self::Gif => &[".gif"],
-            Self::Apng => &[".png"],
+            Self::Apng => &[".apng"],
             Self::Svg => &[".svg"],
             Self::Sprites => &[".json", ".png"],
             Self::Gltf => &[".gltf"],
@@ -192,4 +192,17 @@ fn trajectory(champion: &Champion, registry: &Registry, steps: Option<u32>) -> R
     let mut csv = Vec::new();
     recording.write_csv(world.body().unwrap_or(&Body::default()), &mut csv)?;
     Ok(csv)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_of_two_formats_may_lie_side_by_side() {
+        let endings: Vec<_> = Format::ALL.into_iter().flat_map(Format::endings).collect();
+        for (index, ending) in endings.iter().enumerate() {
+            assert!(!endings[..index].contains(ending), "{ending}");
+        }
+    }
 }

@@ -92,6 +92,20 @@ pub const VARIANTS: &[Variant] = &[
     Variant { name: "restarts as in BIPOP", change: |config| set_cma(config, "restart", "bipop") },
     Variant { name: "steps that begin with 0.5", change: |config| set_cma(config, "step_size", 0.5) },
     Variant { name: "steps that begin with 0.2", change: |config| set_cma(config, "step_size", 0.2) },
+    Variant {
+        name: "weights that stay small",
+        change: |config| {
+            set_cma(config, "greatest_growth", 1.0);
+            set_cma(config, "mean_decay", 0.01);
+        },
+    },
+    Variant {
+        name: "weights that may grow",
+        change: |config| {
+            set_cma(config, "greatest_growth", 1e4);
+            set_cma(config, "mean_decay", 0.0);
+        },
+    },
     Variant { name: "one start", change: |config| set_cma(config, "starts", 1) },
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },

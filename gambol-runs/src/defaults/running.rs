@@ -22,6 +22,9 @@ const ON_LEGS: [(&str, f64); 7] = [
     ("haste", -0.95),
 ];
 
+/// Weights of two legs with knees stay small: those that grow large make gaits that fail in other worlds (docs/gaits.md).
+const SMALL_WEIGHTS: [(&str, f64); 2] = [("greatest_growth", 1.0), ("mean_decay", 0.01)];
+
 /// The term that asks for a stride in each turn of the clock.
 pub(super) const RHYTHM: &str = "rhythm";
 
@@ -55,8 +58,11 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
     if legs <= 4 && (legs > 2 || joints == 1) {
         on_legs.push(with(TermSpec::new(RHYTHM, -1.0), "period", stride_of(body.clock.unwrap_or(period))));
     }
+    let has_knees = joints > 1;
+    let strategy = SMALL_WEIGHTS.into_iter().filter(|_| is_biped && has_knees);
     let unknown = MovementDefaults::unknown(body);
     MovementDefaults {
+        strategy: strategy.map(|(name, value)| (name.to_owned(), value.into())).collect(),
         steps: STEPS.0,
         training_steps: STEPS.1,
         // Twelve segments that snap to their angles lie still on half of the seeds.

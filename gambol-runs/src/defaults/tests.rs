@@ -41,6 +41,7 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         ("biped-1", "running", 0.39, 10.0, 0.5, true),
         ("biped-2", "backwards", 0.39, 10.0, 0.5, true),
         ("biped-1", "walking", 0.5, 10.0, 0.5, false),
+        ("biped-2", "running", 0.39, 10.0, 0.5, true),
         ("tetrapod-1", "running", 0.5, 10.0, 0.5, true),
         ("decapod-1", "running", 0.42, 10.0, 0.5, false),
         ("apod", "running", 0.8, 15.0, 0.5, false),
@@ -53,6 +54,8 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         assert_eq!(config.controller.hidden, [4], "{name}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
         assert_eq!((settings.step_size, settings.starts), (step_size, 4), "{name}");
+        let stay_small = (settings.greatest_growth, settings.mean_decay) == (1.0, 0.01);
+        assert_eq!(stay_small, creature == "biped-2", "weights: {name}");
         assert_eq!((config.physics.motor_gain, config.trials.count), (200.0, 3), "{name}");
         assert!(matches!(config.controller.actuation, Actuation::Angle { gain: found } if found == gain), "{name}");
         assert_eq!(config.variation.bumps > 0.0, bumps, "{name}");

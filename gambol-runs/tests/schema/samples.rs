@@ -356,6 +356,7 @@ fn strategies() -> Vec<(String, Value)> {
         ("ars", json!({})),
         ("cma-es", json!({ "population": 8, "least_deviation": 1e-9 })),
         ("cma-es", json!({ "step_size": 1000, "least_deviation": 0.1 })),
+        ("cma-es", json!({ "greatest_growth": 1, "mean_decay": 0.5 })),
         (
             "conventional",
             json!({ "stagnation_boost": { "patience": 10, "factor": 1.5, "limit": 4 }, "elites": 0, "population": 1_000_000 }),

@@ -110,8 +110,13 @@ impl Distribution {
         self.step_size * self.covariance.greatest_deviation()
     }
 
+    /// Draws the mean to 0, by this share of itself.
+    pub(super) fn decay(&mut self, share: f64) {
+        self.mean.iter_mut().for_each(|mean| *mean *= 1.0 - share);
+    }
+
     /// Keeps the greatest deviation of a weight within these limits.
-    pub(super) fn limit_deviation(&mut self, least: f64, greatest: f64) {
+    pub(super) fn limit_deviation(&mut self, [least, greatest]: [f64; 2]) {
         let deviation = self.covariance.greatest_deviation();
         self.step_size = self.step_size.max(least / deviation).min(greatest / deviation);
     }

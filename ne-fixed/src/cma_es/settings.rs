@@ -21,6 +21,14 @@ pub struct CmaEsSettings {
     /// not get finer than that; with restarts it then begins anew.
     #[cfg_attr(feature = "schema", schemars(range(min = 1e-9, max = 1000.0)))]
     pub least_deviation: f64,
+    /// To how many times `step_size` the greatest deviation of a weight may grow, from 1 to 10,000; default 10,000. Where worlds
+    /// vary, ranks are partly chance and deviations grow without end: saturated neurons then switch joints to and fro.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 10_000.0)))]
+    pub greatest_growth: f64,
+    /// The share of itself that each weight of the mean loses in a generation, from 0 to 0.5; default 0. Weights that hardly matter stay
+    /// small so.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.5)))]
+    pub mean_decay: f64,
     /// Which covariance matrices are adapted; default separable.
     pub covariance: CovarianceModel,
     /// When a search that has ended begins anew; default never.
@@ -43,6 +51,8 @@ impl Default for CmaEsSettings {
             population: None,
             step_size: 0.5,
             least_deviation: 1e-5,
+            greatest_growth: Self::MOST_GROWTH,
+            mean_decay: 0.0,
             covariance: CovarianceModel::default(),
             restart: Restart::default(),
             starts: 1,
@@ -76,6 +86,14 @@ impl CmaEsSettings {
         Self { population: Some(64), least_deviation: 0.1, restart, starts: 4, ..Self::default() }
     }
 
+    /// The greatest deviation that a weight may have.
+    pub(super) fn greatest_deviation(&self) -> f64 {
+        self.greatest_growth * self.step_size
+    }
+
+    /// A search diverges when a deviation has grown by this much.
+    pub(super) const MOST_GROWTH: f64 = 1e4;
+
     /// The greatest population.
     pub(super) const MAX_POPULATION: usize = 1_000_000;
 
@@ -97,6 +115,8 @@ impl CmaEsSettings {
         }
         SettingError::check_range("step_size", self.step_size, 1e-6, 1000.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-9, self.step_size)?;
+        SettingError::check_range("greatest_growth", self.greatest_growth, 1.0, Self::MOST_GROWTH)?;
+        SettingError::check_range("mean_decay", self.mean_decay, 0.0, 0.5)?;
         SettingError::check_range("starts", self.starts as f64, 1.0, 1000.0)?;
         SettingError::check_range("start_generations", self.start_generations as f64, 1.0, 1e6)?;
         self.initial_mean.validate().map_err(|error| error.within("initial_mean"))

@@ -88,9 +88,6 @@ const REVIVED: f64 = 0.3;
 /// had begun to diverge where it ended has nothing else to say.
 const GREATEST_RETURN: f64 = 3.0;
 
-/// The search diverges when a deviation has grown by this much.
-const GREATEST_GROWTH: f64 = 1e4;
-
 impl CmaEs {
     /// The most weights a search with all covariances takes: time and memory of more are beyond reason.
     pub const MOST_WEIGHTS_OF_FULL: usize = 4096;
@@ -169,7 +166,7 @@ impl CmaEs {
         // A search that is elsewhere knows less than the one that it left.
         let left = self.kept.filter(|_| self.restarts.is_elsewhere()).map(|kept| kept.distribution);
         let distribution = left.or(self.distribution).map(|mut distribution| {
-            distribution.limit_deviation(REVIVED * first, f64::INFINITY);
+            distribution.limit_deviation([REVIVED * first, f64::INFINITY]);
             distribution.remapped(growth, model, first)
         });
         let mut restarts = next.restarts.clone();
@@ -228,7 +225,7 @@ impl CmaEs {
     fn has_ended(&self, distribution: &Distribution) -> bool {
         let deviation = distribution.greatest_deviation();
         deviation <= self.settings.least_deviation
-            || deviation >= GREATEST_GROWTH * self.restarts.step_size
+            || deviation >= CmaEsSettings::MOST_GROWTH * self.restarts.step_size
             || distribution.covariance.is_degenerate()
             || self.history.stagnates(self.topology.weight_count(), self.restarts.population)
             || self.restarts.failed_generations >= equal_length(self.topology.weight_count(), self.restarts.population)
@@ -285,7 +282,8 @@ impl CmaEs {
         if let Some(kept) = best {
             self.restarts.back(kept.population, self.settings.step_size);
             let mut distribution = kept.distribution.clone();
-            distribution.limit_deviation(REVIVED * self.settings.step_size, GREATEST_RETURN * self.settings.step_size);
+            let greatest = self.settings.greatest_growth.min(GREATEST_RETURN);
+            distribution.limit_deviation([REVIVED, greatest].map(|growth| growth * self.settings.step_size));
             self.distribution = Some(distribution);
         } else {
             let first = Self::first_population(&self.settings, &self.topology);
@@ -304,7 +302,7 @@ impl CmaEs {
             let mean = std::mem::take(&mut distribution.mean);
             *distribution = Distribution { updates, ..Distribution::new(mean, distribution.step_size, covariance) };
         }
-        distribution.limit_deviation(self.settings.least_deviation, GREATEST_GROWTH * self.settings.step_size);
+        distribution.limit_deviation([self.settings.least_deviation, self.settings.greatest_deviation()]);
     }
 }
 
@@ -353,6 +351,12 @@ impl Strategy for CmaEs {
             if scores[order[0]] == scores[order[(order.len() * 7).div_ceil(10) - 1]] {
                 // Flat fitness, appendix B.3: the answer is farther away.
                 distribution.step_size *= libm::exp(0.2 + parameters.step_size_rate / parameters.step_size_damping);
+            }
+            if self.settings.mean_decay > 0.0 {
+                distribution.decay(self.settings.mean_decay);
+            }
+            if self.settings.greatest_growth < CmaEsSettings::MOST_GROWTH {
+                distribution.limit_deviation([0.0, self.settings.greatest_deviation()]);
             }
             let ranked: Vec<_> = order.iter().map(|&index| scores[index]).collect();
             self.history.push(&ranked, n, distribution.updates);

@@ -93,7 +93,11 @@ fn runs_are_the_same_for_ever() {
 #[test]
 fn errors_of_settings_name_the_field() {
     type Change = fn(&mut CmaEsSettings);
-    let changes: [(Change, &str); 9] = [
+    let changes: [(Change, &str); 13] = [
+        (|s| s.greatest_growth = 0.9, "greatest_growth = 0.9: must be from 1 to 10000"),
+        (|s| s.greatest_growth = f64::INFINITY, "greatest_growth = inf: must be from 1 to 10000"),
+        (|s| s.mean_decay = -0.1, "mean_decay = -0.1: must be from 0 to 0.5"),
+        (|s| s.mean_decay = f64::NAN, "mean_decay = NaN: must be from 0 to 0.5"),
         (|s| s.population = Some(1), "population = 1: must be from 2 to 1000000"),
         (|s| s.population = Some(1_000_001), "population = 1000001: must be from 2 to 1000000"),
         (|s| s.step_size = 0.0, "step_size = 0: must be from 0.000001 to 1000"),
@@ -281,6 +285,39 @@ fn the_deviation_stays_above_its_least() {
         assert!(statistic(&strategy, "greatest_deviation") > 0.1 - 1e-9);
     }
     assert!(statistic(&strategy, "greatest_deviation") < 0.11);
+}
+
+#[test]
+fn deviations_grow_no_further_than_is_said_whatever_restarts() {
+    for restart in [Restart::None, Restart::Ipop, Restart::Returning] {
+        let settings = CmaEsSettings { step_size: 0.35, greatest_growth: 2.0, restart, ..CmaEsSettings::default() };
+        let mut strategy = new(settings);
+        let mut reached = false;
+        for number in 1..=300 {
+            generation_of(&mut strategy, number, &Evaluation::new(1.0));
+            let deviation = statistic(&strategy, "greatest_deviation");
+            assert!(deviation < 0.7 + 1e-9, "{restart:?}: {deviation} in generation {number}");
+            reached |= deviation > 0.7 - 1e-9;
+        }
+        assert!(reached, "{restart:?}");
+    }
+}
+
+#[test]
+fn weights_that_do_not_matter_decay() {
+    let farthest = |mean_decay: f64| {
+        let initial_mean = Initialization::Uniform { limit: 50.0 };
+        let settings = CmaEsSettings { mean_decay, initial_mean, greatest_growth: 1.0, ..Default::default() };
+        let mut strategy = new(settings);
+        for number in 1..=300 {
+            generation_of(&mut strategy, number, &Evaluation::new(1.0));
+        }
+        let mean = strategy.recommendation().expect("a mean");
+        mean.weights().iter().map(|weight| weight.abs()).fold(0.0, f32::max)
+    };
+    assert!(farthest(0.0) > 20.0);
+    // 50 × 0.98³⁰⁰ is 0.1; the rest is chance.
+    assert!(farthest(0.02) < 5.0, "{}", farthest(0.02));
 }
 
 #[test]
