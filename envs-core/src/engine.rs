@@ -46,23 +46,10 @@ pub trait Engine: Clone + Send + Sync {
     /// Writes where every part is and whether it presses on the ground. As many as the creature has parts.
     fn look(&self, parts: &mut [PartState]);
 
-    /// The torque the motor of a hinge gave in the last step, N·m: as solvers have it, on the parent part.
-    ///
-    /// Solvers tell the torque of the last substep alone. Of two that is enough; of more a motor may have its speed long before. So
-    /// the mean of the step is guessed: the torque of the last substep counts by its [share](last_substep_share), and for the rest the
-    /// torque by which the motor answers the mean of its speeds before and after the step. It is that of the last substep or this mean,
-    /// whichever is more: work that motors did must not look like energy from nowhere.
+    /// The torque the motor of a hinge gave at the end of the last step, N·m: as solvers have it, on the parent part.
     fn motor_torque(&self, hinge: usize) -> f32;
 
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is
     /// further.
     fn distance_to_ground(&self, from: [f32; 2], angle: f32, length: f32) -> f32;
-}
-
-/// The share of a step that the last of so many substeps speaks for in [`Engine::motor_torque`]: of one and two all of it.
-///
-/// Weightless legs that get up to 10 rad/s in a step of 1/50 s, both hips of biped-1 at 250 N·m: the torque of the last substep makes 1.2 to
-/// 2.4 times the energy that they gain of one and two substeps, and 0.7 of three. With the guess it is 2.9 to 5 times of three to eight.
-pub fn last_substep_share(substeps: u32) -> f32 {
-    if substeps > 2 { 1.0 / substeps as f32 } else { 1.0 }
 }

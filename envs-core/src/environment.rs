@@ -309,7 +309,7 @@ impl<E: Engine> CreatureEnvironment<E> {
         &self.plan.terrain
     }
 
-    /// The torque each motor gave in the last step, N·m ([how it is told](Engine::motor_torque)), in order of the outputs: positive where it turns the child
+    /// The torque each motor gave at the end of the last step, N·m, in order of the outputs: positive where it turns the child
     /// part counter-clockwise. (Solvers give the impulse on the parent.)
     pub fn motor_torques(&self) -> impl Iterator<Item = f32> + '_ {
         self.plan.actuated.iter().map(|actuated| -self.state.engine.motor_torque(actuated.hinge))

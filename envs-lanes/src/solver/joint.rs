@@ -33,12 +33,6 @@ struct Motor<const W: usize> {
     inverse: Lanes<W>,
     gain: Lanes<W>,
     impulse: Lanes<W>,
-    /// N·m.
-    top_torque: Lanes<W>,
-    /// The torque for each rad/s that is lacking, N·m·s.
-    strength: Lanes<W>,
-    /// How fast the hinge turned before the last step, rad/s.
-    before: Lanes<W>,
 }
 
 /// How far a joint may move from the middle of its range.
@@ -196,9 +190,6 @@ impl<const W: usize> Joint<W> {
             inverse: Lanes::ZERO,
             gain: Lanes::ZERO,
             impulse: Lanes::ZERO,
-            top_torque: Lanes::ZERO,
-            strength: Lanes::ZERO,
-            before: Lanes::ZERO,
         };
         Self {
             parent: hinge.parent,
@@ -216,9 +207,6 @@ impl<const W: usize> Joint<W> {
     /// Sets what a lane's motor can do; it holds still until it is asked for a speed.
     pub(super) fn reset_motor(&mut self, lane: usize, top_torque: f32, gain: f32, substep: f32, bodies: &[Body<W>]) {
         let Some(motor) = &mut self.motor else { return };
-        motor.top_torque.0[lane] = top_torque;
-        motor.strength.0[lane] = gain;
-        motor.before.0[lane] = 0.0;
         let gain = 1.0 / (substep * gain);
         let own = bodies[self.parent].inverse_inertia.0[lane] + bodies[self.child].inverse_inertia.0[lane];
         motor.wanted.0[lane] = 0.0;
@@ -236,9 +224,6 @@ impl<const W: usize> Joint<W> {
         motor.inverse.0[lane] = from.inverse.0[0];
         motor.gain.0[lane] = from.gain.0[0];
         motor.impulse.0[lane] = from.impulse.0[0];
-        motor.top_torque.0[lane] = from.top_torque.0[0];
-        motor.strength.0[lane] = from.strength.0[0];
-        motor.before.0[lane] = from.before.0[0];
     }
 
     /// The speeds asked of the motors, rad/s, to be set.
@@ -258,25 +243,6 @@ impl<const W: usize> Joint<W> {
     #[inline(always)]
     pub(super) fn motor_impulse(&self) -> Lanes<W> {
         self.motor.as_ref().map_or(Lanes::ZERO, |motor| motor.impulse)
-    }
-
-    /// Remembers how fast the hinge turns before a step.
-    #[inline(always)]
-    pub(super) fn begin(&mut self, bodies: &[Body<W>]) {
-        if let Some(motor) = &mut self.motor {
-            motor.before = bodies[self.child].spin - bodies[self.parent].spin;
-        }
-    }
-
-    /// The torque the motor gave in the last step, N·m, as [`Engine::motor_torque`](envs_core::Engine::motor_torque) has it.
-    #[inline(always)]
-    pub(super) fn motor_torque(&self, bodies: &[Body<W>], pace: &Pace<W>) -> Lanes<W> {
-        let Some(motor) = &self.motor else { return Lanes::ZERO };
-        let last = motor.impulse / pace.substep;
-        let speed = Lanes::splat(0.5) * (motor.before + (bodies[self.child].spin - bodies[self.parent].spin));
-        let before = ((speed - motor.wanted) * motor.strength).clamp(-motor.top_torque, motor.top_torque);
-        let mean = last * pace.last_share + before * (Lanes::ONE - pace.last_share);
-        last.abs().less(mean.abs()).select(mean, last)
     }
 
     /// The rows for where the bodies are now.

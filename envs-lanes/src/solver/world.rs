@@ -156,10 +156,10 @@ impl<const W: usize> LaneWorld<W> {
         pressing.reduce(Mask::or).unwrap_or(Mask::NONE).select(Lanes::ONE, Lanes::ZERO)
     }
 
-    /// The torque the motor of a hinge gave in the last step, N·m.
+    /// The torque the motor of a hinge gave at the end of the last step, N·m.
     #[inline(always)]
     pub(crate) fn motor_torques(&self, hinge: usize) -> Lanes<W> {
-        self.joints[self.joint_of[hinge]].motor_torque(&self.bodies, &self.pace)
+        self.joints[self.joint_of[hinge]].motor_impulse() / self.pace.substep
     }
 
     /// The larger velocity component of the part for which it is largest, m/s; NaN if a number is not finite.
@@ -247,7 +247,7 @@ impl<const W: usize> LaneWorld<W> {
     /// about twice as long, and is no faster.
     pub(crate) fn step(&mut self, worker: impl Worker, mut stopwatch: Option<&mut Laps>) {
         let stopwatch = &mut stopwatch;
-        work!(worker, LaneWorld, self, begin);
+        work!(worker, LaneWorld, self, find_contacts);
         lap(stopwatch, Part::FindContacts);
         for done in 1..=self.pace.most_substeps {
             self.substep(worker, stopwatch);
@@ -283,10 +283,7 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     #[inline(always)]
-    fn begin(&mut self) {
-        for joint in &mut self.joints {
-            joint.begin(&self.bodies);
-        }
+    fn find_contacts(&mut self) {
         self.contacts.find(&self.bodies, self.plan.settings.prediction_distance, &self.pace);
     }
 
