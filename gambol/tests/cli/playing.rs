@@ -33,6 +33,8 @@ fn a_character_is_trained_in_stages_judged_by_commands_and_its_champion_verified
         |gait: &mut Command| String::from_utf8(gait.output()?.stdout).map_err(Box::<dyn std::error::Error>::from);
     let said = judged(gambol("gait").arg(&run))?;
     assert_says(&said, &["tetrapod-2 playing: not usable:", "body lengths/s", "allowed"]);
+    let robust = succeed(gambol("robust").arg(&run).args(["--perturbations", "5"]));
+    assert_says(&robust, &["keeps            – (each world has commands of its own)"]);
     // A recording has the commands too, and is judged alike; one that has none cannot be.
     let csv = folder.path().join("played.csv");
     succeed(gambol("replay").arg(&champion).arg("--trajectory").arg(&csv));

@@ -166,7 +166,7 @@ impl CmaEs {
         // A search that is elsewhere knows less than the one that it left.
         let left = self.kept.filter(|_| self.restarts.is_elsewhere()).map(|kept| kept.distribution);
         let distribution = left.or(self.distribution).map(|mut distribution| {
-            distribution.limit_deviation([REVIVED * first, f64::INFINITY]);
+            distribution.limit_deviation([REVIVED * first, next.settings.greatest_deviation()]);
             distribution.remapped(growth, model, first)
         });
         let mut restarts = next.restarts.clone();

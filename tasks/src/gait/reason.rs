@@ -199,8 +199,8 @@ impl fmt::Display for Reason {
             }
             Self::NeverToldToMove { required } => write!(
                 f,
-                "the commands never tell it to move for long enough: no last half of a hold has {required} s outside of jumps, one \
-                 required"
+                "never told to move for long enough: no hold that tells it to has {required} s outside of jumps in its last half, \
+                 one required"
             ),
             Self::OffSpeed { time, wanted, speed, allowed, holds, of } => write!(
                 f,

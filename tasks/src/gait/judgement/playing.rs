@@ -32,8 +32,8 @@ const OTHER_CONTACT: f64 = 0.01;
 
 /// Playing: 60 s of commands.
 ///
-/// It is playable if it is told to move at all; if, while it is told to move, its mean speed over the last half of each hold is within 0.25 body lengths/s or
-/// 20 % of the commanded speed, whichever is more, and three quarters of a change of speed are done within 1.2 s; if, while it
+/// It is playable if it is told to move at all; if, while it is told to move, its mean speed over the last half of each hold is
+/// within 0.25 body lengths/s or 20 % of the commanded speed, whichever is more, and three quarters of a change of speed are done within 1.2 s; if, while it
 /// is told to stand, it drifts by at most 0.1 body lengths/s over the last half of the hold, its torso within 20° of its start;
 /// if within 0.5 s of each press it leaves the ground in a flight that makes a [usable jump](super::JumpingRules), and nothing
 /// but feet touches the ground in the 1.5 s after the press; if the torso stays within 45°, and parts that are no feet touch
@@ -278,14 +278,12 @@ mod tests {
     const PRESSED: f64 = 50.0;
     const LEAPS: f64 = 50.4;
 
-    /// What is told from second 5 to second 35, and 0 before and after.
-    const SPEED: f32 = 1.0;
-
+    /// What is against a puppet that does as it is told, but for a change.
     fn reasons(seconds: f64, change: impl Fn(f64, &mut Pose)) -> Vec<Reason> {
-        reasons_told(SPEED, seconds, change)
+        reasons_told(1.0, seconds, change)
     }
 
-    /// What a puppet does that does as it is told, but for a change; and what it is told.
+    /// The same, of one that is told this speed while it moves.
     fn reasons_told(speed: f32, seconds: f64, change: impl Fn(f64, &mut Pose)) -> Vec<Reason> {
         let pose = |step: usize| {
             let time = step as f64 * TIME_STEP;
