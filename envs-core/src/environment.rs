@@ -512,10 +512,7 @@ impl<E: Engine> State<E> {
         self.snapshot.command = self.commands.at(self.snapshot.time, &self.snapshot.command, self.time_step);
         let parts = &self.snapshot.parts;
         self.landings.observe(parts.iter().any(|part| part.touching), self.snapshot.time);
-        let power = |&ActuatedHinge { hinge, parent, child }: &ActuatedHinge| {
-            (self.engine.motor_torque(hinge) * (parts[child].spin - parts[parent].spin)).abs()
-        };
-        let power: f32 = plan.actuated.iter().map(power).sum();
+        let power: f32 = plan.actuated.iter().map(|actuated| self.engine.motor_power(actuated.hinge)).sum();
         self.snapshot.motor_work += f64::from(power) * f64::from(self.time_step);
         Ok(())
     }

@@ -61,7 +61,7 @@ pub use anatomy::body_of;
 pub use body::{RestHinge, RestPose, next_gap};
 pub use bumps::bumps;
 pub use conditions::Conditions;
-pub use engine::Engine;
+pub use engine::{Engine, last_substep_share};
 pub use environment::{ActuatedHinge, CreatureEnvironment, check_start};
 pub use error::EnvironmentError;
 pub use ground::{Ground, GroundShape};

@@ -304,9 +304,8 @@ impl<const W: usize> Batch<W> {
         let Self { world, actuated, power, fastest, .. } = self;
         *fastest = world.fastest();
         *power = Lanes::ZERO;
-        for &ActuatedHinge { hinge, parent, child } in actuated.iter() {
-            let speed = world.body(child).spin - world.body(parent).spin;
-            *power += (world.motor_torques(hinge) * speed).abs();
+        for actuated in actuated.iter() {
+            *power += world.motor_powers(actuated.hinge);
         }
     }
 }

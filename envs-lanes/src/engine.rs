@@ -64,6 +64,10 @@ impl Engine for LaneEngine {
         self.world.motor_torques(hinge).0[0]
     }
 
+    fn motor_power(&self, hinge: usize) -> f32 {
+        self.world.motor_powers(hinge).0[0]
+    }
+
     fn distance_to_ground(&self, [x, y]: [f32; 2], angle: f32, length: f32) -> f32 {
         use crate::lanes::Lanes;
         self.world.distance_to_ground((Lanes([x]), Lanes([y])), angle, length).0[0]

@@ -1,5 +1,7 @@
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
-use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings};
+use envs_core::{
+    Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings, last_substep_share,
+};
 use ne_core::SettingError;
 use rapier2d::prelude::*;
 use tasks::PartState;
@@ -22,6 +24,8 @@ pub struct RapierWorld {
     ground: Vec<ColliderHandle>,
     /// The part a collider belongs to, by rapier's index of the collider.
     part_of: Vec<Option<usize>>,
+    /// The motor of each hinge.
+    motors: Vec<Motor>,
     /// Of the motors, N·m per rad/s.
     motor_gain: f32,
     /// How water feels each part; none out of the water.
@@ -49,9 +53,31 @@ impl Clone for RapierWorld {
             joints: self.joints.clone(),
             ground: self.ground.clone(),
             part_of: self.part_of.clone(),
+            motors: self.motors.clone(),
             motor_gain: self.motor_gain,
             hulls: self.hulls.clone(),
         }
+    }
+}
+
+/// What is asked of the motor of a hinge, and how it moved before the last step.
+#[derive(Clone, Copy, Debug)]
+struct Motor {
+    parent: RigidBodyHandle,
+    child: RigidBodyHandle,
+    /// N·m; 0 of a hinge without one.
+    top_torque: f32,
+    /// rad/s.
+    wanted: f32,
+    /// rad/s.
+    before: f32,
+}
+
+impl Motor {
+    /// How fast the hinge turns now, rad/s.
+    fn speed(&self, physics: &PhysicsWorld) -> f32 {
+        let spin = |body: RigidBodyHandle| physics.bodies[body].angvel();
+        spin(self.child) - spin(self.parent)
     }
 }
 
@@ -143,6 +169,8 @@ impl RapierWorld {
                 .motor_max_force(JointAxis::AngX, motor.top_torque * torque_factor);
         }
         let (parent, child) = (self.bodies[hinge.parent], self.bodies[hinge.child]);
+        let top_torque = hinge.motor.map_or(0.0, |motor| motor.top_torque * torque_factor);
+        self.motors.push(Motor { parent, child, top_torque, wanted: 0.0, before: 0.0 });
         self.joints.push(self.physics.insert_impulse_joint(parent, child, joint));
     }
 
@@ -192,6 +220,7 @@ impl Engine for RapierWorld {
             joints: Vec::new(),
             ground: Vec::new(),
             part_of: Vec::new(),
+            motors: Vec::new(),
             motor_gain: settings.motor_gain,
             hulls: Vec::new(),
         };
@@ -211,6 +240,7 @@ impl Engine for RapierWorld {
 
     /// Fetching a joint mutably makes rapier assemble it anew, so ask only when the speed changes.
     fn set_motor_speed(&mut self, hinge: usize, speed: f32) {
+        self.motors[hinge].wanted = speed;
         if let Some(joint) = self.physics.impulse_joints.get_mut(self.joints[hinge], false) {
             joint.data.set_motor_velocity(JointAxis::AngX, speed, self.motor_gain);
         }
@@ -226,6 +256,9 @@ impl Engine for RapierWorld {
     /// `false` if rapier met a body that is not finite and disabled it.
     fn step(&mut self) -> bool {
         self.drag();
+        for motor in &mut self.motors {
+            motor.before = motor.speed(&self.physics);
+        }
         self.physics.step();
         self.physics.quarantine().is_empty()
     }
@@ -257,6 +290,16 @@ impl Engine for RapierWorld {
             .impulse_joints
             .get(self.joints[hinge])
             .map_or(0.0, |joint| joint.data.motors[JointAxis::AngX as usize].impulse / substep)
+    }
+
+    fn motor_power(&self, hinge: usize) -> f32 {
+        let (last, motor) = (self.motor_torque(hinge), &self.motors[hinge]);
+        let after = motor.speed(&self.physics);
+        let speed = 0.5 * (motor.before + after);
+        let rest = ((speed - motor.wanted) * self.motor_gain).clamp(-motor.top_torque, motor.top_torque);
+        let share = last_substep_share(self.physics.integration_parameters.num_solver_iterations as u32);
+        let mean = last * share + rest * (1.0 - share);
+        (last * after).abs() + (mean.abs() - last.abs()).max(0.0) * speed.abs()
     }
 
     /// Asks the shapes themselves: rapier's own search knows of none before the first step.

@@ -8,7 +8,7 @@ pub struct Snapshot {
     /// The parts; the first is the torso. Never empty in a snapshot an environment shows.
     pub parts: Vec<PartState>,
     /// Work of all motors since the clock started, in J: the sum of |torque × relative speed| × time step, so that
-    /// braking costs as much as driving.
+    /// braking costs as much as driving. Of a step of more than two substeps a part of it is guessed, since solvers do not tell it.
     pub motor_work: f64,
     /// Energy that pushes from outside have given the body since the clock started, in J; below 0 where they slowed it down.
     pub push_work: f64,

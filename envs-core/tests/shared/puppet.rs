@@ -81,6 +81,12 @@ impl Engine for Puppet {
         self.motors[hinge].1 as f32
     }
 
+    /// Of a body that moves as it is told.
+    fn motor_power(&self, hinge: usize) -> f32 {
+        let Hinge { parent, child, .. } = self.hinges[hinge];
+        (self.motor_torque(hinge) * (self.parts[child].spin - self.parts[parent].spin)).abs()
+    }
+
     fn distance_to_ground(&self, [_, y]: [f32; 2], angle: f32, length: f32) -> f32 {
         if angle < 0.0 { (y / -angle.sin()).min(length) } else { length }
     }

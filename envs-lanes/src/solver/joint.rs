@@ -33,6 +33,12 @@ struct Motor<const W: usize> {
     inverse: Lanes<W>,
     gain: Lanes<W>,
     impulse: Lanes<W>,
+    /// N·m.
+    top_torque: Lanes<W>,
+    /// The torque for each rad/s that is lacking, N·m·s.
+    strength: Lanes<W>,
+    /// How fast the hinge turned before the last step, rad/s.
+    before: Lanes<W>,
 }
 
 /// How far a joint may move from the middle of its range.
@@ -190,6 +196,9 @@ impl<const W: usize> Joint<W> {
             inverse: Lanes::ZERO,
             gain: Lanes::ZERO,
             impulse: Lanes::ZERO,
+            top_torque: Lanes::ZERO,
+            strength: Lanes::ZERO,
+            before: Lanes::ZERO,
         };
         Self {
             parent: hinge.parent,
@@ -207,6 +216,9 @@ impl<const W: usize> Joint<W> {
     /// Sets what a lane's motor can do; it holds still until it is asked for a speed.
     pub(super) fn reset_motor(&mut self, lane: usize, top_torque: f32, gain: f32, substep: f32, bodies: &[Body<W>]) {
         let Some(motor) = &mut self.motor else { return };
+        motor.top_torque.0[lane] = top_torque;
+        motor.strength.0[lane] = gain;
+        motor.before.0[lane] = 0.0;
         let gain = 1.0 / (substep * gain);
         let own = bodies[self.parent].inverse_inertia.0[lane] + bodies[self.child].inverse_inertia.0[lane];
         motor.wanted.0[lane] = 0.0;
@@ -224,6 +236,9 @@ impl<const W: usize> Joint<W> {
         motor.inverse.0[lane] = from.inverse.0[0];
         motor.gain.0[lane] = from.gain.0[0];
         motor.impulse.0[lane] = from.impulse.0[0];
+        motor.top_torque.0[lane] = from.top_torque.0[0];
+        motor.strength.0[lane] = from.strength.0[0];
+        motor.before.0[lane] = from.before.0[0];
     }
 
     /// The speeds asked of the motors, rad/s, to be set.
@@ -243,6 +258,33 @@ impl<const W: usize> Joint<W> {
     #[inline(always)]
     pub(super) fn motor_impulse(&self) -> Lanes<W> {
         self.motor.as_ref().map_or(Lanes::ZERO, |motor| motor.impulse)
+    }
+
+    /// Remembers how fast the hinge turns before a step.
+    #[inline(always)]
+    pub(super) fn begin(&mut self, bodies: &[Body<W>]) {
+        let speed = self.speed(bodies);
+        if let Some(motor) = &mut self.motor {
+            motor.before = speed;
+        }
+    }
+
+    /// rad/s.
+    #[inline(always)]
+    fn speed(&self, bodies: &[Body<W>]) -> Lanes<W> {
+        bodies[self.child].spin - bodies[self.parent].spin
+    }
+
+    /// The mean power of the motor in the last step, W, as [`Engine::motor_power`](envs_core::Engine::motor_power) has it.
+    #[inline(always)]
+    pub(super) fn motor_power(&self, bodies: &[Body<W>], pace: &Pace<W>) -> Lanes<W> {
+        let Some(motor) = &self.motor else { return Lanes::ZERO };
+        let last = motor.impulse / pace.substep;
+        let after = self.speed(bodies);
+        let speed = Lanes::splat(0.5) * (motor.before + after);
+        let rest = ((speed - motor.wanted) * motor.strength).clamp(-motor.top_torque, motor.top_torque);
+        let mean = last * pace.last_share + rest * (Lanes::ONE - pace.last_share);
+        (last * after).abs() + (mean.abs() - last.abs()).max(Lanes::ZERO) * speed.abs()
     }
 
     /// The rows for where the bodies are now.

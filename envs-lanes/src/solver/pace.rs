@@ -1,6 +1,6 @@
 use super::softness::Softness;
 use crate::lanes::{Lanes, Mask};
-use envs_core::PhysicsSettings;
+use envs_core::{PhysicsSettings, last_substep_share};
 use std::f32::consts::FRAC_PI_4;
 
 /// The numbers a step needs that follow from the settings of a lane's trial.
@@ -8,6 +8,8 @@ use std::f32::consts::FRAC_PI_4;
 pub(super) struct Pace<const W: usize> {
     /// How many a time step has.
     substeps: Lanes<W>,
+    /// The [share](last_substep_share) of a time step that the last substep speaks for.
+    pub(super) last_share: Lanes<W>,
     /// In the lane that has the most.
     pub(super) most_substeps: u32,
     /// Whether some lanes have fewer.
@@ -31,6 +33,7 @@ impl<const W: usize> Pace<W> {
         let zero = Lanes::ZERO;
         Self {
             substeps: zero,
+            last_share: zero,
             most_substeps: 0,
             uneven: false,
             time_step: zero,
@@ -76,6 +79,7 @@ impl<const W: usize> Pace<W> {
 
     fn set_substeps(&mut self, lane: usize, substeps: f32) {
         self.substeps.0[lane] = substeps;
+        self.last_share.0[lane] = last_substep_share(substeps as u32);
         let most = self.substeps.0.iter().copied().fold(0.0, f32::max);
         self.most_substeps = most as u32;
         self.uneven = self.substeps.0.iter().any(|&substeps| substeps != most);

@@ -157,9 +157,14 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     /// The torque the motor of a hinge gave at the end of the last step, N·m.
-    #[inline(always)]
     pub(crate) fn motor_torques(&self, hinge: usize) -> Lanes<W> {
         self.joints[self.joint_of[hinge]].motor_impulse() / self.pace.substep
+    }
+
+    /// The mean power of the motor of a hinge in the last step, W.
+    #[inline(always)]
+    pub(crate) fn motor_powers(&self, hinge: usize) -> Lanes<W> {
+        self.joints[self.joint_of[hinge]].motor_power(&self.bodies, &self.pace)
     }
 
     /// The larger velocity component of the part for which it is largest, m/s; NaN if a number is not finite.
@@ -247,7 +252,7 @@ impl<const W: usize> LaneWorld<W> {
     /// about twice as long, and is no faster.
     pub(crate) fn step(&mut self, worker: impl Worker, mut stopwatch: Option<&mut Laps>) {
         let stopwatch = &mut stopwatch;
-        work!(worker, LaneWorld, self, find_contacts);
+        work!(worker, LaneWorld, self, begin);
         lap(stopwatch, Part::FindContacts);
         for done in 1..=self.pace.most_substeps {
             self.substep(worker, stopwatch);
@@ -283,7 +288,10 @@ impl<const W: usize> LaneWorld<W> {
     }
 
     #[inline(always)]
-    fn find_contacts(&mut self) {
+    fn begin(&mut self) {
+        for joint in &mut self.joints {
+            joint.begin(&self.bodies);
+        }
         self.contacts.find(&self.bodies, self.plan.settings.prediction_distance, &self.pace);
     }
 

@@ -115,6 +115,28 @@ fn a_motor_gives_its_top_torque_and_no_more() {
     assert!(undone < 0.7, "motor_gain no longer matters: {undone}");
 }
 
+/// rapier tells what a motor gave in the last substep. One that holds its speed hard has it after the first, and gives next to
+/// nothing in the last: its work would look like energy from nowhere.
+#[test]
+fn the_work_of_motors_is_booked_whatever_the_substeps() {
+    for solver_iterations in 1..=8 {
+        for motor_gain in [20.0, 200.0, 2000.0, 10_000.0] {
+            let blueprint = altered("biped-1", 5.0, |_| Motor { top_torque: 250.0, top_speed: 10.0 });
+            let settings = PhysicsSettings { gravity: 0.0, settle_time: 0.0, motor_gain, solver_iterations, ..OURS() };
+            let mut environment = gauge::environment(blueprint.clone(), settings);
+            environment.reset(Seed::of_run(1)).expect("settles");
+            let at_first = energy(&blueprint, environment.snapshot(), 0.0);
+            environment.act(&[1.0, -1.0]);
+            environment.step().expect("stable");
+            let gained = energy(&blueprint, environment.snapshot(), 0.0) - at_first;
+            let work = environment.snapshot().motor_work;
+            let told = format!("{solver_iterations} iterations, gain {motor_gain}: {work} J for {gained} J");
+            assert!(gained > 1.0 && work > 0.9 * gained, "{told}");
+            assert!(work < 2.6 * gained, "{told}");
+        }
+    }
+}
+
 /// Our ground is a half-space, which continuous collision detection passes over. On ground made of boxes, which terrain
 /// will be, it moves a fast foot without its leg: so the setting is 0, and this is why.
 fn joint_error_on_boxes(substeps: usize) -> f32 {

@@ -50,7 +50,7 @@ fn leap(body: &BodyFacts) -> MovementDefaults {
     let (modular, gain, period) = match body.legs {
         0 => (Some(LimbPhases::Alternating), 20.0, 1.0),
         1..=2 => (None, 20.0, body.pendulum(1.0)),
-        _ => (Some(LimbPhases::Together), 15.0, body.pendulum(1.0)),
+        _ => (Some(LimbPhases::Together), 10.0, body.pendulum(1.0)),
     };
     MovementDefaults { modular, gain, period, ..MovementDefaults::unknown(body) }
 }
