@@ -45,12 +45,12 @@ pub(super) fn hopping(body: &BodyFacts) -> MovementDefaults {
 }
 
 /// A leap with its run-up. Many legs leap together; two leap best if one net moves them both. The leap of a biped must follow
-/// closely, and many legs that snap at once tear at their joints.
+/// closely; many legs that snap at once tear at their joints, and stiff ones throw the body over.
 fn leap(body: &BodyFacts) -> MovementDefaults {
     let (modular, gain, period) = match body.legs {
         0 => (Some(LimbPhases::Alternating), 20.0, 1.0),
         1..=2 => (None, 20.0, body.pendulum(1.0)),
-        _ => (Some(LimbPhases::Together), 10.0, body.pendulum(1.0)),
+        _ => (Some(LimbPhases::Together), if body.joints == 1 { 10.0 } else { 15.0 }, body.pendulum(1.0)),
     };
     MovementDefaults { modular, gain, period, ..MovementDefaults::unknown(body) }
 }
