@@ -26,7 +26,7 @@ const FARTHEST: f32 = 500.0;
 #[serde(rename_all = "kebab-case")]
 pub enum Cause {
     /// Mounds on the ground. A terrain that is not flat has none, and is laid out anew, as in the worlds of all causes. In water
-    /// nothing changes.
+    /// there is no such world.
     Bumps,
     /// [Pushes](Variation::pushed) against the torso.
     Pushes,
@@ -43,6 +43,14 @@ pub enum Cause {
 impl Cause {
     /// The causes that take turns, in this order.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Pushes, Self::Friction, Self::Physics, Self::Together];
+
+    /// Those that take turns in water, where there is no ground.
+    pub const IN_WATER: [Self; 4] = [Self::Pushes, Self::Friction, Self::Physics, Self::Together];
+
+    /// Those that take turns where a judge has its creature.
+    pub(crate) fn all_of(judge: &Judge) -> &'static [Self] {
+        if judge.environment().settings().water.is_some() { &Self::IN_WATER } else { &Self::ALL }
+    }
 
     /// Its name, as in files.
     pub fn name(self) -> &'static str {
@@ -105,7 +113,8 @@ impl World {
     ) -> Self {
         let environment = judge.environment();
         let seed = seed.trial(index);
-        let cause = Cause::ALL[index as usize % Cause::ALL.len()];
+        let causes = Cause::all_of(judge);
+        let cause = causes[index as usize % causes.len()];
         let (terrain, blueprint) = (environment.terrain(), environment.blueprint());
         let mut stream = seed.stream(PERTURBATION);
         let landscape = if environment.settings().water.is_some() {
@@ -211,6 +220,17 @@ pub(crate) mod tests {
                     assert!(clear && x < right + 10.0 && x > left - 5.0, "{x}");
                 }
             }
+        }
+    }
+
+    /// One of bumps would be the unperturbed world, in which every champion is usable.
+    #[test]
+    fn every_world_in_water_is_perturbed() {
+        let judge = judge_in_water("apod", "swimming");
+        for index in 0..20 {
+            let World { cause, conditions, .. } = World::draw(Seed::of_run(3), index, &judge, 10.0);
+            assert_eq!(cause, Cause::IN_WATER[index as usize % 4]);
+            assert_ne!(conditions, Conditions::reference(judge.environment().outputs()), "{cause:?}");
         }
     }
 

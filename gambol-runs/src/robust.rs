@@ -38,7 +38,7 @@ pub struct Robustness {
     pub judged_as: String,
     /// How they look at them.
     pub view: View,
-    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world. Nor has water.
+    /// Whether the ground has bumps; a terrain that is not flat has none, and is laid out anew in each world.
     #[serde(skip)]
     pub bumpy: bool,
     /// Whether it follows commands: those of each world are others, so that its progress says nothing.
@@ -217,7 +217,7 @@ impl PerturbedReplays {
             rules: (rules.name().to_owned(), rules.view()),
             commanded: rules.needs_commands(),
             unperturbed: judge.judge(&champion.network),
-            bumpy: champion.terrain.is_flat() && champion.physics.water.is_none(),
+            bumpy: champion.terrain.is_flat(),
             network: champion.network.clone(),
             perturbations: perturbations.clone(),
             trials: Vec::new(),

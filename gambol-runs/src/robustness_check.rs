@@ -49,13 +49,15 @@ impl Trial {
     }
 
     /// Which perturbed world, of those that [`World::draw`] numbers, and so many body lengths the bumps reach there; `None`: a near
-    /// one. Causes take turns in these numbers, and all together come last. In the short trial bumps reach a quarter of what a fast
+    /// one. So many causes take turns in these numbers, and all together come last. In the short trial bumps reach a quarter of what a fast
     /// gait covers: beyond it the ground is flat, and physics faster.
-    fn perturbed(self, index: u32) -> Option<(u32, f32)> {
-        let causes = Cause::ALL.len() as u32;
+    fn perturbed(self, index: u32, causes: u32) -> Option<(u32, f32)> {
         match self {
             Self::Short => Some((index, 15.0)),
-            Self::Long => Some((Self::Short.worlds() as u32 + causes * index + causes - 1, 60.0)),
+            Self::Long => {
+                let after_short = (Self::Short.worlds() as u32).next_multiple_of(causes);
+                Some((after_short + causes * index + causes - 1, 60.0))
+            }
             Self::Commands | Self::MoreCommands => None,
         }
     }
@@ -126,7 +128,8 @@ impl RobustnessCheck {
 
     fn draw(&self, trial: Trial) -> Vec<(Conditions, Landscape)> {
         let (environment, lot) = (self.judge.environment(), self.lot(trial));
-        let world = |index| match trial.perturbed(index) {
+        let causes = Cause::all_of(&self.judge).len() as u32;
+        let world = |index| match trial.perturbed(index, causes) {
             Some((number, reach)) => {
                 let reach = reach * environment.blueprint().body_length();
                 let World { conditions, landscape, .. } =

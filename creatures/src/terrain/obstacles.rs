@@ -159,7 +159,7 @@ impl ObstacleKind {
         match self {
             Self::Gaps => "gaps crossed",
             Self::Hurdles => "hurdles cleared",
-            Self::Stairs => "stairs climbed",
+            Self::Stairs => "stairs passed",
             Self::Slopes => "slopes passed",
             Self::Rough => "rough stretches passed",
         }

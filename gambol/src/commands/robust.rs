@@ -18,7 +18,7 @@ Examples:
 
 Worlds take turns in what is changed:
   bumps      mounds on the ground, up to 2 cm high; a terrain has none, and is laid out anew in
-             every world
+             every world; in water there are no such worlds
   pushes     against the torso, up to 0.3 m/s of the whole body, every 2 to 4 s
   friction   friction ± 30 %, mass and motor torque ± 10 %, the start pose by up to 3 degrees
   physics    what engines differ in: 1 to 8 solver iterations, joints of 30 Hz to 1 kHz, contacts
@@ -92,7 +92,6 @@ fn explain(name: &str, robustness: &Robustness) -> io::Result<()> {
     say!("\n  worlds           usable")?;
     for share in &robustness.causes {
         let cause = match share.cause {
-            Cause::Bumps if robustness.view.in_water => "in water",
             Cause::Bumps if !robustness.bumpy => "another terrain",
             Cause::Variation => "as varied",
             cause => cause.name(),
