@@ -1,7 +1,5 @@
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
-use envs_core::{
-    Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings, last_substep_share,
-};
+use envs_core::{Conditions, Engine, EnvironmentError, Ground, GroundShape, Hull, PhysicsSettings, last_substep_share};
 use ne_core::SettingError;
 use rapier2d::prelude::*;
 use tasks::PartState;
