@@ -51,10 +51,11 @@ pub trait Engine: Clone + Send + Sync {
 
     /// The mean power of the motor of a hinge in the last step, W; braking counts as driving.
     ///
-    /// Its torque at the end of the step, times its speed there. Solvers tell the torque of the last substep alone. Of two substeps that is
-    /// enough; of more, a motor may have had its speed long before. What that leaves out is guessed: where the mean torque is more than that
-    /// of the last substep, the difference times the mean of the speeds before and after the step. In this mean the last substep counts by its
-    /// [share](last_substep_share), and for the rest stands the torque by which the motor answers the mean of the speeds.
+    /// Its torque at the end of the step, times its speed there. Solvers tell the torque of the last substep alone. Of two
+    /// substeps that is enough; of more, a motor may have had its speed long before. What that leaves out is guessed: where the
+    /// mean torque is more than that of the last substep, the difference times the mean of the speeds before and after the step.
+    /// In the mean torque the last substep counts by its [share](last_substep_share), and for the rest stands the torque by which
+    /// the motor answers the mean of the speeds.
     fn motor_power(&self, hinge: usize) -> f32;
 
     /// The distance from a point to the ground along a ray at `angle` (rad, in the world), m; `length` if it is
@@ -64,8 +65,9 @@ pub trait Engine: Clone + Send + Sync {
 
 /// The share of a step that the last of so many substeps speaks for in [`Engine::motor_power`]: of one and two all of it.
 ///
-/// Legs of biped-1 that get up to 10 rad/s in a step of 1/50 s without gravity, both hips at 250 N·m: what is booked makes 2.2 and 1.1 to 1.5
-/// times the energy that they gain of one and two substeps, and 1.9 to 2.5 times of three to eight (0.7 times by the last substep alone).
+/// Legs of biped-1 that get up to 10 rad/s in a step of 1/50 s without gravity, both hips at 250 N·m: what is booked makes 2.2
+/// and 1.1 to 1.5 times the energy that they gain of one and two substeps, and 1.9 to 2.5 times of three to eight (by the last
+/// substep alone 0.7 times of three).
 pub fn last_substep_share(substeps: u32) -> f32 {
     if substeps > 2 { 1.0 / substeps as f32 } else { 1.0 }
 }

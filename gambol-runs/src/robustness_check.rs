@@ -18,7 +18,7 @@ const ROBUSTNESS_CHECK: Purpose = Purpose::new("robustness check");
 /// Which worlds a candidate is tried in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Trial {
-    /// As many of each cause, for at most 15 s: most of what fails in a minute fails by then.
+    /// As many of each cause (in water one less of the last), for at most 15 s: most of what fails in a minute fails by then.
     Short,
     /// All causes together, for as long as a gait is judged.
     Long,
@@ -49,8 +49,8 @@ impl Trial {
     }
 
     /// Which perturbed world, of those that [`World::draw`] numbers, and so many body lengths the bumps reach there; `None`: a near
-    /// one. So many causes take turns in these numbers, and all together come last. In the short trial bumps reach a quarter of what a fast
-    /// gait covers: beyond it the ground is flat, and physics faster.
+    /// one. So many `causes` take turns in these numbers, and all together come last. In the short trial bumps reach a quarter of
+    /// what a fast gait covers: beyond it the ground is flat, and physics faster.
     fn perturbed(self, index: u32, causes: u32) -> Option<(u32, f32)> {
         match self {
             Self::Short => Some((index, 15.0)),
@@ -183,6 +183,17 @@ pub(crate) mod tests {
     }
 
     /// Against the same worlds, one by one in rapier.
+    #[test]
+    fn the_long_trial_is_of_all_causes_together_and_in_other_worlds_than_the_short_one() {
+        for causes in [Cause::ALL.len(), Cause::IN_WATER.len()].map(|causes| causes as u32) {
+            for index in 0..Trial::Long.worlds() as u32 {
+                let (number, _) = Trial::Long.perturbed(index, causes).expect("a perturbed world");
+                assert_eq!(number % causes, causes - 1, "{causes} causes");
+                assert!(number >= Trial::Short.worlds() as u32, "{causes} causes");
+            }
+        }
+    }
+
     #[test]
     fn a_gait_is_tried_in_every_world() {
         let counts: Vec<usize> = (1..=3)
