@@ -459,6 +459,33 @@ fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
 }
 
 #[test]
+fn landing_is_the_time_after_a_leap_and_less_of_it_where_the_body_leaps_on_tilted() {
+    /// In the air from 1 to 1.6 s, the torso turned from 0.9 s on.
+    let leaps = |degrees: f32, until: f32| {
+        script(until, move |time| {
+            let share = ((time - 1.0) / 0.6).clamp(0.0, 1.0);
+            let lifted = if share > 0.0 && share < 1.0 { 0.1 } else { 0.0 };
+            let turn = if time > 0.9 { degrees.to_radians() } else { 0.0 };
+            Pose { rise: 1.2 * share * (1.0 - share), turn, lifted: [lifted; 2], ..Pose::default() }
+        })
+    };
+    let body = puppet();
+    let landing = |degrees: f32, until: f32| value(Landing::default(), &body, &leaps(degrees, until));
+    // It is a leap after 0.22 s, and from its end on the next has 1.2 s.
+    let on = landing(0.0, 2.75);
+    assert!((on - 1.53).abs() < 0.03, "{on}");
+    assert!((landing(0.0, 4.0) - on - 1.25).abs() < 0.03, "then it stands");
+    for (degrees, share) in [(22.5, 0.875), (-45.0, 0.5), (90.0, 0.5)] {
+        let tilted = landing(degrees, 2.75);
+        assert!((tilted / on - share).abs() < 1e-3, "{degrees}°: {tilted} of {on}");
+    }
+    assert!((landing(22.5, 4.0) - landing(22.5, 2.75)).abs() < 0.1, "what is tilted does not stand");
+    let legless = Body { legless: true, ..puppet() };
+    let turned = value(Landing::default(), &legless, &leaps(45.0, 2.75));
+    assert!((turned - on).abs() < 0.1, "{turned}: a body without legs may turn");
+}
+
+#[test]
 fn honest_fails_what_lives_on_errors_of_the_physics() {
     let body = puppet();
     // The flaw is there from 1 s on; it is seen within three steps.
