@@ -4,7 +4,7 @@ use std::f32::consts::FRAC_PI_4;
 
 /// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
 /// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago. Of a body
-/// with legs that leaps on less counts the more its torso is tilted, by the square of the tilt: half at 45°.
+/// with legs that leaps on less counts the more its torso is tilted, by the square of the tilt: nothing at 45°.
 ///
 /// Only a leap of 0.35 start heights and 6 cm (without legs: 0.3 body lengths) counts, and one that all legs began
 /// together: with a share for less, searches settle for hops.
@@ -41,11 +41,9 @@ const LEGLESS_RISE: f32 = 0.3;
 const LEAPS_ON: f32 = 1.2;
 /// rad.
 const TILT: f32 = 0.26;
-/// rad.
+/// A moment in which the torso has turned that far does not count, rad. Where half of it counts searches find jumps sooner, but
+/// more of these turn over in other worlds (docs/gaits.md).
 const TOPPLED: f32 = FRAC_PI_4;
-/// The share that does not count of a moment in which the torso has turned that far. With all of it searches find jumps later,
-/// without it the jumps they find turn over in other worlds (docs/gaits.md).
-const CHARGE: f32 = 0.5;
 /// Start heights.
 const HEIGHT: f32 = 0.12;
 /// Body lengths a second.
@@ -104,7 +102,7 @@ impl Movement for Landing {
 impl Landing {
     /// How much a moment of leaping on counts, 0 to 1.
     fn uprightness(&self) -> f32 {
-        if self.legless { 1.0 } else { 1.0 - CHARGE * (self.turn.angle / TOPPLED).powi(2).min(1.0) }
+        if self.legless { 1.0 } else { 1.0 - (self.turn.angle / TOPPLED).powi(2).min(1.0) }
     }
 
     fn stands(&self, now: &Snapshot) -> bool {
