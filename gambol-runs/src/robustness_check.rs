@@ -182,7 +182,6 @@ pub(crate) mod tests {
         train(&config, &folder.path().join("run"), options).expect("it runs").champion.expect("a champion")
     }
 
-    /// Against the same worlds, one by one in rapier.
     #[test]
     fn the_long_trial_is_of_all_causes_together_and_in_other_worlds_than_the_short_one() {
         for causes in [Cause::ALL.len(), Cause::IN_WATER.len()].map(|causes| causes as u32) {
@@ -194,6 +193,7 @@ pub(crate) mod tests {
         }
     }
 
+    /// Against the same worlds, one by one in rapier.
     #[test]
     fn a_gait_is_tried_in_every_world() {
         let counts: Vec<usize> = (1..=3)

@@ -32,8 +32,8 @@ const TALL: u32 = 1600;
 const LEAST_LIKENESS: f64 = 0.97;
 const LEAST_LIKENESS_OF_A_PART: f64 = 0.8;
 
-/// How alike they are at least where the letters are of another font, and lines may end elsewhere. Chapters that begin alike may be as
-/// alike as that: so a picture has to be most like the one that is kept of it, too.
+/// How alike they are at least where the letters are of another font, and lines may end elsewhere. Pictures of two chapters can be as alike
+/// as that, so a chapter must also be more like its own picture than like any other.
 const LEAST_LIKENESS_WITH_OTHER_LETTERS: f64 = 0.89;
 
 /// How long words are in the font of texts and in that of headings, px, where the pictures were made.

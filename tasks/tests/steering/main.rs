@@ -1,9 +1,11 @@
 //! The terms that steer a search to usable gaits, on a puppet with two legs whose every move is written by hand.
 
+mod jumps;
+
 use std::f32::consts::TAU;
 use tasks::{
-    Alternation, Body, BodyHinge, BodyMotor, BodyPart, Command, Footfalls, Haste, Headway, Idleness, Jumping, Landing,
-    Leap, Movement, MovementCatalogue, MovementSpec, NoExploits, NoExploitsSettings, PartState, Posture, Rhythm,
+    Alternation, Body, BodyHinge, BodyMotor, BodyPart, Command, Footfalls, Haste, Headway, Idleness, Landing, Leap,
+    Movement, MovementCatalogue, MovementSpec, NoExploits, NoExploitsSettings, PartState, Posture, Rhythm,
     RhythmSettings, Running, Slip, Snapshot, Sum, TermSpec, Upright, Verdict, Vibration, conformance::check_movement,
 };
 
@@ -414,75 +416,6 @@ fn idleness_is_the_share_of_motion_left_out_since_the_first_second() {
     assert_idle(&swing(40.0, 40.0, 0.0, 0.98), 1.0);
     assert_eq!(value(Idleness::default(), &body, &swing(40.0, 40.0, 0.0, 4.0)[..40]), 1.0, "over within a second");
     assert_eq!(value(Idleness::default(), &Body::default(), &swing(0.0, 0.0, 0.0, 4.0)), 0.0, "nothing is expected");
-}
-
-#[test]
-fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
-    /// From `up` to `down` nothing touches the ground, and the torso rises to 0.3 m and back; the left leg left the
-    /// ground `earlier` seconds before.
-    fn jump(up: f32, down: f32, earlier: f32) -> Vec<Snapshot> {
-        script(3.0, move |time| {
-            let share = ((time - up) / (down - up)).clamp(0.0, 1.0);
-            let flies = time > up && time < down;
-            let lifted = |flies: bool| if flies { 0.1 } else { 0.0 };
-            let rise = 1.2 * share * (1.0 - share);
-            Pose { rise, lifted: [lifted(time > up - earlier && time < down), lifted(flies)], ..Pose::default() }
-        })
-    }
-    let body = puppet();
-    let leap = |script: &[Snapshot]| value(Leap::default(), &body, script);
-    let high = leap(&jump(1.0, 1.5, 0.0));
-    // It rises by 0.366 m, the legs besides; a quarter counts of what is beyond half of the start height.
-    assert!((high - (0.25 + 0.25 * 0.116)).abs() < 0.01, "{high}");
-    let lasts =
-        |seconds: f32| jump(1.0, 1.5, 0.0).into_iter().take_while(|now| now.time < 1.5 + seconds).collect::<Vec<_>>();
-    assert_eq!((leap(&lasts(0.4)), leap(&lasts(0.2))), (high, 0.25 * high), "a quarter for a landing not survived");
-    assert!((leap(&jump(1.0, 1.5, 0.09)) - high).abs() < 1e-6);
-    let uneven = leap(&jump(1.0, 1.5, 0.2));
-    assert!(uneven > 0.05 && uneven < 0.4 * high, "{uneven}");
-    assert_eq!(leap(&jump(1.0, 1.5, 0.45)), 0.0, "one leg after the other");
-    assert_eq!(leap(&jump(1.0, 1.14, 0.0)), 0.0, "a stumble");
-    // Two leaps: the higher one counts, and landing in between ends the first.
-    let twice: Vec<Snapshot> = jump(1.0, 1.5, 0.0).into_iter().chain(jump(1.0, 1.3, 0.3)).collect();
-    assert_eq!(leap(&twice), high);
-    let stretches = script(2.0, |time| Pose { rise: 0.3 * sine(0.5, time), ..Pose::default() });
-    assert_eq!(leap(&stretches), 0.0);
-    assert!(value(Jumping::default(), &body, &stretches) > 0.29);
-    let on_its_belly = script(2.0, |_| Pose { lifted: [0.1; 2], rise: 0.3, torso_touches: true, ..Pose::default() });
-    assert_eq!(leap(&on_its_belly), 0.0);
-    let legless = Body { legless: true, ..puppet() };
-    let crawler = value(Leap::default(), &legless, &jump(1.0, 1.5, 0.5));
-    assert!(
-        (crawler - 0.366).abs() < 0.01,
-        "{crawler}: it has no legs to push off, and rises by less than 0.4 body lengths"
-    );
-}
-
-#[test]
-fn landing_is_the_time_after_a_leap_and_less_of_it_where_the_body_leaps_on_tilted() {
-    // In the air from 1 to 1.6 s, the torso turned from 0.9 s on.
-    let leaps = |degrees: f32, until: f32| {
-        script(until, move |time| {
-            let share = ((time - 1.0) / 0.6).clamp(0.0, 1.0);
-            let lifted = if share > 0.0 && share < 1.0 { 0.1 } else { 0.0 };
-            let turn = if time > 0.9 { degrees.to_radians() } else { 0.0 };
-            Pose { rise: 1.2 * share * (1.0 - share), turn, lifted: [lifted; 2], ..Pose::default() }
-        })
-    };
-    let body = puppet();
-    let landing = |degrees: f32, until: f32| value(Landing::default(), &body, &leaps(degrees, until));
-    // It is a leap after 0.22 s, and from its end on the next has 1.2 s.
-    let on = landing(0.0, 2.75);
-    assert!((on - 1.53).abs() < 0.03, "{on}");
-    assert!((landing(0.0, 4.0) - on - 1.25).abs() < 0.03, "then it stands");
-    for (degrees, share) in [(22.5, 0.75), (-45.0, 0.0), (90.0, 0.0)] {
-        let tilted = landing(degrees, 2.75);
-        assert!((tilted / on - share).abs() < 1e-3, "{degrees}°: {tilted} of {on}");
-    }
-    assert!((landing(22.5, 4.0) - landing(22.5, 2.75)).abs() < 0.1, "what is tilted does not stand");
-    let legless = Body { legless: true, ..puppet() };
-    let turned = value(Landing::default(), &legless, &leaps(45.0, 2.75));
-    assert!((turned - on).abs() < 0.1, "{turned}: a body without legs may turn");
 }
 
 #[test]
