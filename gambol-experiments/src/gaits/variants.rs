@@ -107,6 +107,7 @@ pub const VARIANTS: &[Variant] = &[
         },
     },
     Variant { name: "one start", change: |config| set_cma(config, "starts", 1) },
+    Variant { name: "starts of 20 generations", change: |config| set_cma(config, "start_generations", 20) },
     Variant { name: "conventional neuroevolution", change: |config| search_with(config, "conventional") },
     Variant { name: "OpenAI-ES", change: |config| search_with(config, "open-es") },
     Variant { name: "CoSyNE", change: |config| search_with(config, "cosyne") },

@@ -54,11 +54,12 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         // Two legs that hurry fall.
         haste.settings.insert("speed".into(), if legs <= 2 { 1.3.into() } else { 2.2.into() });
     }
-    // Many legs keep time by themselves; two legs with knees find a rhythm of their own, and are not helped by another.
-    if legs <= 4 && (legs > 2 || joints == 1) {
-        on_legs.push(with(TermSpec::new(RHYTHM, -1.0), "period", stride_of(body.clock.unwrap_or(period))));
-    }
     let has_knees = joints > 1;
+    // Many legs keep time by themselves. Two legs with knees, for which it counts as much as for others, may learn to go slowly in time.
+    if legs <= 4 {
+        let weight = if is_biped && has_knees { -0.5 } else { -1.0 };
+        on_legs.push(with(TermSpec::new(RHYTHM, weight), "period", stride_of(body.clock.unwrap_or(period))));
+    }
     let strategy = SMALL_WEIGHTS.into_iter().filter(|_| is_biped && has_knees);
     let unknown = MovementDefaults::unknown(body);
     MovementDefaults {
@@ -72,8 +73,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         // an even stride does not.
         modular: (!is_biped).then_some(LimbPhases::Alternating),
         period,
-        // Many legs bridge bumps by themselves.
-        variation: (1..=4).contains(&legs).then(Variation::bumpy),
+        variation: (legs > 0).then(Variation::bumpy),
         ..unknown
     }
 }

@@ -43,7 +43,7 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         ("biped-1", "walking", 0.5, 10.0, 0.5, false),
         ("biped-2", "running", 0.39, 10.0, 0.5, true),
         ("tetrapod-1", "running", 0.5, 10.0, 0.5, true),
-        ("decapod-1", "running", 0.42, 10.0, 0.5, false),
+        ("decapod-1", "running", 0.42, 10.0, 0.5, true),
         ("apod", "running", 0.8, 15.0, 0.5, false),
         ("biped-1", "jumping", 1.0, 20.0, 0.2, false),
         ("decapod-1", "jumping", 0.84, 10.0, 0.2, false),
@@ -54,7 +54,10 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         let name = format!("{creature} {movement}");
         assert_eq!(config.controller.hidden, [4], "{name}");
         let settings: CmaEsSettings = config.strategy.of("cma-es").expect("the default strategy");
-        assert_eq!((settings.step_size, settings.starts), (step_size, 4), "{name}");
+        assert_eq!((settings.step_size, settings.starts, settings.start_generations), (step_size, 2, 80), "{name}");
+        let rhythm = config.movement.terms.iter().find(|term| term.term == "rhythm").map(|term| term.weight);
+        let runs = matches!(movement, "running" | "backwards") && !matches!(creature, "apod" | "decapod-1");
+        assert_eq!(rhythm, runs.then_some(if creature == "biped-2" { -0.5 } else { -1.0 }), "{name}");
         let stay_small = (settings.greatest_growth, settings.mean_decay) == (1.0, 0.01);
         assert_eq!(stay_small, creature == "biped-2", "weights: {name}");
         assert_eq!((config.physics.motor_gain, config.trials.count), (200.0, 3), "{name}");

@@ -89,8 +89,8 @@ pub(crate) struct Train {
     #[arg(long, value_name = "NAME")]
     engine: Option<String>,
     /// How the world varies in training: none, near, pushed, shoved, physics, light (friction, mass, start pose, pushes, and the
-    /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for one to
-    /// four legs that run, else light; none with --preset plain, thesis and stanley-2002]
+    /// stiffness and time step of other engines), bumpy (that, and bumps) or strong (more of it) [default: bumpy for
+    /// legs that run, else light; none with --preset plain, thesis and stanley-2002]
     #[arg(long, value_name = "NAME")]
     variation: Option<String>,
     /// What it moves on (see: gambol terrains), and how hard that is, from 0 to 1: gaps, hurdles:0.3 [default: flat]
