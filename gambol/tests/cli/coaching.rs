@@ -261,7 +261,7 @@ fn bench_gaits_trains_a_movement_with_stages() -> Outcome {
             "--movements",
             "running",
             "--first-seed",
-            "2",
+            "5",
             "--seeds",
             "1",
         ]);

@@ -409,7 +409,7 @@ fn champion_weights(run: &Path) -> Value {
 fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
     let folder = tempfile::tempdir()?;
     let path = |name: &str| folder.path().join(name);
-    succeed(small_run(&path("first"), 22).args(["--seed", "28", "--quiet"]));
+    succeed(small_run(&path("first"), 22).args(["--seed", "1", "--quiet"]));
     // It was found since the last re-evaluation, so that the checkpoint has it among the candidates for the next.
     let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
     let generation = file["content"]["generation"].clone();
