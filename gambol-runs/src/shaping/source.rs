@@ -11,7 +11,7 @@ use crate::{
     strategies::{AnyGenome, AnyStrategy, StrategyEntry},
     topology,
 };
-use ne_core::{Checkpoint, Genome};
+use ne_core::{Checkpoint, Genome, Strategy};
 use ne_net::Topology;
 use std::path::Path;
 
@@ -156,14 +156,14 @@ pub(super) fn read_checkpoint(
 
 /// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
 ///
-/// It is the one in the champion file, which may still wait there for a re-evaluation. If a kill has diverged the two files, it is the
+/// It is the one in the champion file, which may still wait there for a re-evaluation, or be what the strategy recommends. If a kill has diverged the two files, it is the
 /// champion of the checkpoint, or the best that waits for the first re-evaluation.
 fn read_champion(
     strategy: &StrategyEntry,
     folder: &RunFolder,
     expressed: bool,
 ) -> Result<Option<(Topology, Vec<f32>, u64)>, TransferError> {
-    let Checkpoint { champion, candidates, .. } = read_checkpoint(strategy, folder)?;
+    let Checkpoint { champion, candidates, strategy: search, progress, .. } = read_checkpoint(strategy, folder)?;
     let file = folder.champion();
     let written = file.is_file().then(|| Champion::read(&file)).transpose().map_err(FolderError::from)?;
     let is_written = |genome: &AnyGenome, generation: u64| {
@@ -172,6 +172,8 @@ fn read_champion(
     };
     let kept = candidates.iter().find(|candidate| is_written(&candidate.genome, candidate.generation));
     let kept = kept.map(|candidate| (candidate.genome.clone(), candidate.generation));
+    let recommended = search.recommendation().map(|genome| (genome, progress.generations));
+    let kept = kept.or(recommended.filter(|(genome, generation)| is_written(genome, *generation)));
     let heard = champion.map(|champion| (champion.genome, champion.generation));
     // Of equals the first.
     let waiting = candidates.into_iter().rev().max_by_key(|candidate| candidate.fitness);

@@ -407,20 +407,27 @@ fn champion_weights(run: &Path) -> Value {
 
 #[test]
 fn the_champion_that_goes_on_is_the_one_in_the_file() -> Outcome {
-    let folder = tempfile::tempdir()?;
-    let path = |name: &str| folder.path().join(name);
-    succeed(small_run(&path("first"), 22).args(["--seed", "1", "--quiet"]));
-    // It was found since the last re-evaluation, so that the checkpoint has it among the candidates for the next.
-    let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
-    let generation = file["content"]["generation"].clone();
-    assert!(generation.as_u64() > heard["content"]["champion"]["generation"].as_u64());
-    assert!(heard["content"]["champion"].is_object());
-    let mut train = gambol("train");
-    train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
-    train.args(["--generations", "1", "--transfer", "topology", "--from"]).arg(path("first"));
-    succeed(train.arg("--out").arg(path("second")));
-    assert_eq!(json(&path("second/config.json"))["content"]["origin"]["generation"], generation);
-    assert_eq!(start_of(&path("second")), champion_weights(&path("first")));
+    // It was found since the last re-evaluation: the checkpoint has it among the candidates for the next, or it is what the
+    // strategy recommends.
+    for (seed, waits) in [("24", true), ("1", false)] {
+        let folder = tempfile::tempdir()?;
+        let path = |name: &str| folder.path().join(name);
+        succeed(small_run(&path("first"), 22).args(["--seed", seed, "--quiet"]));
+        let (file, heard) = (json(&path("first/champion.json")), json(&path("first/checkpoint")));
+        let generation = file["content"]["generation"].clone();
+        assert!(generation.as_u64() > heard["content"]["champion"]["generation"].as_u64());
+        assert!(heard["content"]["champion"].is_object());
+        let candidates = heard["content"]["candidates"]["each"].as_array().ok_or("an array")?;
+        let weights = champion_weights(&path("first"));
+        let is_it = |candidate: &Value| candidate["genome"]["weights"] == weights;
+        assert_eq!(candidates.iter().any(is_it), waits, "seed {seed}");
+        let mut train = gambol("train");
+        train.args(["biped-1", "jumping", "--population", "8", "--set", "movement.steps=40", "--no-report", "--quiet"]);
+        train.args(["--generations", "1", "--transfer", "topology", "--from"]).arg(path("first"));
+        succeed(train.arg("--out").arg(path("second")));
+        assert_eq!(json(&path("second/config.json"))["content"]["origin"]["generation"], generation);
+        assert_eq!(start_of(&path("second")), weights);
+    }
     Ok(())
 }
 
