@@ -55,7 +55,7 @@ pub(super) fn running(body: &BodyFacts) -> MovementDefaults {
         haste.settings.insert("speed".into(), if legs <= 2 { 1.3.into() } else { 2.2.into() });
     }
     let has_knees = joints > 1;
-    // Many legs keep time by themselves. Two legs with knees, for which it counts as much as for others, may learn to go slowly in time.
+    // Many legs keep time by themselves. At the weight of the others two legs with knees may learn to go slowly.
     if legs <= 4 {
         let weight = if is_biped && has_knees { -0.5 } else { -1.0 };
         on_legs.push(with(TermSpec::new(RHYTHM, weight), "period", stride_of(body.clock.unwrap_or(period))));

@@ -156,8 +156,8 @@ pub(super) fn read_checkpoint(
 
 /// Reads the champion out of a checkpoint: its topology and weights, and the generation it was found in.
 ///
-/// It is the one in the champion file, which may still wait there for a re-evaluation, or be what the strategy recommends. If a kill has diverged the two files, it is the
-/// champion of the checkpoint, or the best that waits for the first re-evaluation.
+/// It is the one in the champion file, which may still wait there for a re-evaluation, or be what the strategy recommends. If a
+/// kill has diverged the two files, it is the champion of the checkpoint, or the best that waits for the first re-evaluation.
 fn read_champion(
     strategy: &StrategyEntry,
     folder: &RunFolder,
