@@ -21,7 +21,8 @@ use serde::Deserialize;
 /// one for which a leg leaves the ground less than 0.2 s after the press. Of a jump that is off the
 /// commanded speed by 1 body length a second plus that speed 0.2 counts, and all of one that is off by 0.4 of this or less: a jump out
 /// of a run may cost some speed. Of legs that leave the ground one after the other less counts: nothing where they do so
-/// 0.25 s apart; and of a jump in which anything but a foot touches the ground, or the torso of a body on legs tilts by more than 35°, 0.4.
+/// 0.25 s apart; of a jump in which anything but a foot touches the ground 0.4; and of a body on legs the less the farther its torso tilts
+/// in it, by the square of the tilt: 0.4 at 45° or more.
 #[derive(Clone, Debug)]
 pub struct Playing {
     jump_worth: f64,
@@ -75,8 +76,10 @@ struct Jump {
     flight: Option<f64>,
     /// What it is worth so far, 0 to 1.
     worth: f64,
-    /// Whether a part that is no foot has touched the ground, or the torso was tilted too far.
+    /// Whether a part that is no foot has touched the ground.
     spoilt: bool,
+    /// How far the torso has been tilted at most, rad.
+    tilt: f64,
     /// Whether the body has come down again.
     landed: bool,
 }
@@ -103,10 +106,8 @@ const LATE: f64 = 0.15;
 /// What leaves the ground sooner after the press does not count, s: a body hops off its legs as they are, and a search that has found that
 /// does not find the crouch any more.
 const CROUCH: f64 = 0.2;
-/// What counts of a jump in which a part that is no foot touches the ground, or the torso is tilted...
+/// What counts of a jump in which a part that is no foot touches the ground, or the torso turns over.
 const SPOILT: f64 = 0.4;
-/// ...by more than this, rad.
-const TILTED_JUMP: f64 = 35.0 * DEGREE;
 /// Legs that push off within this of each other push off together, s...
 const TOGETHER: f64 = 0.1;
 /// ...and so far apart they do not jump.
@@ -119,7 +120,7 @@ const TALL: f64 = 0.85;
 const BENT: f64 = 0.6;
 /// A torso that is tilted by no more than this is upright, rad...
 const UPRIGHT: f64 = 20.0 * DEGREE;
-/// ...and at this it counts half.
+/// ...at this it counts half, and a jump as if the torso had turned over.
 const TILTED: f64 = 45.0 * DEGREE;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -196,7 +197,7 @@ impl Playing {
 
     /// The jump that is due if the button was pressed at this moment.
     fn pressed(&self) -> Option<Jump> {
-        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, spoilt: false, landed: false };
+        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, spoilt: false, tilt: 0.0, landed: false };
         (self.command.since_press == 0.0).then_some(jump)
     }
 
@@ -221,7 +222,7 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
-        let (tilted, onwards) = (self.tilt() > TILTED_JUMP, self.onwards());
+        let (tilt, onwards) = (self.tilt(), self.onwards());
         let Some(jump) = &mut self.jump else { return };
         let is_early = |left: f64| left - jump.pressed < CROUCH;
         let late = time - jump.pressed > ANSWER;
@@ -243,11 +244,21 @@ impl Playing {
             }
         };
         jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));
-        jump.spoilt |= tilted || self.others.iter().any(|&part| now.parts[part].touching);
+        jump.tilt = jump.tilt.max(tilt);
+        jump.spoilt |= self.others.iter().any(|&part| now.parts[part].touching);
         if time - jump.pressed >= JUMP_SECONDS {
-            self.jumped += self.jump_worth * jump.worth * if jump.spoilt { SPOILT } else { 1.0 };
+            let spoilt = if jump.spoilt { SPOILT } else { 1.0 };
+            self.jumped += self.jump_worth * jump.worth * jump.uprightness() * spoilt;
             self.jump = None;
         }
+    }
+}
+
+impl Jump {
+    /// What counts of it by how upright the torso has been, 0.4 to 1.
+    fn uprightness(&self) -> f64 {
+        let turned = self.tilt / TILTED;
+        SPOILT + (1.0 - SPOILT) * (1.0 - (turned * turned).min(1.0))
     }
 }
 
@@ -420,6 +431,11 @@ mod tests {
 
     /// Told to jump at 1 s, by a body of a torso and two feet, each of which leaves the ground at its time.
     fn leaps(left: [f32; 2]) -> f64 {
+        leaps_tilted(left, 0.0)
+    }
+
+    /// The same by a body whose torso is tilted by so many degrees while it is in the air.
+    fn leaps_tilted(left: [f32; 2], degrees: f32) -> f64 {
         let mut movement = Playing::default();
         let parts = vec![crate::BodyPart::default(); 3];
         let legs = vec![vec![1], vec![2]];
@@ -430,7 +446,8 @@ mod tests {
             let height = if aloft { 1.5 } else { 1.0 };
             let foot =
                 |left: f32| PartState { cos: 1.0, touching: !(left..1.8).contains(&time), ..PartState::default() };
-            let torso = PartState { y: height, cos: 1.0, ..PartState::default() };
+            let (sin, cos) = if aloft { degrees.to_radians().sin_cos() } else { (0.0, 1.0) };
+            let torso = PartState { y: height, cos, sin, ..PartState::default() };
             let since_press = if time < 1.0 { f32::INFINITY } else { time - 1.0 };
             let command = Command { speed: 0.0, jump: false, since_press, ..Command::default() };
             Snapshot { time, parts: vec![torso, foot(left[0]), foot(left[1])], command, ..Snapshot::default() }
@@ -438,6 +455,17 @@ mod tests {
         movement.begin(&snapshot(0));
         (1..=150).for_each(|step| assert_eq!(movement.observe(&snapshot(step)), Verdict::GoOn));
         movement.jumped
+    }
+
+    /// While it is in the air.
+    #[test]
+    fn a_jump_counts_less_the_farther_the_torso_tilts() {
+        let worths = [0.0, 15.0, 30.0, 45.0, -45.0, 120.0]
+            .map(|degrees| leaps_tilted([1.31, 1.31], degrees) / leaps([1.31, 1.31]));
+        let wanted = [1.0, 1.0 - 0.6 / 9.0, 1.0 - 0.6 * 4.0 / 9.0, 0.4, 0.4, 0.4];
+        for (worth, wanted) in worths.iter().zip(wanted) {
+            assert!((worth - wanted).abs() < 1e-3, "{worths:?}");
+        }
     }
 
     #[test]
