@@ -1,6 +1,5 @@
 use super::{Leap, Movement, Verdict, upright::Turn};
 use crate::{Body, Snapshot};
-use std::f32::consts::FRAC_PI_4;
 
 /// What comes after a jump, s: the time since the first [leap](Leap) in which the body stands as it stood at the start
 /// (within 15° and 12 % of its start height, slower than 0.2 body lengths/s), or has leapt no more than 1.2 s ago. Of a body
@@ -41,9 +40,6 @@ const LEGLESS_RISE: f32 = 0.3;
 const LEAPS_ON: f32 = 1.2;
 /// rad.
 const TILT: f32 = 0.26;
-/// A moment in which the torso has turned that far does not count, rad. Where half of it counts searches find jumps sooner, but
-/// more of these turn over in other worlds (docs/gaits.md).
-const TOPPLED: f32 = FRAC_PI_4;
 /// Start heights.
 const HEIGHT: f32 = 0.12;
 /// Body lengths a second.
@@ -100,9 +96,10 @@ impl Movement for Landing {
 }
 
 impl Landing {
-    /// How much a moment of leaping on counts, 0 to 1.
+    /// How much a moment of leaping on counts, 0 to 1. Where half of one at 45° counts searches find jumps sooner, but more of these turn
+    /// over in other worlds (docs/gaits.md).
     fn uprightness(&self) -> f32 {
-        if self.legless { 1.0 } else { 1.0 - (self.turn.angle / TOPPLED).powi(2).min(1.0) }
+        if self.legless { 1.0 } else { self.turn.uprightness() }
     }
 
     fn stands(&self, now: &Snapshot) -> bool {

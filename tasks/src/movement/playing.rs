@@ -78,8 +78,8 @@ struct Jump {
     worth: f64,
     /// Whether a part that is no foot has touched the ground.
     spoilt: bool,
-    /// How far the torso has been tilted at most, rad.
-    tilt: f64,
+    /// How upright the torso has been at the least, 0 to 1.
+    upright: f64,
     /// Whether the body has come down again.
     landed: bool,
 }
@@ -120,7 +120,7 @@ const TALL: f64 = 0.85;
 const BENT: f64 = 0.6;
 /// A torso that is tilted by no more than this is upright, rad...
 const UPRIGHT: f64 = 20.0 * DEGREE;
-/// ...at this it counts half, and a jump as if the torso had turned over.
+/// ...and at this it counts half.
 const TILTED: f64 = 45.0 * DEGREE;
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
@@ -180,6 +180,11 @@ impl Playing {
         if self.feet.is_empty() { 0.0 } else { f64::from(self.turn.angle).abs() }
     }
 
+    /// How upright the torso is, 0 to 1; 1 for a body without legs.
+    fn uprightness(&self) -> f64 {
+        if self.feet.is_empty() { 1.0 } else { self.turn.uprightness().into() }
+    }
+
     /// How near the speed is to the commanded one, 0 to 1.
     fn near(&self) -> f64 {
         (1.0 - self.error() / (1.0 + f64::from(self.command.speed).abs())).max(0.0)
@@ -197,7 +202,7 @@ impl Playing {
 
     /// The jump that is due if the button was pressed at this moment.
     fn pressed(&self) -> Option<Jump> {
-        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, spoilt: false, tilt: 0.0, landed: false };
+        let jump = Jump { pressed: self.time, flight: None, worth: 0.0, spoilt: false, upright: 1.0, landed: false };
         (self.command.since_press == 0.0).then_some(jump)
     }
 
@@ -222,7 +227,7 @@ impl Playing {
         let promised = upwards.max(0.0) * upwards.max(0.0) / (2.0 * self.gravity);
         let (risen, rising) = (self.centre - self.rest, self.centre - self.rest + promised);
         let first = self.left.iter().copied().fold(f64::INFINITY, f64::min);
-        let (tilt, onwards) = (self.tilt(), self.onwards());
+        let (upright, onwards) = (self.uprightness(), self.onwards());
         let Some(jump) = &mut self.jump else { return };
         let is_early = |left: f64| left - jump.pressed < CROUCH;
         let late = time - jump.pressed > ANSWER;
@@ -244,21 +249,14 @@ impl Playing {
             }
         };
         jump.worth = jump.worth.max(onwards * share * (rise / self.enough).clamp(0.0, 1.0));
-        jump.tilt = jump.tilt.max(tilt);
+        jump.upright = jump.upright.min(upright);
         jump.spoilt |= self.others.iter().any(|&part| now.parts[part].touching);
         if time - jump.pressed >= JUMP_SECONDS {
             let spoilt = if jump.spoilt { SPOILT } else { 1.0 };
-            self.jumped += self.jump_worth * jump.worth * jump.uprightness() * spoilt;
+            let upright = SPOILT + (1.0 - SPOILT) * jump.upright;
+            self.jumped += self.jump_worth * jump.worth * upright * spoilt;
             self.jump = None;
         }
-    }
-}
-
-impl Jump {
-    /// What counts of it by how upright the torso has been, 0.4 to 1.
-    fn uprightness(&self) -> f64 {
-        let turned = self.tilt / TILTED;
-        SPOILT + (1.0 - SPOILT) * (1.0 - (turned * turned).min(1.0))
     }
 }
 
@@ -436,6 +434,11 @@ mod tests {
 
     /// The same by a body whose torso is tilted by so many degrees while it is in the air.
     fn leaps_tilted(left: [f32; 2], degrees: f32) -> f64 {
+        leaps_and(left, degrees, false)
+    }
+
+    /// The same; `brushes`: the torso touches the ground once it has landed.
+    fn leaps_and(left: [f32; 2], degrees: f32, brushes: bool) -> f64 {
         let mut movement = Playing::default();
         let parts = vec![crate::BodyPart::default(); 3];
         let legs = vec![vec![1], vec![2]];
@@ -447,7 +450,8 @@ mod tests {
             let foot =
                 |left: f32| PartState { cos: 1.0, touching: !(left..1.8).contains(&time), ..PartState::default() };
             let (sin, cos) = if aloft { degrees.to_radians().sin_cos() } else { (0.0, 1.0) };
-            let torso = PartState { y: height, cos, sin, ..PartState::default() };
+            let touching = brushes && time >= 1.8;
+            let torso = PartState { y: height, cos, sin, touching, ..PartState::default() };
             let since_press = if time < 1.0 { f32::INFINITY } else { time - 1.0 };
             let command = Command { speed: 0.0, jump: false, since_press, ..Command::default() };
             Snapshot { time, parts: vec![torso, foot(left[0]), foot(left[1])], command, ..Snapshot::default() }
@@ -457,7 +461,6 @@ mod tests {
         movement.jumped
     }
 
-    /// While it is in the air.
     #[test]
     fn a_jump_counts_less_the_farther_the_torso_tilts() {
         let worths = [0.0, 15.0, 30.0, 45.0, -45.0, 120.0]
@@ -466,6 +469,13 @@ mod tests {
         for (worth, wanted) in worths.iter().zip(wanted) {
             assert!((worth - wanted).abs() < 1e-3, "{worths:?}");
         }
+    }
+
+    #[test]
+    fn a_jump_in_which_the_torso_touches_the_ground_counts_less() {
+        let feet = [1.31, 1.31];
+        let share = |degrees| leaps_and(feet, degrees, true) / leaps_tilted(feet, degrees);
+        assert!([0.0, 30.0].map(share).iter().all(|share| (share - 0.4).abs() < 1e-9), "{:?}", [0.0, 30.0].map(share));
     }
 
     #[test]

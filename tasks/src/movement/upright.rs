@@ -1,5 +1,6 @@
 use super::{Movement, Verdict};
 use crate::{PartState, Snapshot};
+use std::f32::consts::FRAC_PI_4;
 
 /// Ends the episode when the torso has turned too far from its start: by more than 60°, or by an angle of yours. Its
 /// value is 1 if that happened and 0 if not, so that a weight can also charge for it.
@@ -31,6 +32,11 @@ impl Turn {
         let sin = self.cos * part.sin - self.sin * part.cos;
         self.angle += libm::atan2f(sin, cos);
         (self.cos, self.sin) = (part.cos, part.sin);
+    }
+
+    /// How upright it still is, 0 to 1: less by the square of the angle, nothing from 45° on.
+    pub(crate) fn uprightness(&self) -> f32 {
+        1.0 - (self.angle / FRAC_PI_4).powi(2).min(1.0)
     }
 }
 
