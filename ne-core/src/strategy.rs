@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 /// An implementor owes:
 /// - `ask` and `tell` take turns, `ask` first; `tell` gets one evaluation for each genome asked, in the same order;
 /// - chance comes only from the seed handed in, which differs from generation to generation, so that the state holds no
-///   generator and `ask` after a save and a load gives the same genomes;
+///   generator and `ask` after a save and a load gives the same genomes, also where it was asked for them before the save;
 /// - a failed evaluation ranks below every fitness;
 /// - no clock, no thread count, no iteration over a hash map: the same evaluations give the same bits.
 ///

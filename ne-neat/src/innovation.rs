@@ -21,6 +21,10 @@ use std::collections::BTreeMap;
 pub(crate) struct Innovations {
     pub(crate) next_node: NodeId,
     pub(crate) next_innovation: InnovationNumber,
+    /// The next node and the next innovation before the generation that was asked and not told yet; `None` where none got numbers.
+    /// Asked again, it gets the same ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) before_asked: Option<[u32; 2]>,
     /// The connections invented in this generation. Not saved: a generation begins without any.
     #[serde(skip)]
     connections: BTreeMap<(NodeId, NodeId), InnovationNumber>,
@@ -40,13 +44,25 @@ pub(crate) struct Split {
 impl Innovations {
     /// Of a run whose first generation has hidden neurons and connections numbered below these.
     pub(crate) fn new(next_node: NodeId, next_innovation: InnovationNumber) -> Self {
-        Self { next_node, next_innovation, connections: BTreeMap::new(), splits: BTreeMap::new() }
+        Self { next_node, next_innovation, before_asked: None, connections: BTreeMap::new(), splits: BTreeMap::new() }
     }
 
-    /// Forgets the inventions of the generation before.
+    /// Forgets the inventions of the generation before, or those of this one where it is asked again.
     pub(crate) fn begin_generation(&mut self) {
+        [self.next_node, self.next_innovation] = self.next_of_parents();
+        self.before_asked = Some([self.next_node, self.next_innovation]);
         self.connections.clear();
         self.splits.clear();
+    }
+
+    /// The generation that was asked is told: its numbers are given for good.
+    pub(crate) fn end_generation(&mut self) {
+        self.before_asked = None;
+    }
+
+    /// The next node and the next innovation when the generation last told was told.
+    pub(crate) fn next_of_parents(&self) -> [u32; 2] {
+        self.before_asked.unwrap_or([self.next_node, self.next_innovation])
     }
 
     /// The number of a new connection; `None` when numbers have run out.
@@ -110,6 +126,7 @@ mod tests {
         assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(3));
         assert_eq!(innovations.connection(0, 4, &LAYOUT), Some(4));
         assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(3));
+        innovations.end_generation();
         innovations.begin_generation();
         assert_eq!(innovations.connection(3, 3, &LAYOUT), Some(5));
     }
@@ -121,6 +138,7 @@ mod tests {
             for from in 0..3 {
                 assert_eq!(innovations.connection(from, 3, &LAYOUT), Some(from), "generation {generation}");
             }
+            innovations.end_generation();
             innovations.begin_generation();
         }
         assert_eq!(innovations.next_innovation, 3);
@@ -137,6 +155,7 @@ mod tests {
         assert_eq!(innovations.split(&gene, &plain), Some(first));
         assert_eq!(innovations.split(&gene, &genome(&[4])), Some(second));
         assert_eq!(innovations.split(&gene, &genome(&[4])), Some(second));
+        innovations.end_generation();
         innovations.begin_generation();
         assert_eq!(innovations.split(&gene, &plain), Some(Split { node: 6, incoming: 7, outgoing: 8 }));
     }

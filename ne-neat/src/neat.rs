@@ -127,14 +127,16 @@ impl Neat {
 
     /// Draws an individual of the first generation.
     fn draw(&self, individual: &mut NeatGenome, seed: Seed) {
-        let NeatSettings { new_weights, output_activation, ref hidden_activations, .. } = self.settings;
+        let NeatSettings { output_activation, ref hidden_activations, .. } = self.settings;
+        let new_weights = self.settings.new_weights();
         let activations = (output_activation, &hidden_activations[..]);
         self.settings.start.draw(individual, new_weights, activations, &mut seed.stream(FIRST_GENERATION));
     }
 
     /// Writes a first generation that is not drawn: those there are, and copies of them that mutate.
     fn fill(&self, population: &mut [NeatGenome], seed: Seed) -> Vec<Proposal> {
-        let NeatSettings { mutation, new_weights, hidden_activations, .. } = &self.settings;
+        let NeatSettings { mutation, hidden_activations, .. } = &self.settings;
+        let new_weights = self.settings.new_weights();
         let mut proposals = Vec::with_capacity(population.len());
         for (index, individual) in population.iter_mut().enumerate() {
             individual.copy_from(&self.start[index % self.start.len()]);
@@ -142,7 +144,7 @@ impl Neat {
                 true => Proposal::default(),
                 false => {
                     let mut stream = seed.individual(index as u64).stream(REPRODUCTION);
-                    mutation.mutate(individual, *new_weights, hidden_activations, &mut stream)
+                    mutation.mutate(individual, new_weights, hidden_activations, &mut stream)
                 }
             });
         }
@@ -211,7 +213,7 @@ impl Neat {
             crossover.cross(&self.parents[first], &self.parents[second], fitness, child, &mut stream);
         }
         let proposal =
-            mutation.mutate(child, self.settings.new_weights, &self.settings.hidden_activations, &mut stream);
+            mutation.mutate(child, self.settings.new_weights(), &self.settings.hidden_activations, &mut stream);
         (proposal, [first as u32, second as u32])
     }
 
@@ -267,6 +269,7 @@ impl Strategy for Neat {
         std::mem::swap(&mut self.parents, &mut self.population);
         self.start.clear();
         self.asked = false;
+        self.innovations.end_generation();
         self.scores.clear();
         self.scores.extend(evaluations.iter().map(Evaluation::fitness));
         self.species.iter_mut().for_each(|species| species.tell(&self.scores));

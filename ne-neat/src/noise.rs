@@ -45,6 +45,21 @@ impl Noise {
     }
 }
 
+/// How a new weight is drawn: as the noise has it, but no greater than weights can become.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct NewWeights {
+    pub(crate) noise: Noise,
+    pub(crate) limit: f32,
+}
+
+impl NewWeights {
+    /// The next weight.
+    #[inline]
+    pub(crate) fn draw(self, stream: &mut RandomStream) -> f32 {
+        self.noise.draw(stream).clamp(-self.limit, self.limit)
+    }
+}
+
 /// Uniform from -1 (included) to 1 (excluded).
 #[inline]
 fn symmetric(stream: &mut RandomStream) -> f32 {

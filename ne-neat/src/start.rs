@@ -3,7 +3,7 @@
 use crate::{
     BiasKind, ConnectionGene, InnovationNumber, Layout, NeatGenome, NodeGene, NodeId,
     innovation::{Innovations, direct_connection},
-    noise::{Noise, happens},
+    noise::{NewWeights, happens},
 };
 use ne_core::{RandomStream, SettingError};
 use ne_net::{Activation, GraphShape};
@@ -77,7 +77,7 @@ impl StartTopology {
     pub(crate) fn draw(
         &self,
         genome: &mut NeatGenome,
-        weights: Noise,
+        weights: NewWeights,
         (output, hidden): (Activation, &[Activation]),
         stream: &mut RandomStream,
     ) {

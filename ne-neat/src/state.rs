@@ -1,5 +1,5 @@
 use crate::{
-    ConnectionGene, GenomeError, InnovationNumber, Neat, NeatGenome, NeatSettings, NodeGene, NodeId,
+    ConnectionGene, GenomeError, InnovationNumber, Layout, Neat, NeatGenome, NeatSettings, NodeGene, NodeId,
     innovation::Innovations, speciation::Species,
 };
 use ne_core::{Fitness, SettingError};
@@ -208,16 +208,7 @@ impl TryFrom<State> for Neat {
             return Err(StateError::Threshold { found: state.threshold });
         }
         neat.threshold = state.threshold;
-        let Innovations { next_node, next_innovation, .. } = state.innovations;
-        let first = [neat.layout.first_hidden(), (neat.layout.sources() * neat.layout.outputs) as InnovationNumber];
-        for (field, found, least) in
-            [("next_node", next_node, first[0]), ("next_innovation", next_innovation, first[1])]
-        {
-            if found < least {
-                let allowed = format!("at least {least}, the first that is free");
-                return Err(SettingError::new(format!("innovations.{field}"), found, allowed).into());
-            }
-        }
+        check_next(&state.innovations, &neat.layout, !state.asked.is_empty())?;
         neat.innovations = state.innovations;
         neat.scores = state.parents.iter().map(|parent| parent.fitness).collect();
         neat.next_species = state.next_species;
@@ -225,13 +216,39 @@ impl TryFrom<State> for Neat {
         let parents = state.parents.into_iter().map(|parent| parent.genes).collect();
         let size = neat.settings.population;
         let begins = state.start.len();
-        neat.start = generation("start", state.start, begins, &neat)?;
-        neat.parents = generation("parents", parents, size, &neat)?;
-        neat.population = generation("asked", state.asked, size, &neat)?;
+        let before = neat.innovations.next_of_parents();
+        let next = [neat.innovations.next_node, neat.innovations.next_innovation];
+        neat.start = generation("start", state.start, begins, &neat, before)?;
+        neat.parents = generation("parents", parents, size, &neat, before)?;
+        neat.population = generation("asked", state.asked, size, &neat, next)?;
         neat.asked = !neat.population.is_empty();
         check_ends(&neat)?;
         (neat.best, neat.stagnation) = (state.best, state.stagnation);
         Ok(neat)
+    }
+}
+
+/// The numbers to be given next.
+fn check_next(innovations: &Innovations, layout: &Layout, is_asked: bool) -> Result<(), SettingError> {
+    let first = [layout.first_hidden(), (layout.sources() * layout.outputs) as InnovationNumber];
+    let (before, next) = (innovations.next_of_parents(), [innovations.next_node, innovations.next_innovation]);
+    for (field, next, before, least) in
+        [("next_node", next[0], before[0], first[0]), ("next_innovation", next[1], before[1], first[1])]
+    {
+        if next < least {
+            let allowed = format!("at least {least}, the first that is free");
+            return Err(SettingError::new(format!("innovations.{field}"), next, allowed));
+        }
+        if !(least..=next).contains(&before) {
+            let allowed = format!("from {least} to {next}, the next in `{field}`");
+            return Err(SettingError::new("innovations.before_asked", before, allowed));
+        }
+    }
+    match innovations.before_asked {
+        Some(_) if !is_asked => {
+            Err(SettingError::new("innovations.before_asked", "there", "absent between generations"))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -266,8 +283,14 @@ fn species(saved: Vec<SavedSpecies>, parents: &[Parent], neat: &Neat) -> Result<
     Ok(all)
 }
 
-/// A generation, or an empty one.
-fn generation(field: &str, genes: Vec<Genes>, expected: usize, neat: &Neat) -> Result<Vec<NeatGenome>, StateError> {
+/// A generation, or an empty one, whose nodes and innovations have numbers below these.
+fn generation(
+    field: &str,
+    genes: Vec<Genes>,
+    expected: usize,
+    neat: &Neat,
+    next: [u32; 2],
+) -> Result<Vec<NeatGenome>, StateError> {
     if !genes.is_empty() && genes.len() != expected {
         return Err(StateError::Count { field: field.into(), expected, found: genes.len() });
     }
@@ -278,7 +301,7 @@ fn generation(field: &str, genes: Vec<Genes>, expected: usize, neat: &Neat) -> R
                 None => Ok(genome),
             })
             .map_err(|source| StateError::Individual { field: field.into(), index, source })?;
-        let Innovations { next_node, next_innovation, .. } = neat.innovations;
+        let [next_node, next_innovation] = next;
         let node = genome.nodes().last().map(|gene| gene.id);
         let innovation = genome.connections().last().map(|gene| gene.innovation);
         for (what, last, next) in [("a node", node, next_node), ("an innovation", innovation, next_innovation)] {

@@ -41,8 +41,11 @@ fn new(settings: NeatSettings) -> Neat {
 }
 
 fn reload(neat: &Neat) -> Neat {
-    let text = serde_json::to_string(neat).expect("serialises");
-    serde_json::from_str(&text).expect("deserialises")
+    serde_json::from_str(&to_json(neat)).expect("deserialises")
+}
+
+fn to_json(neat: &Neat) -> String {
+    serde_json::to_string(neat).expect("serialises")
 }
 
 /// The presets, and two with everything else.
@@ -94,14 +97,40 @@ fn state_survives_serialisation_to_the_bit() {
             let mut copy = reload(&neat);
             let population = neat.ask(seed).to_vec();
             assert_eq!(copy.ask(seed), population, "saved before generation {number} was asked");
-            // Between ask and tell as well.
+            // Between ask and tell as well, whether it is asked again or not.
             let mut copy = reload(&neat);
+            let mut again = reload(&neat);
+            assert_eq!(again.ask(seed), population, "saved and asked again in generation {number}");
+            assert_eq!(again.origins(), neat.origins());
+            assert_eq!(to_json(&again), to_json(&neat));
             neat.tell(&score(&population), seed);
             copy.tell(&score(&population), seed);
             assert_eq!((copy.statistics(), copy.species()), (neat.statistics(), neat.species()));
             let next = Seed::of_run(1).generation(number + 1);
             assert_eq!(copy.ask(next), neat.clone().ask(next), "saved before generation {number} was told");
         }
+    }
+}
+
+/// Of a connection that is split, the half into the new neuron has a weight of 1.
+#[test]
+fn no_weight_is_beyond_the_limit() {
+    for start in [StartTopology::FullyConnected, StartTopology::HiddenLayer { neurons: 3 }] {
+        let mut settings =
+            NeatSettings { start, new_weights: Noise::Gaussian { deviation: 5.0 }, ..NeatSettings::default() };
+        (settings.mutation.add_connection, settings.mutation.weights.limit) = (0.5, 2.0);
+        let mut neat = new(settings);
+        let mut at_limit = 0;
+        for number in 1..=10 {
+            for genome in generation(&mut neat, number) {
+                let biases = genome.nodes().iter().map(|node| node.bias);
+                for weight in genome.connections().iter().map(|gene| gene.weight).chain(biases) {
+                    assert!(weight.abs() <= 2.0, "{weight} in generation {number}");
+                    at_limit += u32::from(weight.abs() == 2.0);
+                }
+            }
+        }
+        assert!(at_limit > 0);
     }
 }
 
@@ -238,6 +267,40 @@ fn wrong_numbers_of_inputs_and_outputs_are_errors() {
         error(NeatSettings { start, ..NeatSettings::default() }, 4096, 1),
         "start = 16785408 connections of 4096 inputs and 1 outputs: must be at most 8388608 connections"
     );
+}
+
+#[test]
+fn damaged_numbers_of_a_generation_that_was_asked_are_errors() {
+    let mut neat = new(NeatSettings { population: 60, ..NeatSettings::stanley_2002() });
+    (1..4).for_each(|number| drop(generation(&mut neat, number)));
+    let between = serde_json::to_value(&neat).expect("serialises");
+    neat.ask(Seed::of_run(1).generation(4));
+    let asked = serde_json::to_value(&neat).expect("serialises");
+    let error = |state: &serde_json::Value, before: serde_json::Value| {
+        let mut damaged = state.clone();
+        damaged["innovations"]["before_asked"] = before;
+        serde_json::from_value::<Neat>(damaged).expect_err("damaged").to_string()
+    };
+    let next = |name: &str| asked["innovations"][name].as_u64().expect("a number");
+    let (node, innovation) = (next("next_node"), next("next_innovation"));
+    let wrong = [
+        (error(&between, json!([6, 8])), "innovations.before_asked = there: must be absent between generations".into()),
+        (
+            error(&asked, json!([5, 8])),
+            format!("innovations.before_asked = 5: must be from 6 to {node}, the next in `next_node`"),
+        ),
+        (
+            error(&asked, json!([6, innovation + 1])),
+            format!(
+                "innovations.before_asked = {}: must be from 8 to {innovation}, the next in `next_innovation`",
+                innovation + 1
+            ),
+        ),
+        (error(&asked, json!([6, 8])), "parents[".into()),
+    ];
+    for (error, message) in wrong {
+        assert!(error.starts_with(&message), "{error}; expected {message}");
+    }
 }
 
 #[test]

@@ -135,6 +135,17 @@ pub enum PlanError {
         /// What is wrong.
         source: Box<RequestError>,
     },
+    /// A configuration has stages.
+    #[error(
+        "{method} on {scenario}: its configuration has stages, and what is compared are single searches: add --set stages=[], \
+         and each searches for all of it at once"
+    )]
+    Stages {
+        /// The method.
+        method: String,
+        /// Creature and movement.
+        scenario: String,
+    },
     /// A configuration cannot run.
     #[error("{method} on {scenario}: {message}")]
     Setup {
@@ -228,6 +239,9 @@ impl PlanRequest {
             scenario: scenario.clone(),
             source: Box::new(source),
         })?;
+        if !config.stages.is_empty() {
+            return Err(PlanError::Stages { method, scenario });
+        }
         config.stop = self.budget;
         // Seeds are the plan's; whole populations are not looked at in a comparison.
         config.seed = 0;

@@ -58,6 +58,16 @@ impl GaitStudy {
         Ok(RunConfig { seed: self.seeds[run % self.seeds.len()], ..scenario.clone() })
     }
 
+    /// Checks that a result is one of this run.
+    fn check(&self, path: &Path, run: usize, result: &str) -> Result<(), Failed> {
+        let (config, found) = (self.config(run)?, GaitRuns::parse(path, result)?);
+        if (&found.creature, &found.movement, found.seed) != (&config.creature.name, &config.movement.name, config.seed)
+        {
+            return Err(format!("{} is the result of another run, not of {}", path.display(), self.name(run)).into());
+        }
+        Ok(())
+    }
+
     fn file(&self, folder: &Path, run: usize) -> Result<PathBuf, Failed> {
         Ok(GaitRuns::file_of(folder, &self.config(run)?, self.robust)?)
     }
@@ -88,7 +98,12 @@ impl Experiment for GaitStudy {
     }
 
     fn is_done(&self, folder: &Path, run: usize) -> Result<bool, Failed> {
-        Ok(self.file(folder, run)?.is_file())
+        let path = self.file(folder, run)?;
+        if !path.is_file() {
+            return Ok(false);
+        }
+        self.check(&path, run, &read(&path)?)?;
+        Ok(true)
     }
 
     fn carry_out(&self, run: usize, registry: &Registry) -> Result<String, Failed> {
@@ -98,12 +113,8 @@ impl Experiment for GaitStudy {
     }
 
     fn place(&self, folder: &Path, run: usize, result: &str) -> Result<PathBuf, Failed> {
-        let (path, config) = (self.file(folder, run)?, self.config(run)?);
-        let found = GaitRuns::parse(&path, result)?;
-        if (&found.creature, &found.movement, found.seed) != (&config.creature.name, &config.movement.name, config.seed)
-        {
-            return Err(format!("{} is the result of another run, not of {}", path.display(), self.name(run)).into());
-        }
+        let path = self.file(folder, run)?;
+        self.check(&path, run, result)?;
         write(&path, result)
     }
 
@@ -117,6 +128,16 @@ impl Experiment for GaitStudy {
     }
 
     fn conclude(&self, folder: &Path, registry: &Registry) -> Result<Vec<PathBuf>, Failed> {
+        let mut missing = Vec::new();
+        for run in 0..self.runs() {
+            if !self.is_done(folder, run)? {
+                missing.push(run);
+            }
+        }
+        if let [first, ..] = missing[..] {
+            let (missing, all) = (missing.len(), self.runs());
+            return Err(format!("{missing} of {all} runs are missing, the first of them {}", self.name(first)).into());
+        }
         let configs = (0..self.runs()).map(|run| self.config(run)).collect::<Result<Vec<_>, _>>()?;
         let runs = self.kept(folder, registry)?.of(&configs)?;
         let row = |runs: &[GaitRun]| scenario_row(runs, true, registry);

@@ -119,6 +119,22 @@ fn every_experiment_is_done_anywhere() {
 }
 
 #[test]
+fn a_study_of_gaits_with_missing_runs_is_not_concluded_and_does_none_of_them() {
+    let study = gaits(Some(2_000)).expect("a study");
+    let (registry, place) = (Registry::default(), tempfile::tempdir().expect("a folder"));
+    study.begin(place.path()).expect("a new folder");
+    let result = study.carry_out(0, &registry).expect("can be done");
+    let path = study.place(place.path(), 0, &result).expect("can be written");
+    let (all, first) = (study.runs(), study.name(1));
+    let error = study.conclude(place.path(), &registry).expect_err("there are more").to_string();
+    assert_eq!(error, format!("{} of {all} runs are missing, the first of them {first}", all - 1));
+    assert!(!study.is_done(place.path(), 1).expect("readable"));
+    std::fs::write(&path, "{}").expect("can be written");
+    let damaged = study.is_done(place.path(), 0).expect_err("no result").to_string();
+    assert!(damaged.contains(&path.display().to_string()), "{damaged}");
+}
+
+#[test]
 fn runs_done_elsewhere_are_those_done_here() {
     let plan = comparison();
     let place = tempfile::tempdir().expect("a folder");

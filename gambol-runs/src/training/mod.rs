@@ -99,7 +99,7 @@ pub enum TrainError {
         from: String,
     },
     /// The configuration has stages.
-    #[error("the configuration has stages; it is trained stage by stage (shaping::train_stages)")]
+    #[error("the configuration has stages; it is trained stage by stage, by shaping::train_stages")]
     Stages,
     /// The run is over and there is nothing left to do.
     #[error(

@@ -4,6 +4,7 @@ use crate::{
     folder::read,
     program::{assert_says, fail, gambol, run, start, succeed, text},
 };
+use serde_json::Value;
 use std::{fs, path::Path, process::Command};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -234,5 +235,47 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
     succeed(small(&begun).arg("--quiet"));
     let message = fail(&mut small_of(&begun, 200));
     assert_says(&message, &["holds another comparison (the budget)"]);
+    Ok(())
+}
+
+#[test]
+fn what_is_learned_in_stages_is_compared_without_them() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("playing");
+    let playing = || {
+        let mut compare = gambol("compare");
+        compare.args(["--strategies", "ga,cma-es", "--creatures", "biped-1", "--movements", "playing", "--seeds", "2"]);
+        compare.args(["--evaluations", "100", "--set", "movement.steps=40"]).arg("--out").arg(&out);
+        compare
+    };
+    let message = "error: ga on biped-1 playing: its configuration has stages, and what is compared are single searches: add --set \
+                   stages=[], and each searches for all of it at once";
+    assert_says(&fail(&mut playing()), &[message]);
+    assert!(!out.exists());
+    assert_says(&succeed(playing().args(["--set", "stages=[]"])), &["biped-1 playing", "comparison.html"]);
+    Ok(())
+}
+
+/// Of thirteen generations the tenth is the last that is re-evaluated, and then the end is. A run whose last generation went beyond the
+/// budget would be scored without the latter, so that no run is scored with it.
+#[test]
+fn in_varied_worlds_a_score_is_that_of_the_last_re_evaluation_before_the_end() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("varied");
+    let mut compare = gambol("compare");
+    compare.args(["--strategies", "ga", "--creatures", "biped-1", "--movements", "running", "--seeds", "3"]);
+    compare.args(["--preset", "plain", "--variation", "light", "--set", "movement.steps=60", "--evaluations", "650"]);
+    succeed(compare.arg("--out").arg(&out));
+    let mut champions_are_better = 0;
+    for line in scores(&out).iter().skip(1) {
+        let columns: Vec<&str> = line.split(',').collect();
+        let run = out.join("runs/ga/biped-1-running").join(format!("seed-{}", columns[2]));
+        let log = fs::read_to_string(run.join("log.jsonl"))?;
+        let last: Value = serde_json::from_str(log.lines().last().expect("thirteen generations"))?;
+        assert_eq!(columns[3].parse::<f64>()?, last["best_so_far"].as_f64().expect("a number"), "{line}");
+        let champion: Value = serde_json::from_slice(&read(&run.join("champion.json")))?;
+        champions_are_better += u32::from(champion["content"]["fitness"].as_f64() > last["best_so_far"].as_f64());
+    }
+    assert!(champions_are_better > 0, "the end was never re-evaluated");
     Ok(())
 }

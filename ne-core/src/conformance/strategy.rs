@@ -37,6 +37,11 @@ pub const USES_SEED: Promise = Promise::new("strategy", "another seed gives anot
 /// Saved and loaded it goes on.
 pub const RESUMES: Promise =
     Promise::new("strategy", "saved after any `tell` and loaded again, it goes on as if it had not been");
+/// A run that was saved between `ask` and `tell` asks again.
+pub const REPEATS: Promise = Promise::new(
+    "strategy",
+    "saved after any `ask`, loaded and asked again with the same seed, it gives the same genomes and goes on as if it had not been",
+);
 /// Bad news.
 pub const OUTLIVES_FAILURE: Promise =
     Promise::new("strategy", "when every evaluation of a generation fails, it goes on and keeps its other promises");
@@ -55,6 +60,7 @@ pub const PROMISES: &[Promise] = &[
     DETERMINISTIC,
     USES_SEED,
     RESUMES,
+    REPEATS,
     OUTLIVES_FAILURE,
     OUTLIVES_EXTREMES,
 ];
@@ -104,8 +110,12 @@ pub fn check_strategy<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned>(
     DESCENT.check(|| descent(&plain))?;
     plain.first().into_iter().chain(plain.last()).try_for_each(|told| check_genome(&told.sample))?;
     RESUMES.check(|| {
-        let resumed = run_reloading(make(), seed, generations)?;
+        let resumed = run_reloading(make(), seed, generations, false)?;
         same(&resumed, &plain, "saved and loaded after every generation, against uninterrupted")
+    })?;
+    REPEATS.check(|| {
+        let resumed = run_reloading(make(), seed, generations, true)?;
+        same(&resumed, &plain, "saved, loaded and asked again in every generation, against uninterrupted")
     })?;
     USES_SEED.check(|| {
         let other = run(make(), Seed::of_run(options.seed.wrapping_add(1)), generations, Results::Ordinary)?;
@@ -214,16 +224,20 @@ fn readable<S: Strategy<Genome: DeserializeOwned>>(run: &[Told<S::Genome>]) -> R
     genomes.try_for_each(|text| from_json::<S::Genome>(text).map(drop))
 }
 
-/// A run whose strategy is written and read back after each generation, and before the first.
+/// A run whose strategy is written and read back before each generation; or in each once it was asked, to be asked again.
 fn run_reloading<S: Strategy<Genome: DeserializeOwned> + DeserializeOwned>(
     mut strategy: S,
     seed: Seed,
     generations: u64,
+    once_asked: bool,
 ) -> Result<Vec<Told<S::Genome>>, String> {
     let mut run = Vec::new();
     for number in 1..=generations {
+        if once_asked {
+            strategy.ask(seed.generation(number));
+        }
         let saved = to_json(&strategy)?;
-        strategy = from_json(&saved).map_err(|error| format!("before generation {number}: {error}"))?;
+        strategy = from_json(&saved).map_err(|error| format!("generation {number}: {error}"))?;
         run.push(generation(&mut strategy, seed, number, Results::Ordinary)?);
     }
     Ok(run)

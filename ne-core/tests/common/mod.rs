@@ -95,6 +95,7 @@ impl Task for Imitate {
 pub(crate) struct Climber {
     size: usize,
     deviation: f32,
+    parents: Vec<Weights>,
     population: Vec<Weights>,
     scores: Vec<Option<Fitness>>,
 }
@@ -103,7 +104,7 @@ const BREED: Purpose = Purpose::new("test breed");
 
 impl Climber {
     pub(crate) fn new(size: usize) -> Self {
-        Self { size, deviation: 0.5, population: Vec::new(), scores: Vec::new() }
+        Self { size, deviation: 0.5, parents: Vec::new(), population: Vec::new(), scores: Vec::new() }
     }
 }
 
@@ -123,12 +124,13 @@ impl Strategy for Climber {
             weights.iter_mut().for_each(|weight| *weight += self.deviation * stream.random_range(-1.0..1.0_f32));
             Weights(weights)
         };
-        self.population = (0..self.size).map(|index| child(parents.get(index).map(|&p| &self.population[p]))).collect();
+        self.population = (0..self.size).map(|index| child(parents.get(index).map(|&p| &self.parents[p]))).collect();
         &self.population
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _: Seed) {
         self.scores = evaluations.iter().map(Evaluation::fitness).collect();
+        self.parents.clone_from(&self.population);
         self.deviation *= 0.97;
     }
 

@@ -22,6 +22,7 @@ struct Flawed {
     failed: bool,
     extreme: bool,
     restless: f32,
+    questions: u64,
 }
 
 #[derive(Clone, Copy, PartialEq, Serialize, Deserialize)]
@@ -43,6 +44,7 @@ enum Flaw {
     IgnoresSeed,
     ForgetsInFile,
     CannotBeReadBack,
+    CountsQuestions,
     GenomesWithNan,
     PanicsWhenAllFail,
     ShrinksWhenAllFail,
@@ -56,7 +58,7 @@ impl Flawed {
         let restless = if flaw == Flaw::CannotBeReadBack { f32::INFINITY } else { 0.0 };
         let inner = Climber::new(6);
         let (asked, origins) = (Vec::new(), Vec::new());
-        Self { inner, flaw, asked, unsaved: 0, origins, failed: false, extreme: false, restless }
+        Self { inner, flaw, asked, unsaved: 0, origins, failed: false, extreme: false, restless, questions: 0 }
     }
 }
 
@@ -73,6 +75,8 @@ impl Strategy for Flawed {
 
     fn ask(&mut self, seed: Seed) -> &[Weights] {
         let generation = seed.generation_index();
+        self.questions += 1;
+        let seed = if self.flaw == Flaw::CountsQuestions { seed.generation(self.questions) } else { seed };
         let seed = if self.flaw == Flaw::IgnoresSeed { Seed::of_run(9).generation(generation) } else { seed };
         self.asked = self.inner.ask(seed).to_vec();
         match self.flaw {
@@ -151,6 +155,7 @@ fn broken_strategies_are_caught() {
         (USES_SEED, "ignores the seed", check(Flaw::IgnoresSeed)),
         (RESUMES, "forgets in a file", check(Flaw::ForgetsInFile)),
         (RESUMES, "cannot be read back", check(Flaw::CannotBeReadBack)),
+        (REPEATS, "counts what it is asked", check(Flaw::CountsQuestions)),
         (genome::SURVIVES_A_FILE, "genomes with NaN", check(Flaw::GenomesWithNan)),
         (OUTLIVES_FAILURE, "panics when all fail", check(Flaw::PanicsWhenAllFail)),
         (OUTLIVES_FAILURE, "shrinks when all fail", check(Flaw::ShrinksWhenAllFail)),

@@ -161,10 +161,13 @@ impl CmaEs {
     ) -> Result<Self, SettingError> {
         let next = Self::new(settings, topology)?;
         check_growth(growth, &self.topology, &next.topology)?;
+        // A search that is elsewhere knows less than the one that it left; of several starts the best so far goes on.
+        let (is_elsewhere, is_starting, level) =
+            (self.restarts.is_elsewhere(), self.is_starting(), self.history.level());
+        let is_better = |kept: &Kept| is_elsewhere || (is_starting && kept.history.level() >= level);
+        let left = self.kept.filter(is_better).map(|kept| kept.distribution);
         let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
-        // A search that is elsewhere knows less than the one that it left.
-        let left = self.kept.filter(|_| self.restarts.is_elsewhere()).map(|kept| kept.distribution);
         let distribution = left.or(self.distribution).map(|mut distribution| {
             distribution.limit_deviation([REVIVED * first, next.settings.greatest_deviation()]);
             distribution.remapped(growth, model, first)

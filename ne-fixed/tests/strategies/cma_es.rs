@@ -396,8 +396,27 @@ fn of_several_starts_the_one_that_got_farthest_goes_on() {
         (vec![0; 5], place),
         "a search that is carried on has one start"
     );
-    let told = far_apart(settings).with_start(&[vec![2.5; 26]]).expect("26 weights");
+    let told = far_apart(settings.clone()).with_start(&[vec![2.5; 26]]).expect("26 weights");
     assert_eq!(searches(told, 9, |_, _| 1.0), [0; 9], "a search that is told where to begin has one start");
+    // Carried on after so many generations: one that had ended, or the present one where that has got farther.
+    for (generations, worth, expected) in [(2, [1.0, 3.0, 2.0], 0), (3, [3.0, 1.0, 2.0], 0), (3, [1.0, 3.0, 2.0], 1)] {
+        let mut begun = far_apart(settings.clone());
+        let mut places = Vec::new();
+        for number in 1..=generations {
+            let seed = Seed::of_run(1).generation(number);
+            let place = begun.ask(seed)[0].weights()[0];
+            if places.last().is_none_or(|last: &f32| (last - place).abs() > 0.5) {
+                places.push(place);
+            }
+            let worth = worth[places.len() - 1];
+            let evaluations: Vec<_> =
+                (0..begun.ask(seed).len()).map(|index| Evaluation::new(worth + 1e-6 * index as f64)).collect();
+            begun.tell(&evaluations, seed);
+        }
+        let mut carried = begun.remapped(settings.clone(), dense(), &growth).expect("grows by nothing");
+        let place = carried.ask(Seed::of_run(2).generation(1))[0].weights()[0];
+        assert!((place - places[expected]).abs() < 0.5, "after {generations} generations: {place} of {places:?}");
+    }
 }
 
 #[test]

@@ -16,7 +16,7 @@ pub(crate) use structure::{Proposal, apply};
 
 use crate::{
     NeatGenome,
-    noise::{Noise, happens},
+    noise::{NewWeights, happens},
 };
 use ne_core::{RandomStream, SettingError};
 use ne_net::Activation;
@@ -87,7 +87,7 @@ impl MutationSettings {
     pub(crate) fn mutate(
         &self,
         genome: &mut NeatGenome,
-        new_weights: Noise,
+        new_weights: NewWeights,
         activations: &[Activation],
         stream: &mut RandomStream,
     ) -> Proposal {

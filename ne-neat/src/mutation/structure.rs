@@ -5,7 +5,7 @@ use crate::{
     ConnectionGene, InnovationNumber, NeatGenome, NodeGene, NodeId, NodeKind,
     genome::graph::{of_all_connections, reachable_from},
     innovation::Innovations,
-    noise::Noise,
+    noise::NewWeights,
 };
 use ne_core::RandomStream;
 use ne_net::Activation;
@@ -36,7 +36,11 @@ pub(super) struct NewNode {
 }
 
 /// A connection between two nodes that have none, any such pair alike.
-pub(super) fn new_connection(genome: &NeatGenome, weights: Noise, stream: &mut RandomStream) -> Option<NewConnection> {
+pub(super) fn new_connection(
+    genome: &NeatGenome,
+    weights: NewWeights,
+    stream: &mut RandomStream,
+) -> Option<NewConnection> {
     let sources = genome.layout().sources();
     let (neurons, nodes) = (genome.nodes().len(), sources + genome.nodes().len());
     // Whether a connection from the node (row) to the neuron (column) cannot be added.

@@ -1,7 +1,7 @@
 //! What mutations promise, on genomes that a run has brought forth.
 
 use super::*;
-use crate::{BiasKind, ConnectionGene, Neat, NeatSettings, innovation::Innovations};
+use crate::{BiasKind, ConnectionGene, Neat, NeatSettings, Noise, innovation::Innovations};
 use ne_core::{Evaluation, Purpose, Seed, Strategy};
 use proptest::prelude::*;
 
@@ -22,6 +22,8 @@ const NOTHING: MutationSettings = MutationSettings {
     add_node: 0.0,
     split: SplitChoice::Any,
 };
+
+const NEW: NewWeights = NewWeights { noise: Noise::Uniform { limit: 1.0 }, limit: 8.0 };
 
 const CHOICES: [Activation; 2] = [Activation::SteepLogistic, Activation::Sine];
 
@@ -44,7 +46,7 @@ fn genomes(seed: u64, recurrent: bool) -> Vec<NeatGenome> {
 
 fn mutated(genome: &NeatGenome, settings: MutationSettings, seed: u64) -> NeatGenome {
     let mut child = genome.clone();
-    let proposal = settings.mutate(&mut child, Noise::Uniform { limit: 1.0 }, &CHOICES, &mut stream(seed));
+    let proposal = settings.mutate(&mut child, NEW, &CHOICES, &mut stream(seed));
     apply(proposal, &mut child, &mut Innovations::new(1000, 1000));
     let checked = NeatGenome::new(*child.layout(), child.nodes().to_vec(), child.connections().to_vec());
     assert_eq!(checked, Ok(child.clone()), "a genome");
@@ -104,7 +106,7 @@ proptest! {
         let settings = MutationSettings { add_connection: 1.0, ..NOTHING };
         for round in genome.connections().len()..=room {
             prop_assert_eq!(genome.connections().len(), round.min(room));
-            let proposal = settings.mutate(&mut genome, Noise::Uniform { limit: 1.0 }, &CHOICES, &mut stream(round as u64));
+            let proposal = settings.mutate(&mut genome, NEW, &CHOICES, &mut stream(round as u64));
             apply(proposal, &mut genome, &mut innovations);
         }
         prop_assert_eq!(genome.connections().len(), room);

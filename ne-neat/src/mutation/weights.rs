@@ -1,6 +1,6 @@
 use crate::{
     BiasKind, NeatGenome,
-    noise::{Noise, happens},
+    noise::{NewWeights, Noise, happens},
 };
 use ne_core::{RandomStream, SettingError};
 use rand::RngExt;
@@ -23,7 +23,8 @@ pub struct WeightMutation {
     pub replaced: f64,
     /// What is added to a weight that is perturbed.
     pub perturbation: Noise,
-    /// The greatest weight, and negated the least, from 0.001 to 1000: mutations stop there.
+    /// The greatest weight, and negated the least, from 0.001 to 1000: new weights and mutations stop there. Only the
+    /// connection into a new neuron has a weight of 1, as in the paper, whatever the limit.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1000.0)))]
     pub limit: f64,
 }
@@ -41,7 +42,7 @@ impl WeightMutation {
         SettingError::check_range("limit", self.limit, 0.001, 1000.0)
     }
 
-    pub(super) fn mutate(&self, genome: &mut NeatGenome, new_weights: Noise, stream: &mut RandomStream) {
+    pub(super) fn mutate(&self, genome: &mut NeatGenome, new_weights: NewWeights, stream: &mut RandomStream) {
         if !happens(self.rate, stream) {
             return;
         }
@@ -51,7 +52,7 @@ impl WeightMutation {
         let mut mutate = |weight: &mut f32| {
             let decision: f32 = stream.random();
             if decision < replaced {
-                *weight = new_weights.draw(stream).clamp(-limit, limit);
+                *weight = new_weights.draw(stream);
             } else if decision < changed {
                 *weight = (*weight + self.perturbation.draw(stream)).clamp(-limit, limit);
             }

@@ -4,6 +4,7 @@ mod presets;
 
 use crate::{
     BiasKind, Crossover, Layout, MutationSettings, Noise, ReproductionSettings, SpeciationSettings, StartTopology,
+    noise::NewWeights,
 };
 use ne_core::SettingError;
 use ne_net::{Activation, GraphShape};
@@ -33,7 +34,8 @@ pub struct NeatSettings {
     pub hidden_activations: Vec<Activation>,
     /// What the first nets look like.
     pub start: StartTopology,
-    /// How weights are drawn in the first generation, for added connections, and when they are replaced.
+    /// How weights are drawn in the first generation, for added connections, and when they are replaced. None is greater than
+    /// `mutation.weights.limit`.
     pub new_weights: Noise,
     /// Species and fitness sharing.
     pub speciation: SpeciationSettings,
@@ -80,6 +82,11 @@ impl NeatSettings {
             return Err(SettingError::new("restart", 0, "at least 1"));
         }
         Ok(())
+    }
+
+    /// How new weights are drawn.
+    pub(crate) fn new_weights(&self) -> NewWeights {
+        NewWeights { noise: self.new_weights, limit: self.mutation.weights.limit as f32 }
     }
 
     /// What the genomes of a run with these settings have in common; checks the settings too.
