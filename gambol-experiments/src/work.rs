@@ -5,7 +5,7 @@ use gambol_runs::{
     config::RunConfig,
     run_folder::{FolderError, RunFolder},
     strategies::AnyStrategy,
-    training::{TrainError, TrainOptions, resume, train},
+    training::{Resources, TrainError, TrainOptions, resume, train},
 };
 use ne_core::{Generation, StopReason, StopSignal, archive};
 use std::{
@@ -91,6 +91,11 @@ impl<'a, R> WorkOptions<'a, R> {
         Self { part, at_once: 1, threads: 1, registry: registry.clone(), signal: StopSignal::default(), on_run }
     }
 
+    /// What a run is done with.
+    pub(crate) fn resources(&self) -> Resources {
+        Resources { threads: self.threads, registry: self.registry.clone(), signal: self.signal.clone() }
+    }
+
     /// How a run is trained.
     pub(crate) fn training<'b>(&self, unseen: &'b mut dyn FnMut(&Generation<'_, AnyStrategy>)) -> TrainOptions<'b> {
         TrainOptions {
@@ -106,7 +111,9 @@ impl<'a, R> WorkOptions<'a, R> {
     pub(crate) fn run(&self, config: &RunConfig, path: &Path) -> Result<Option<RunFolder>, TrainError> {
         let mut unseen = |_: &Generation<'_, AnyStrategy>| {};
         let how = self.training(&mut unseen);
-        let reason = if RunFolder::at(path).is_begun() {
+        let folder = RunFolder::at(path);
+        let reason = if folder.is_begun() {
+            folder.check_run(config)?;
             match resume(path, None, how) {
                 Err(TrainError::Over { reason, .. }) => Ok(reason),
                 ended => ended.map(|outcome| outcome.reason),

@@ -170,6 +170,10 @@ impl Request {
         if config.preset != base.preset {
             return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
         }
+        if config.movement.name != base.movement.name {
+            let message = "a movement is chosen on the command line or in a file, not with --set: steps, terms and more come with it";
+            return Err(RequestError::Missing(message));
+        }
         defaults::follow_clock(&mut config, &base.movement);
         config.seed = self.seed.unwrap_or(config.seed);
         config.stop = config.stop.overlaid(self.limits);

@@ -6,6 +6,8 @@ use crate::{
     config::RunConfig,
     episode_parts::SetupError,
     report::{ReportError, write_report},
+    run_folder::FolderError,
+    shaping::why_all_failed,
     training::{TrainError, TrainOptions, train},
 };
 use std::path::Path;
@@ -24,11 +26,14 @@ pub enum CompleteRunError {
     #[error(transparent)]
     Setup(#[from] SetupError),
     /// There is no champion.
-    #[error("every evaluation failed; the report in {folder} says why")]
+    #[error("every evaluation failed: {reason}")]
     NoChampion {
-        /// The run's folder.
-        folder: String,
+        /// The commonest reason in the last generation.
+        reason: String,
     },
+    /// The log could not be read again.
+    #[error(transparent)]
+    Folder(#[from] FolderError),
     /// The champion does not repeat itself, as a movement that is not deterministic makes it.
     #[error("the champion does not repeat itself: {0:?}")]
     NotRepeated(Box<Verification>),
@@ -44,8 +49,10 @@ pub fn train_and_verify(config: &RunConfig, folder: &Path, registry: &Registry) 
         TrainOptions { threads: 0, registry: registry.clone(), signal: Default::default(), on_generation: &mut |_| {} };
     let outcome = train(config, folder, options)?;
     write_report(&outcome.folder, registry, Some(outcome.reason))?;
-    let no_champion = || CompleteRunError::NoChampion { folder: folder.display().to_string() };
-    let champion = outcome.champion.ok_or_else(no_champion)?;
+    let Some(champion) = outcome.champion else {
+        let reason = why_all_failed(&outcome.folder)?.unwrap_or_else(|| "no generation was done".into());
+        return Err(CompleteRunError::NoChampion { reason });
+    };
     match champion.verify(registry)? {
         verification if verification.is_identical() => Ok(champion),
         verification => Err(CompleteRunError::NotRepeated(Box::new(verification))),
@@ -88,7 +95,7 @@ mod tests {
         registry.movements.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
         let folder = tempfile::tempdir()?;
         for (movement, says) in [
-            ("failing", "every evaluation failed; the report in"),
+            ("failing", "every evaluation failed: on purpose"),
             ("counting", "the champion does not repeat itself: Verification"),
             ("nothing", "movement.name: there is no movement or term \"nothing\""),
         ] {

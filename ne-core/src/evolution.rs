@@ -8,6 +8,7 @@ use crate::{
     },
     checkpoint,
     promotion::{Decision, Promotion, StageState},
+    statistics::commonest_failure,
 };
 use std::{
     fmt,
@@ -224,6 +225,7 @@ impl<S: Strategy> Evolution<S> {
             tier: self.champion.as_ref().map_or(0, |champion| champion.tier),
             fitness: Quantiles::of(&evaluations),
             failures: evaluations.iter().filter(|evaluation| evaluation.outcome.is_err()).count() as u64,
+            failure: commonest_failure(&evaluations),
             population: genomes.len() as u64,
             strategy: self.strategy.statistics(),
             species: self.strategy.species(),

@@ -1,5 +1,6 @@
 use crate::{Evaluation, Fitness, SpeciesReport, Statistic, champion_selection::ReEvaluationReport};
 use serde::{Deserialize, Serialize};
+use std::{cmp::Reverse, collections::BTreeMap};
 
 /// What happened in one generation: plain data, a line of a log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,9 @@ pub struct GenerationReport {
     pub fitness: Option<Quantiles>,
     /// How many evaluations failed.
     pub failures: u64,
+    /// Where all failed, the commonest reason; of equally common ones the first.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
     /// How many members the population had.
     pub population: u64,
     /// What the strategy says of itself.
@@ -30,6 +34,17 @@ pub struct GenerationReport {
     /// What came of the re-evaluation, if there is a champion selection and it sat after this generation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub re_evaluation: Option<ReEvaluationReport>,
+}
+
+/// The commonest reason why these evaluations failed, of equally common ones the first; `None` if one did not, or there are none.
+pub(crate) fn commonest_failure(evaluations: &[Evaluation]) -> Option<String> {
+    // How often, and first where.
+    let mut reasons: BTreeMap<String, (usize, Reverse<usize>)> = BTreeMap::new();
+    for (index, evaluation) in evaluations.iter().enumerate() {
+        let reason = evaluation.outcome.as_ref().err()?.to_string();
+        reasons.entry(reason).or_insert((0, Reverse(index))).0 += 1;
+    }
+    reasons.into_iter().max_by_key(|&(_, often)| often).map(|(reason, _)| reason)
 }
 
 /// The distribution of a generation's fitnesses, failures left out.
@@ -82,6 +97,17 @@ fn is_zero(tier: &u8) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Failure;
+
+    #[test]
+    fn the_commonest_reason_is_told_where_all_failed() {
+        let failed = |what: &str| Evaluation::failed(Failure::Other { what: what.into() });
+        let told = |reasons: &[&str]| commonest_failure(&reasons.iter().map(|what| failed(what)).collect::<Vec<_>>());
+        assert_eq!(told(&["b", "a", "c", "a", "b"]).as_deref(), Some("b"));
+        assert_eq!(told(&["b", "a", "c", "a"]).as_deref(), Some("a"));
+        assert_eq!(told(&[]), None);
+        assert_eq!(commonest_failure(&[failed("a"), Evaluation::new(1.0)]), None);
+    }
 
     #[test]
     fn quantiles_interpolate_and_skip_failures() {

@@ -15,7 +15,7 @@ use gambol_runs::{
     strategies::AnyStrategy,
     training::{Outcome, Resources},
 };
-use ne_core::Generation;
+use ne_core::{Generation, StopReason};
 use serde::{Deserialize, Serialize};
 use std::{path::Path, time::Instant};
 use tasks::gait::Goal;
@@ -53,22 +53,19 @@ pub struct GaitRun {
 }
 
 impl GaitRun {
-    /// Trains, and judges the champion. `threads`: 0 means one for each core. `robust`: whether it is replayed in
-    /// perturbed worlds.
+    /// Trains, and judges the champion. `robust`: whether it is replayed in perturbed worlds.
     ///
     /// # Errors
-    /// If the configuration is refused, or a temporary folder cannot be written.
-    pub(super) fn measure(
-        config: &RunConfig,
-        registry: &Registry,
-        threads: usize,
-        robust: bool,
-    ) -> Result<Self, GaitsError> {
+    /// If the configuration is refused, a temporary folder cannot be written, or the signal was given.
+    pub(super) fn measure(config: &RunConfig, resources: Resources, robust: bool) -> Result<Self, GaitsError> {
+        let registry = &resources.registry.clone();
         let folder = tempfile::tempdir().map_err(GaitsError::Temporary)?;
         let began = Instant::now();
-        let resources = Resources { threads, registry: registry.clone(), signal: Default::default() };
         let tier = tier_to_reach(config, registry);
         let (outcome, first) = until_over(config, &folder.path().join("run"), resources, tier, began)?;
+        if outcome.reason == StopReason::Interrupted {
+            return Err(GaitsError::Interrupted);
+        }
         let seconds = began.elapsed().as_secs_f64();
         let mut run = Self {
             creature: config.creature.name.clone(),

@@ -9,7 +9,7 @@ use creatures::CreatureError;
 use gambol_runs::{
     Registry, config::RunConfig, gait::GaitOfChampionError, robust::RobustnessError, shaping::ShapingError,
 };
-use ne_core::{archive::ArchiveError, digest::Digest};
+use ne_core::{StopSignal, archive::ArchiveError, digest::Digest};
 use std::{
     collections::BTreeSet,
     io,
@@ -24,6 +24,7 @@ pub struct GaitRuns {
     at_once: usize,
     threads: usize,
     kept: Kept,
+    signal: StopSignal,
 }
 
 /// A run could not be done.
@@ -50,12 +51,22 @@ pub enum GaitsError {
     /// It cannot be perturbed.
     #[error(transparent)]
     Robust(#[from] RobustnessError),
+    /// The signal was given.
+    #[error("interrupted")]
+    Interrupted,
 }
 
 impl GaitRuns {
     /// `at_once`: runs at the same time, and `threads` of each; 0 means one for each core.
     pub fn new(registry: &Registry, at_once: usize, threads: usize) -> Self {
-        Self { registry: registry.clone(), robust: false, at_once, threads, kept: Kept::default() }
+        let (registry, signal) = (registry.clone(), StopSignal::default());
+        Self { registry, robust: false, at_once, threads, kept: Kept::default(), signal }
+    }
+
+    /// Ends runs under way, and begins no other, once the signal is given; what has been kept stays.
+    #[must_use]
+    pub fn until(self, signal: &StopSignal) -> Self {
+        Self { signal: signal.clone(), ..self }
     }
 
     /// Replays every champion in 100 perturbed worlds.
@@ -102,7 +113,7 @@ impl GaitRuns {
             at_once: self.at_once,
             threads: self.threads,
             registry: self.registry.clone(),
-            signal: Default::default(),
+            signal: self.signal.clone(),
             on_run: &|_| {},
         };
         let kept = Mutex::new(&mut self.kept);
@@ -111,7 +122,7 @@ impl GaitRuns {
             &jobs,
             |(digest, _)| digest.to_string(),
             |(digest, config)| {
-                let run = GaitRun::measure(config, &options.registry, options.threads, self.robust)?;
+                let run = GaitRun::measure(config, options.resources(), self.robust)?;
                 kept.lock().unwrap_or_else(PoisonError::into_inner).add(*digest, run.clone())?;
                 Ok::<_, GaitsError>(Ended::Done(Some(run)))
             },

@@ -36,6 +36,7 @@ mod tests {
             tier: 0,
             fitness: None,
             failures: 0,
+            failure: None,
             population: 0,
             strategy: Vec::new(),
             species: Vec::new(),

@@ -136,6 +136,7 @@ mod tests {
             tier: 0,
             fitness: None,
             failures: 0,
+            failure: None,
             population: 10,
             strategy: statistics.iter().map(|&(name, value)| Statistic::new(name, value)).collect(),
             species: species.iter().map(report).collect(),

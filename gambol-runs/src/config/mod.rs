@@ -17,6 +17,7 @@ use envs_rapier::{PhysicsSettings, Variation};
 use ne_core::{SettingError, StopConditions};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 use tasks::{Commands, MovementSpec, Trials};
 
 /// The format a configuration file names.
@@ -101,6 +102,21 @@ impl RunConfig {
     /// that the best of a generation need not be the best in one whole episode of `creature`.
     pub fn has_champion_selection(&self) -> bool {
         !self.variation.is_none() || self.training_steps.is_some() || !self.further_bodies.is_empty()
+    }
+
+    /// The first field by which another configuration is that of another run; `None`: by none. A run keeps its own when its limits change,
+    /// and when it begins with what another has learned.
+    pub fn other_run(&self, other: &Self) -> Option<String> {
+        let fields = |config: &Self| {
+            let config = Self { stop: StopConditions::default(), topology: None, origin: None, ..config.clone() };
+            match serde_json::to_value(config) {
+                Ok(Value::Object(fields)) => fields,
+                // Plain data can be written.
+                _ => Map::new(),
+            }
+        };
+        let (one, other) = (fields(self), fields(other));
+        one.keys().chain(other.keys()).find(|&field| one.get(field) != other.get(field)).cloned()
     }
 }
 

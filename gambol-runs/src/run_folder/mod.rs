@@ -72,6 +72,17 @@ pub enum FolderError {
         /// What differs.
         what: &'static str,
     },
+    /// It is of another run than the one that has its place.
+    #[error(
+        "{} is the folder of another run: its config.json has another \"{what}\" than the run that is to be there; move it away, and \
+         that run is done", path.display()
+    )]
+    AnotherRun {
+        /// The folder.
+        path: PathBuf,
+        /// What differs.
+        what: String,
+    },
     /// Its champion is of another run.
     #[error("{} is not the champion of this run: it differs from config.json in {what}", path.display())]
     ForeignChampion {
@@ -297,6 +308,17 @@ impl RunFolder {
     /// If it cannot be read, is damaged or of another version.
     pub fn read_config(&self) -> Result<RunConfig, FolderError> {
         Ok(archive::read(&self.config(), CONFIG_FORMAT, CONFIG_VERSION)?)
+    }
+
+    /// Checks that its configuration is one of this run.
+    ///
+    /// # Errors
+    /// If it is of another, or cannot be read.
+    pub fn check_run(&self, config: &RunConfig) -> Result<(), FolderError> {
+        match config.other_run(&self.read_config()?) {
+            Some(what) => Err(FolderError::AnotherRun { path: self.path().into(), what }),
+            None => Ok(()),
+        }
     }
 
     /// Reads where the run stands, from its checkpoint.

@@ -67,6 +67,16 @@ pub(super) fn stage_run(folder: &RunFolder, number: usize, stage: usize, name: &
     Ok(StageRun { number, stage, name: name.into(), folder: folder.path().into(), decision, progress, champion })
 }
 
+/// Why the evaluations of the last generation failed, most often, if all did; of a run with stages those of its last stage run.
+///
+/// # Errors
+/// If a file of the run cannot be read.
+pub fn why_all_failed(folder: &RunFolder) -> Result<Option<String>, FolderError> {
+    let last = stage_runs(folder)?.last().map(|stage_run| RunFolder::at(&stage_run.folder));
+    let log = last.as_ref().unwrap_or(folder).read_log()?;
+    Ok(log.into_iter().next_back().and_then(|report| report.failure))
+}
+
 /// What all stage runs have used.
 pub(super) fn total(stage_runs: &[StageRun]) -> Progress {
     let sum = |count: fn(&Progress) -> u64| stage_runs.iter().map(|stage_run| count(&stage_run.progress)).sum();

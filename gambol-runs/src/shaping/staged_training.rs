@@ -235,6 +235,9 @@ impl<C: Curriculum> StagedTraining<C> {
             let path = self.folder.stages().join(format!("{number:02}-{}", planned.name));
             let stage_folder = RunFolder::at(&path);
             let is_begun = stage_folder.is_begun();
+            if is_begun {
+                stage_folder.check_run(&self.config_of(&planned, self.config.stop))?;
+            }
             let begun = || stage_run(&stage_folder, number, planned.stage, &planned.name);
             if is_begun && stage_folder.read_standing()?.decision != Decision::Stay {
                 let passed = begun()?;
@@ -274,24 +277,29 @@ impl<C: Curriculum> StagedTraining<C> {
         let left = |minutes: f64| (minutes - self.began.elapsed().as_secs_f64() / 60.0).max(1e-6);
         let now = StopConditions { minutes: config.stop.minutes.map(left), ..stop };
         let path = stage_folder.path();
+        let stage_config = self.config_of(planned, stop);
         if is_begun {
             (stage_progress.on_stage_run)(planned, stage_folder.read_config()?.origin.as_ref());
             let promotion = planned.promotion.clone();
             return Ok(Training::resume_stage_run(path, stop, now, promotion, &self.resources)?);
         }
-        let stage_config = RunConfig {
-            seed: config.seed.wrapping_add(SEED_STEP * self.stage_runs.len() as u64),
-            stop,
-            record: config.record.clone(),
-            stages: Vec::new(),
-            ..planned.config.clone()
-        };
         let before = match planned.begins {
             Beginning::Before => self.stage_runs.last(),
             Beginning::After(number) => self.stage_runs.iter().find(|stage_run| stage_run.number == number),
             Beginning::Nothing => None,
         };
         begin(planned, stage_config, path, before, now, &mut *stage_progress.on_stage_run, &self.resources)
+    }
+
+    /// The configuration of the next stage run, without what is transferred to it.
+    fn config_of(&self, planned: &PlannedStage, stop: StopConditions) -> RunConfig {
+        RunConfig {
+            seed: self.config.seed.wrapping_add(SEED_STEP * self.stage_runs.len() as u64),
+            stop,
+            record: self.config.record.clone(),
+            stages: Vec::new(),
+            ..planned.config.clone()
+        }
     }
 
     fn of_the_run(&self, error: ShapingError) -> ShapingError {

@@ -113,19 +113,22 @@ impl Recording {
 ///
 /// # Errors
 /// Names the line and what is wrong with it: a column that is missing, what is not a number, a part the creature does not
-/// have, has twice or is without, a step out of order, a torque where there is no motor.
+/// have, has twice or is without, a step out of order, a torque where there is no motor, or of more than twice that of the motor, a column that is
+/// there twice, and speeds that are not those of the positions.
 pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
     let names: Vec<&str> = body.parts.iter().map(|part| part.name.as_str()).collect();
     let mut rows = rows(text.strip_prefix('\u{feff}').unwrap_or(text))?.into_iter();
     let header = rows.next().ok_or_else(|| wrong(1, format!("expected the columns {}", PLACES.join(","))))?;
     let places = columns(&header, PLACES)?;
+    check_once(&header)?;
     let (speeds, torque) = further_columns(&header)?;
     let commands = all_or_none(&header, COMMAND_COLUMNS)?;
     // As they are, or as they are written where a spreadsheet would compute them.
     let written = names.iter().map(|name| literal(name)).zip(0..);
     let indices: HashMap<Cow<'_, str>, usize> =
         written.chain(names.iter().map(|&name| Cow::Borrowed(name)).zip(0..)).collect();
-    let motors: Vec<bool> = (0..names.len()).map(|part| body.actuated().any(|hinge| hinge.child == part)).collect();
+    let top_torque = |part| body.actuated().find(|hinge| hinge.child == part)?.motor.map(|motor| motor.top_torque);
+    let top_torques: Vec<Option<f32>> = (0..names.len()).map(top_torque).collect();
     let mut reader = Reader { names: &names, snapshots: vec![], lines: vec![], torques: vec![], seen: vec![] };
     let mut last_line = header.line;
     for row in rows {
@@ -150,7 +153,7 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
             }
         }
         let torque = match torque {
-            Some(column) => torque_of(row.line, &row.fields[column], names[part], motors[part])?,
+            Some(column) => torque_of(row.line, &row.fields[column], names[part], top_torques[part])?,
             None => 0.0,
         };
         let step =
@@ -166,6 +169,9 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
         reader.add(row.line, moment, part, state, torque)?;
     }
     let mut read = reader.finish(last_line)?;
+    if speeds.is_some() {
+        check_speeds(header.line, &read.snapshots)?;
+    }
     if torque.is_some() {
         add_work(body, &mut read.snapshots, &read.torques);
     }
@@ -174,14 +180,60 @@ pub fn read_csv(text: &str, body: &Body) -> Result<CsvTrajectory, CsvError> {
     Ok(CsvTrajectory { snapshots, lines, speeds_known, work_known, commands_known })
 }
 
+/// Worlds vary the torque of motors, but not as much as this factor.
+const TORQUE_FACTOR: f32 = 2.0;
+
 /// The torque on a part, N·m; 0 where no motor is to give one.
-fn torque_of(line: usize, text: &str, part: &str, has_motor: bool) -> Result<f32, CsvError> {
-    let torque = if text.trim().is_empty() && !has_motor { 0.0 } else { number(line, TORQUE, text)? };
-    if torque != 0.0 && !has_motor {
-        let what = format!("{TORQUE} is {torque}, expected 0 or nothing: \"{part}\" hangs on no motor of a controller");
-        return Err(wrong(line, what));
+fn torque_of(line: usize, text: &str, part: &str, top_torque: Option<f32>) -> Result<f32, CsvError> {
+    let torque = if text.trim().is_empty() && top_torque.is_none() { 0.0 } else { number(line, TORQUE, text)? };
+    let what = match top_torque {
+        None if torque != 0.0 => {
+            format!("{TORQUE} is {torque}, expected 0 or nothing: \"{part}\" hangs on no motor of a controller")
+        }
+        Some(top) if torque.abs() > TORQUE_FACTOR * top => {
+            format!("{TORQUE} is {torque}, but the motor of \"{part}\" gives at most {top} N·m")
+        }
+        _ => return Ok(torque),
+    };
+    Err(wrong(line, what))
+}
+
+/// By how much the speeds of a file may be off those of its positions, on average: this share of them, and m/s or rad/s. In engines bodies
+/// move a little otherwise than their speeds say, where contacts and joints are corrected.
+const SPEEDS_OFF: (f64, f64) = (0.5, 0.3);
+
+/// Checks that the speeds are those of the positions: they may be in another unit, or of another film.
+fn check_speeds(line: usize, snapshots: &[Snapshot]) -> Result<(), CsvError> {
+    let angle = |state: &PartState| f64::from(libm::atan2f(state.sin, state.cos));
+    let (mut off, mut moved, mut count) = ([0.0; 2], [0.0; 2], 0.0);
+    for window in snapshots.windows(3) {
+        let seconds = f64::from(window[2].time - window[0].time);
+        for ((before, now), after) in window[0].parts.iter().zip(&window[1].parts).zip(&window[2].parts) {
+            let speed = |from: f32, to: f32| (f64::from(to) - f64::from(from)) / seconds;
+            let (vx, vy) = (speed(before.x, after.x), speed(before.y, after.y));
+            let spin = libm::remainder(angle(after) - angle(before), std::f64::consts::TAU) / seconds;
+            off[0] += libm::hypot(vx - f64::from(now.vx), vy - f64::from(now.vy));
+            moved[0] += libm::hypot(vx, vy);
+            off[1] += (spin - f64::from(now.spin)).abs();
+            moved[1] += spin.abs();
+            count += 1.0;
+        }
     }
-    Ok(torque)
+    for (kind, (columns, unit)) in
+        [(format!("{} and {}", SPEEDS[0], SPEEDS[1]), "m/s"), (SPEEDS[2].into(), "rad/s")].into_iter().enumerate()
+    {
+        let (off, moved) = (off[kind] / f64::max(count, 1.0), moved[kind] / f64::max(count, 1.0));
+        if off > SPEEDS_OFF.0 * moved + SPEEDS_OFF.1 {
+            return Err(wrong(
+                line,
+                format!(
+                    "by the positions the parts move at {moved:.2} {unit} on average, and {columns} are {off:.2} {unit} off that: \
+                     correct them, or leave out the columns of speeds and torques"
+                ),
+            ));
+        }
+    }
+    Ok(())
 }
 
 /// Adds up what the motors have done by the end of each step.
@@ -222,6 +274,17 @@ fn flag(line: usize, what: &str, text: &str) -> Result<bool, CsvError> {
 /// Where a column is, if it is there.
 fn column(header: &Row, name: &str) -> Option<usize> {
     header.fields.iter().position(|field| field.trim() == name)
+}
+
+/// No column that is read may be there twice.
+fn check_once(header: &Row) -> Result<(), CsvError> {
+    let known = PLACES.iter().chain(&SPEEDS).chain(&COMMAND_COLUMNS).chain([&TORQUE]);
+    for name in known {
+        if header.fields.iter().filter(|field| field.trim() == *name).count() > 1 {
+            return Err(wrong(header.line, format!("the column \"{name}\" is there twice")));
+        }
+    }
+    Ok(())
 }
 
 /// Where each of these columns is.

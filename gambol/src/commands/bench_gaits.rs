@@ -1,14 +1,14 @@
-use super::Outcome;
+use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry, Setup,
     compare::is_seed_or_budget,
     config::RunConfig,
-    gaits::{ABLATION, GaitRun, GaitRuns, SCENARIOS, VARIANTS, Variant, ablation_row, csv, scenario_row},
+    gaits::{ABLATION, GaitRun, GaitRuns, GaitsError, SCENARIOS, VARIANTS, Variant, ablation_row, csv, scenario_row},
     judge::tier_to_reach,
     request::Request,
 };
 use clap::Args;
-use ne_core::StopConditions;
+use ne_core::{StopConditions, StopSignal};
 use serde_json::json;
 use std::{error::Error, path::PathBuf, process::ExitCode};
 
@@ -107,14 +107,19 @@ impl Gaits {
         }
         let known = || registry.creatures.names().into_iter().map(str::to_owned).collect();
         let creatures = if self.creatures.is_empty() { known() } else { self.creatures.clone() };
-        let mut runs = GaitRuns::new(registry, self.at_once.unwrap_or(1), self.threads).robust(self.robust);
+        let signal = StopSignal::default();
+        super::interrupt::stop_on_interrupt(&signal)?;
+        let mut runs =
+            GaitRuns::new(registry, self.at_once.unwrap_or(1), self.threads).robust(self.robust).until(&signal);
         if let Some(path) = &self.keep {
             runs = runs.kept_in(path)?;
         }
-        match &self.ablate {
+        let done = match &self.ablate {
             Some(text) => self.ablation(&creatures, text, &mut runs, registry),
             None => self.scenarios(&creatures, &mut runs, registry),
-        }
+        };
+        let is_interruption = |error: &Box<dyn Error>| matches!(error.downcast_ref(), Some(GaitsError::Interrupted));
+        if done.as_ref().is_err_and(is_interruption) { Ok(ExitCode::from(INTERRUPTED)) } else { done }
     }
 
     /// Every creature with every movement.

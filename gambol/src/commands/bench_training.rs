@@ -1,11 +1,11 @@
-use super::Outcome;
+use super::{INTERRUPTED, Outcome};
 use crate::{
     Registry,
     request::Request,
     training::{TrainOptions, train},
 };
 use clap::Args;
-use ne_core::{Fitness, Parallel};
+use ne_core::{Fitness, Parallel, StopReason, StopSignal};
 use serde::Serialize;
 use serde_json::json;
 use std::{error::Error, process::ExitCode, time::Instant};
@@ -63,12 +63,17 @@ impl Training {
         let creatures = if self.creature.is_empty() { usual.into() } else { self.creature.clone() };
         let threads = Parallel::new(self.threads)?.threads();
         let (generations, steps, engine) = (self.generations, self.steps, &self.engine);
+        let signal = StopSignal::default();
+        super::interrupt::stop_on_interrupt(&signal)?;
         let mut runs = Vec::new();
         for creature in creatures {
             if !self.json {
                 tell!("{creature} learns running");
             }
-            runs.push(self.measure(creature, threads, registry)?);
+            match self.measure(creature, threads, registry, &signal)? {
+                Some(run) => runs.push(run),
+                None => return Ok(ExitCode::from(INTERRUPTED)),
+            }
         }
         if self.json {
             say!("{}", json!({ "engine": engine, "threads": threads, "episode_steps": steps, "runs": runs }))?;
@@ -96,7 +101,14 @@ impl Training {
         Ok(ExitCode::SUCCESS)
     }
 
-    fn measure(&self, creature: String, threads: usize, registry: &Registry) -> Result<Run, Box<dyn Error>> {
+    /// `None`: it was interrupted.
+    fn measure(
+        &self,
+        creature: String,
+        threads: usize,
+        registry: &Registry,
+        signal: &StopSignal,
+    ) -> Result<Option<Run>, Box<dyn Error>> {
         let registry = registry.clone();
         let request = Request {
             creature: Some(creature.clone()),
@@ -110,13 +122,16 @@ impl Training {
         config.training_steps = None;
         let folder = tempfile::tempdir()?;
         let options =
-            TrainOptions { threads: self.threads, registry, signal: Default::default(), on_generation: &mut |_| {} };
+            TrainOptions { threads: self.threads, registry, signal: signal.clone(), on_generation: &mut |_| {} };
         let began = Instant::now();
         let outcome = train(&config, &folder.path().join("run"), options)?;
+        if outcome.reason == StopReason::Interrupted {
+            return Ok(None);
+        }
         let seconds = began.elapsed().as_secs_f64();
         let (progress, champion) = (outcome.progress, outcome.champion);
         let trained = champion.as_ref().and_then(|champion| champion.trained);
-        Ok(Run {
+        Ok(Some(Run {
             creature,
             seconds,
             generations: progress.generations,
@@ -125,6 +140,6 @@ impl Training {
             microseconds_per_step_and_core: seconds * 1e6 * threads as f64 / progress.steps as f64,
             fitness: champion.map(|champion| champion.fitness.get()),
             fitness_in_training: trained.and_then(|trained| trained.fitness).map(Fitness::get),
-        })
+        }))
     }
 }

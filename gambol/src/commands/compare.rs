@@ -1,4 +1,4 @@
-use super::{INTERRUPTED, Outcome};
+use super::{INTERRUPTED, NOT_YET, Outcome};
 use crate::{
     Registry,
     compare::{ComparisonFolder, Method, Part, PlanRequest, Progress, WorkOptions, merge, table, work, write_outcome},
@@ -133,7 +133,7 @@ impl Compare {
         }
         if left > 0 {
             say!("{left} runs are being done by other processes; when they have ended, repeat the command")?;
-            return Ok(ExitCode::SUCCESS);
+            return Ok(ExitCode::from(NOT_YET));
         }
         finish(&folder, self.quiet)
     }

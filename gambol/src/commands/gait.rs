@@ -2,9 +2,11 @@ use super::{NOT_USABLE, Outcome, check_ending, check_output, gait_text, write_ou
 use crate::{
     Registry,
     champion::Champion,
-    gait, judge,
+    gait, judge, program_name,
     run_folder::RunFolder,
+    shaping::why_all_failed,
     sheet, source, suggest,
+    texts::shell_word,
     trajectory::{COMMAND_COLUMNS, CsvTrajectory, read_csv},
 };
 use clap::Args;
@@ -114,7 +116,28 @@ impl Gait {
 
 /// The champion's file: the one that is given, or that of the run whose folder is given.
 pub(super) fn champion_file(path: &Path) -> Result<PathBuf, Box<dyn Error>> {
-    Ok(if path.is_dir() { RunFolder::open(path)?.champion() } else { path.into() })
+    if !path.is_dir() {
+        return Ok(path.into());
+    }
+    let folder = RunFolder::open(path)?;
+    if folder.champion().is_file() { Ok(folder.champion()) } else { Err(no_champion(&folder)) }
+}
+
+/// Why a run has no champion.
+pub(super) fn no_champion(folder: &RunFolder) -> Box<dyn Error> {
+    let path = folder.path().display();
+    match why_all_failed(folder) {
+        Ok(Some(reason)) => {
+            format!("{path} has no champion: in its last generation every evaluation failed, most often for this reason: {reason}")
+        }
+        Ok(None) => format!(
+            "{path} has no champion.json: none was chosen so far, or it was removed; `{} resume {}` goes on, or writes it anew",
+            program_name(),
+            shell_word(folder.path())
+        ),
+        Err(error) => error.to_string(),
+    }
+    .into()
 }
 
 fn of_champion(path: &Path, with_sheet: bool, registry: &Registry) -> Result<Measured, Box<dyn Error>> {

@@ -39,6 +39,8 @@ type Outcome = Result<ExitCode, Box<dyn Error>>;
 const DIVERGED: u8 = 3;
 /// The exit code of `gait` when the gait is not usable, and of a run that was to end with a usable one and did not.
 const NOT_USABLE: u8 = 3;
+/// The exit code of `compare`, `tune` and `reproduce` while other processes are at work on some of the runs.
+const NOT_YET: u8 = 4;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
 

@@ -1,4 +1,4 @@
-use super::{INTERRUPTED, Outcome};
+use super::{INTERRUPTED, NOT_YET, Outcome};
 use crate::{
     Registry,
     reproduce::{
@@ -133,6 +133,10 @@ impl Thesis {
         if signal.is_set() && left > 0 {
             say!("{left} runs are left; the same command goes on")?;
             return Ok(ExitCode::from(INTERRUPTED));
+        }
+        if left > 0 {
+            say!("{left} runs are being done by other processes; when they have ended, repeat the command")?;
+            return Ok(ExitCode::from(NOT_YET));
         }
         Ok(ExitCode::SUCCESS)
     }

@@ -1,6 +1,6 @@
 use super::{
     INTERRUPTED, NOT_USABLE, Outcome,
-    gait::champion_file,
+    gait::{champion_file, no_champion},
     progress::{Ended, Show},
 };
 use crate::{
@@ -329,6 +329,9 @@ pub(super) fn carry_out(
     let too_early = usable && !shaping::is_of_goal(&outcome.folder, &registry).unwrap_or(true);
     let verdict = verdict.as_ref();
     show.result(&Ended { outcome: &outcome, verdict, too_early, seconds, report: !flags.no_report })?;
+    if outcome.champion.is_none() && outcome.progress.generations > 0 && outcome.reason != StopReason::Interrupted {
+        return Err(no_champion(&outcome.folder));
+    }
     Ok(match outcome.reason {
         StopReason::Interrupted => ExitCode::from(INTERRUPTED),
         _ if until_usable && (!usable || too_early) => ExitCode::from(NOT_USABLE),

@@ -1,4 +1,4 @@
-use super::{INTERRUPTED, Outcome};
+use super::{INTERRUPTED, NOT_YET, Outcome};
 use crate::{
     Registry,
     compare::{ComparisonFolder, Part, PlanRequest, Progress, WorkOptions, table, work},
@@ -97,7 +97,7 @@ impl Tune {
         let left = work(&folder, &tuning.plan, &options)?;
         if signal.is_set() || left > 0 {
             say!("{left} runs are left; the same command goes on")?;
-            return Ok(if signal.is_set() { ExitCode::from(INTERRUPTED) } else { ExitCode::SUCCESS });
+            return Ok(ExitCode::from(if signal.is_set() { INTERRUPTED } else { NOT_YET }));
         }
         let Tuned { analysis, best, file } = tuning.conclude(&self.out)?;
         if !self.quiet {

@@ -258,3 +258,63 @@ fn a_checkpoint_whose_champion_does_not_repeat_its_fitness_is_refused() -> Outco
     }
     Ok(())
 }
+
+#[test]
+fn a_comparison_does_not_go_on_from_a_run_of_another_strategy() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let compare = || {
+        let mut compare = gambol("compare");
+        compare.args(["--strategies", "ga,neat", "--creatures", "biped-1", "--movements", "running", "--seeds", "2"]);
+        compare.args(["--set", "movement.steps=40", "--evaluations", "100", "--quiet", "--out"]).arg(&out);
+        compare
+    };
+    succeed(&mut compare());
+    let place = |strategy: &str, seed: u32| out.join(format!("runs/{strategy}/biped-1-running/seed-{seed}"));
+    fs::remove_file(out.join("results/ga/biped-1-running/seed-1.json"))?;
+    for (other, what) in [(place("neat", 1), "strategy"), (place("ga", 2), "seed")] {
+        fs::remove_dir_all(place("ga", 1))?;
+        copy_folder(&other, &place("ga", 1))?;
+        let says = format!("seed-1 is the folder of another run: its config.json has another \"{what}\" than the run");
+        assert_says(&fail(&mut compare()), &[&says]);
+    }
+    fs::remove_dir_all(place("ga", 1))?;
+    succeed(&mut compare());
+    Ok(())
+}
+
+#[test]
+fn a_run_with_stages_does_not_go_on_from_a_stage_of_another_run() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let config = crate::shaping::write(folder.path(), &crate::shaping::three_stages());
+    let [run, other] = ["run", "other"].map(|name| folder.path().join(name));
+    succeed(crate::shaping::train(&config, &run).args(["--quiet", "--threads", "1"]));
+    succeed(crate::shaping::train(&config, &other).args(["--quiet", "--threads", "1", "--seed", "9"]));
+    for stage in ["01-run", "03-jump"] {
+        let own = run.join("stages").join(stage);
+        let aside = folder.path().join("aside");
+        fs::rename(&own, &aside)?;
+        copy_folder(&other.join("stages").join(stage), &own)?;
+        let message = fail(gambol("resume").arg(&run).args(["--generations", "60", "--no-report"]));
+        assert_says(
+            &message,
+            &[stage, "is the folder of another run: its config.json has another \"seed\" than the run"],
+        );
+        fs::remove_dir_all(&own)?;
+        fs::rename(&aside, &own)?;
+    }
+    succeed(gambol("resume").arg(&run).args(["--generations", "60", "--no-report", "--quiet"]));
+    Ok(())
+}
+
+/// The files of a folder that has no others.
+fn copy_folder(from: &Path, to: &Path) -> std::io::Result<()> {
+    fs::create_dir_all(to)?;
+    for entry in fs::read_dir(from)? {
+        let entry = entry?;
+        if entry.path().is_file() {
+            fs::copy(entry.path(), to.join(entry.file_name()))?;
+        }
+    }
+    Ok(())
+}

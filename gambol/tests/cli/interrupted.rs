@@ -12,9 +12,11 @@ use gambol::{
 };
 use serde_json::Value;
 use std::{
+    fs::DirEntry,
     io::{BufRead, BufReader, Read},
     path::Path,
     process::{Child, Command, Stdio},
+    time::Duration,
 };
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -183,5 +185,29 @@ fn a_run_under_nohup_survives_its_terminal() -> Outcome {
     assert!(child.try_wait()?.is_none(), "it goes on");
     interrupt(&child);
     assert_eq!(child.wait()?.code(), INTERRUPTED);
+    Ok(())
+}
+
+/// A benchmark trains in the temporary folder, and leaves nothing there.
+#[test]
+fn an_interrupted_benchmark_ends_with_130_and_leaves_no_folder() -> Outcome {
+    for arguments in [
+        &["training", "--creature", "biped-1", "--generations", "1000000"][..],
+        &["gaits", "--creatures", "biped-1", "--movements", "running", "--whole", "--steps", "1000000000000"],
+    ] {
+        let folder = tempfile::tempdir()?;
+        let mut bench = gambol("bench");
+        let bench = bench.args(arguments).env("TMPDIR", folder.path());
+        let child = bench.stdout(Stdio::piped()).stderr(Stdio::piped()).spawn()?;
+        let left = || std::fs::read_dir(folder.path()).map(|entries| entries.flatten().next());
+        let is_begun = |entry: DirEntry| entry.path().join("run/log.jsonl").is_file();
+        while !left()?.is_some_and(is_begun) {
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        interrupt(&child);
+        let ended = Ended::from(child.wait_with_output()?);
+        assert_eq!(ended.code, INTERRUPTED, "{arguments:?}: {}", ended.stderr);
+        assert!(left()?.is_none(), "{arguments:?}");
+    }
     Ok(())
 }

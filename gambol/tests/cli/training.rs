@@ -1,6 +1,6 @@
 use crate::{
     folder::LASTING,
-    program::{WITHOUT_SELECTION, assert_says, gambol, run, small_run, small_run_of, succeed, text},
+    program::{WITHOUT_SELECTION, assert_says, fail, gambol, run, small_run, small_run_of, succeed, text},
 };
 use serde_json::Value;
 use std::{collections::BTreeSet, fs};
@@ -157,5 +157,42 @@ fn flags_win_over_settings_and_settings_over_the_file() -> Outcome {
     assert_eq!(strategy["population"], 4);
     assert_eq!(strategy["selection"], serde_json::json!({"tournament": {"size": 2}}), "a choice replaces the preset's");
     assert_eq!(strategy["elites"], 0, "the rest is the preset's");
+    Ok(())
+}
+
+/// Parts that are a hundred thousand times as heavy as those they stand on sink through them.
+#[test]
+fn a_run_in_which_every_evaluation_fails_says_why() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let mut creature = serde_json::to_value(creatures::find("biped-1")?)?;
+    let parts = creature["parts"].as_array_mut().expect("a list");
+    parts[0]["density"] = 10_000.into();
+    parts[1..].iter_mut().for_each(|part| part["density"] = serde_json::json!(0.1));
+    let file = folder.path().join("heavy.json");
+    fs::write(&file, creature.to_string())?;
+    let path = folder.path().join("run");
+    let mut train = gambol("train");
+    train.arg(&file).args(["running", "--quiet", "--generations", "2", "--population", "4", "--threads", "1", "--out"]);
+    let message = fail(train.arg(&path));
+    let says = "run has no champion: in its last generation every evaluation failed, most often for this reason: the simulation is \
+                unstable: ";
+    assert_says(&message, &["error: ", says]);
+    assert!(path.join("report.html").is_file());
+    for command in ["gait", "robust", "replay", "verify"] {
+        assert_says(&fail(gambol(command).arg(&path)), &[says]);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_run_whose_champion_was_removed_says_how_it_comes_back() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let path = folder.path().join("run");
+    succeed(&mut small_run(&path, 2));
+    fs::remove_file(path.join("champion.json"))?;
+    let says = format!("none was chosen so far, or it was removed; `gambol resume {}` goes on", text(&path));
+    assert_says(&fail(gambol("gait").arg(&path)), &[&says]);
+    succeed(gambol("resume").arg(&path).arg("--no-report"));
+    assert!(path.join("champion.json").is_file());
     Ok(())
 }

@@ -11,7 +11,7 @@ fn body(names: &[&str]) -> Body {
         radius: 0.1,
     };
     let hinge = |(child, name): (usize, &&str)| {
-        let motor = name.contains("leg").then_some(BodyMotor { top_speed: 1.0, top_torque: 1.0 });
+        let motor = name.contains("leg").then_some(BodyMotor { top_speed: 1.0, top_torque: 3.0 });
         BodyHinge { child, motor, limits: [-1.0, 1.0], ..BodyHinge::default() }
     };
     Body {
@@ -168,6 +168,46 @@ fn what_is_wrong_with_speeds_and_torques_is_named_too() {
             format!("line 1: the column \"{column}\" is missing; expected vx_m_per_s,vy_m_per_s,spin_rad_per_s")
         );
     }
+}
+
+/// A body whose parts move by 1 m/s to the right and turn by 1 rad/s, and what its file says of that.
+fn moving(speeds: [&str; 3], torque: &str) -> String {
+    let row = |step: usize, part: &str, torque: &str| {
+        let (time, [vx, vy, spin]) = (step as f32 * 0.02, speeds);
+        format!("{step},{time},{part},{time},1,{time},0,{vx},{vy},{spin},{torque}\n")
+    };
+    let rows: String = (0..20).flat_map(|step| [row(step, "torso", "0"), row(step, "leg", torque)]).collect();
+    format!("{},vx_m_per_s,vy_m_per_s,spin_rad_per_s,motor_torque_n_m\n{rows}", HEADER.trim_end())
+}
+
+#[test]
+fn speeds_of_another_film_and_torques_beyond_the_motors_are_refused() {
+    assert!(read_csv(&moving(["1", "0", "1"], "6"), &body(&["torso", "leg"])).is_ok());
+    assert!(read_csv(&moving(["1.4", "0.4", "0.5"], "-6"), &body(&["torso", "leg"])).is_ok());
+    assert_eq!(
+        refusal(&moving(["0", "0", "1"], "1")),
+        "line 1: by the positions the parts move at 1.00 m/s on average, and vx_m_per_s and vy_m_per_s are 1.00 m/s off that: correct \
+         them, or leave out the columns of speeds and torques"
+    );
+    assert_eq!(
+        refusal(&moving(["1", "0", "57.3"], "1")),
+        "line 1: by the positions the parts move at 1.00 rad/s on average, and spin_rad_per_s are 56.30 rad/s off that: correct \
+         them, or leave out the columns of speeds and torques"
+    );
+    assert_eq!(
+        refusal(&moving(["1", "0", "1"], "-6.5")),
+        "line 3: motor_torque_n_m is -6.5, but the motor of \"leg\" gives at most 3 N·m"
+    );
+}
+
+#[test]
+fn a_column_that_is_read_is_there_once() {
+    let twice = |name: &str| refusal(&format!("{},{name}\n{}", HEADER.trim_end(), GOOD.replace('\n', ",0\n")));
+    for name in ["step", "x_m", "ground_contact"] {
+        assert_eq!(twice(name), format!("line 1: the column \"{name}\" is there twice"));
+    }
+    let note = format!("{},note,note\n{}", HEADER.trim_end(), GOOD.replace('\n', ",,\n"));
+    assert!(read_csv(&note, &body(&["torso", "leg"])).is_ok());
 }
 
 #[test]

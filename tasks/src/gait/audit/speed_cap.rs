@@ -11,13 +11,22 @@ const NEARLY: f64 = 0.999;
 
 /// Parts at a cap: their path is then the cap's, and not that of a body.
 pub(super) fn find(trajectory: &Trajectory<'_>) -> Vec<Cheat> {
-    let speed: fn(&PartState) -> f64 = |state| libm::hypot(f64::from(state.vx), f64::from(state.vy));
-    let spin: fn(&PartState) -> f64 = |state| f64::from(state.spin).abs();
-    let caps = [(CheatKind::SpeedCap, speed, SPEED_CAP), (CheatKind::SpinCap, spin, TURN_CAP / trajectory.time_step())];
+    let seconds = trajectory.time_step();
+    // A part that jumps from one place to another has moved, whatever its speed says.
+    let speed = |before: &PartState, now: &PartState| {
+        let [vx, vy, dx, dy] = [now.vx, now.vy, now.x - before.x, now.y - before.y].map(f64::from);
+        libm::hypot(vx, vy).max(libm::hypot(dx, dy) / seconds)
+    };
+    let spin = |_: &PartState, now: &PartState| f64::from(now.spin).abs();
+    type Figure<'a> = &'a dyn Fn(&PartState, &PartState) -> f64;
+    let caps: [(CheatKind, Figure<'_>, f64); 2] =
+        [(CheatKind::SpeedCap, &speed, SPEED_CAP), (CheatKind::SpinCap, &spin, TURN_CAP / seconds)];
     let mut cheats = Vec::new();
     for (part, of_part) in trajectory.body().parts.iter().enumerate() {
         for (kind, figure, cap) in caps {
-            let figures = trajectory.snapshots().iter().map(|snapshot| figure(&snapshot.parts[part]));
+            let states = || trajectory.snapshots().iter().map(|snapshot| &snapshot.parts[part]);
+            let before = states().take(1).chain(states());
+            let figures = before.zip(states()).map(|(before, now)| figure(before, now));
             let worst = worst(figures).filter(|worst| worst.figure >= NEARLY * cap);
             cheats.extend(worst.map(|worst| Cheat {
                 kind,
@@ -44,5 +53,10 @@ mod tests {
         let cheats = find(&Trajectory::new(&body(), &walk).expect("a script"));
         let found: Vec<_> = cheats.iter().map(|cheat| (cheat.kind, &cheat.part[..])).collect();
         assert_eq!(found, [(CheatKind::SpeedCap, "torso"), (CheatKind::SpinCap, "right leg")]);
+        let mut jumping = film(2.0, Pose::walking);
+        jumping[40..].iter_mut().for_each(|snapshot| snapshot.parts[0].x += 10.0);
+        let cheats = find(&Trajectory::new(&body(), &jumping).expect("a script"));
+        assert_eq!(cheats.iter().map(|cheat| cheat.part.as_str()).collect::<Vec<_>>(), ["torso"]);
+        assert!((cheats[0].time - 0.8).abs() < 0.03, "{}", cheats[0].time);
     }
 }
