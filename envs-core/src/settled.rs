@@ -55,7 +55,7 @@ impl<E: Engine> Settled<E> {
         let mut snapshot = Snapshot { parts, ..Snapshot::default() };
         if settle_time > 0.0 && snapshot.aloft() {
             let what = format!("it is still in the air after settling for {settle_time} s");
-            return Err(Failure::Unstable { what });
+            return Err(Failure::Other { what });
         }
         let rest = Arc::new(RestPose::new(blueprint, &snapshot));
         if conditions.torso_spin != 0.0 {

@@ -17,6 +17,8 @@ pub const LARGEST_DATA: u64 = 4096 * MIB;
 /// The most that is read from what is no regular file (a pipe, a device), whose end is not known: 64 MiB.
 const LONGEST_STREAM: u64 = 64 * MIB;
 
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// The bytes of a file of at most `limit` bytes. A pipe or a device is read as well, up to 64 MiB.
 ///
 /// # Errors
@@ -38,18 +40,32 @@ pub fn read(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     if bytes.len() as u64 > limit { Err(too_large()) } else { Ok(bytes) }
 }
 
-/// As [`read`], for a text.
+/// As [`read`], for a text; without the byte order mark that some editors begin one with.
 ///
 /// # Errors
 /// As [`read`]; [`io::ErrorKind::InvalidData`] if it is not UTF-8.
 pub fn read_text(path: &Path, limit: u64) -> io::Result<String> {
     let invalid = |_| io::Error::new(io::ErrorKind::InvalidData, "stream did not contain valid UTF-8");
-    String::from_utf8(read(path, limit)?).map_err(invalid)
+    let mut bytes = read(path, limit)?;
+    if bytes.starts_with(BYTE_ORDER_MARK) {
+        bytes.drain(..BYTE_ORDER_MARK.len());
+    }
+    String::from_utf8(bytes).map_err(invalid)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_byte_order_mark_is_no_part_of_a_text() -> io::Result<()> {
+        let file = tempfile::NamedTempFile::new()?;
+        for (written, text) in [("\u{feff}{}", "{}"), ("{}\u{feff}", "{}\u{feff}"), ("\u{feff}", "")] {
+            std::fs::write(file.path(), written)?;
+            assert_eq!(read_text(file.path(), MIB)?, text);
+        }
+        Ok(())
+    }
 
     #[test]
     fn a_file_is_read_up_to_its_limit() -> io::Result<()> {

@@ -40,6 +40,7 @@ pub struct Point {
 impl RunResult {
     /// What the log and the timing of an ended run say. In worlds that vary the last point is of the last re-evaluation in the log, and
     /// not of the one after the last generation: a score at a budget knows nothing of that one where the last generation went beyond it.
+    /// Only a run too short for any in its log has that one.
     pub(super) fn read(job: &Job<'_>, folder: &RunFolder, registry: &Registry) -> Result<Self, FolderError> {
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let mut seconds = 0.0;
@@ -52,8 +53,10 @@ impl RunResult {
             }
         }
         let mut bare = None;
-        if job.cell.is_shaped() && folder.champion().is_file() {
-            bare = without_terms(Champion::read(&folder.champion())?, registry);
+        if let Some(last) = points.last_mut().filter(|_| folder.champion().is_file()) {
+            let champion = Champion::read(&folder.champion())?;
+            last.best = last.best.or(Some(champion.fitness.get()));
+            bare = if job.cell.is_shaped() { without_terms(champion, registry) } else { None };
         }
         let Job { cell, seed } = *job;
         Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points, bare })

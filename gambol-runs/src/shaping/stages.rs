@@ -318,6 +318,9 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
     for (field, rule) in rules {
         let Some(rule) = rule else { continue };
         rule.validate().map_err(|error| error.within(field))?;
+        if !rule.can_be_met() {
+            return Err(SettingError::new(field, rule, "a rule that some number of generations can meet"));
+        }
         check_tier(rule, setup).map_err(|error| error.within(field))?;
         let known = measurements(setup);
         if let Some(name) = rule.measurements().into_iter().find(|name| !known.iter().any(|known| known == name)) {

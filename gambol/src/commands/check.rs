@@ -1,4 +1,4 @@
-use super::{Outcome, balance};
+use super::{Outcome, balance, check_input};
 use crate::{
     Registry, Setup,
     champion::{CHAMPION_FORMAT, Champion},
@@ -47,6 +47,7 @@ impl Check {
             check_creature(path, source::creature(name, registry)?, registry)?;
             return Ok(ExitCode::SUCCESS);
         }
+        check_input(path)?;
         let text = read_text(path, LARGEST_DATA).map_err(|error| format!("cannot read {}: {error}", path.display()))?;
         // What is not even JSON is left to the readers of creatures and configurations, which say where.
         let unreadable = |_| if text.contains(creatures::FORMAT) { Value::Null } else { Map::new().into() };

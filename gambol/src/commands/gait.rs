@@ -1,4 +1,4 @@
-use super::{NOT_USABLE, Outcome, check_ending, check_output, gait_text, write_output};
+use super::{NOT_USABLE, Outcome, check_ending, check_input, check_output, gait_text, write_output};
 use crate::{
     Registry,
     champion::Champion,
@@ -71,6 +71,7 @@ struct Measured {
 impl Gait {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         self.check_sheet()?;
+        check_input(&self.gait)?;
         let with_sheet = self.sheet.is_some();
         let is_csv = self.gait.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
         let Measured { gait, name, sheet } = match &self.creature {

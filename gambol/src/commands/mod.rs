@@ -28,7 +28,7 @@ mod tune;
 mod verify;
 
 use crate::{Registry, program_name, set_program_name};
-use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
 use ne_core::archive;
 use std::{error::Error, io, path::Path, process::ExitCode};
 
@@ -88,7 +88,9 @@ fn named(command: clap::Command, name: &str) -> clap::Command {
         Some(examples) => command.after_help(examples),
         None => command,
     };
-    command.mut_subcommands(|command| named(command, name))
+    // Whether a number may be negative its range says, and clap's tip of `--` would not help.
+    let number = |arg: Arg| if arg.get_action().takes_values() { arg.allow_negative_numbers(true) } else { arg };
+    command.mut_args(number).mut_subcommands(|command| named(command, name))
 }
 
 /// ` in 3 bodies`, where there are several.
@@ -129,6 +131,9 @@ struct Program {
 /// (a device, a pipe, a link) never is.
 fn check_output(path: &Path, force: bool) -> Result<(), String> {
     let shown = path.display();
+    if path.as_os_str().as_encoded_bytes().ends_with(b"/") {
+        return Err(format!("cannot write {shown}: that is the name of a folder; name a file"));
+    }
     archive::check_replaceable(path).map_err(|error| format!("cannot write {shown}: {error}; name another file"))?;
     if path.exists() && !force {
         return Err(format!("{shown} exists; say --force to overwrite it"));
@@ -137,6 +142,20 @@ fn check_output(path: &Path, force: bool) -> Result<(), String> {
         Some(folder) => Err(format!("cannot write {shown}: there is no folder {}", folder.display())),
         None => Ok(()),
     }
+}
+
+/// Checks that what is read more than once is no pipe.
+#[cfg(unix)]
+fn check_input(path: &Path) -> Result<(), String> {
+    use std::os::unix::fs::FileTypeExt;
+    let is_pipe = path.metadata().is_ok_and(|metadata| metadata.file_type().is_fifo());
+    if is_pipe { Err(format!("{} is a pipe, and is read more than once: give a file", path.display())) } else { Ok(()) }
+}
+
+/// Checks that what is read more than once is no pipe.
+#[cfg(not(unix))]
+fn check_input(_: &Path) -> Result<(), String> {
+    Ok(())
 }
 
 /// Checks that an image is not called what it is not.

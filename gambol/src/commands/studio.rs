@@ -51,6 +51,9 @@ impl Studio {
             _ => "runs".into(),
         };
         let runs = self.runs.clone().unwrap_or(beside);
+        if runs.exists() && !runs.is_dir() {
+            return Err(format!("--runs {}: that is a file; name a folder", runs.display()).into());
+        }
         let library = Arc::new(studio_server::library(registry.clone(), runs, self.threads));
         let query = match &first {
             None => String::new(),
@@ -81,6 +84,10 @@ impl Studio {
 /// What a user named: a folder, or else a creature.
 fn first(what: &str, registry: &Registry) -> Result<First, Box<dyn std::error::Error>> {
     let path = Path::new(what);
+    if path.is_file() {
+        let page = "drop the file on the page, or train it";
+        return Err(format!("{what} is a file, and the studio opens a run or a shipped creature: {page}").into());
+    }
     if !path.is_dir() {
         registry.creatures.find(what)?;
         return Ok(First::Creature(what.into()));

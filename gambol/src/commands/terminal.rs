@@ -17,7 +17,11 @@ macro_rules! tell {
 }
 
 pub(super) fn to_stdout(text: fmt::Arguments<'_>) -> io::Result<()> {
-    io::stdout().lock().write_all(line(text).as_bytes())
+    let written = io::stdout().lock().write_all(line(text).as_bytes());
+    written.map_err(|error| match error.kind() {
+        io::ErrorKind::BrokenPipe => error,
+        kind => io::Error::new(kind, format!("cannot write to standard output: {error}")),
+    })
 }
 
 pub(super) fn to_stderr(text: fmt::Arguments<'_>) {

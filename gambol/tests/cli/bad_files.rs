@@ -1,6 +1,6 @@
 //! Files that are missing, empty, folders, or nothing at all: every command names the file, and none panics.
 
-use crate::program::{assert_says, fail, gambol, text};
+use crate::program::{assert_says, fail, gambol, run, small_run, succeed, text};
 use std::{fs, path::Path, process::Command};
 
 type Outcome = Result<(), Box<dyn std::error::Error>>;
@@ -80,4 +80,46 @@ fn json_of_another_kind_is_named() -> Outcome {
         }
     }
     Ok(())
+}
+
+/// A file that an editor has begun with a byte order mark, a pipe, the name of a folder.
+#[cfg(unix)]
+#[test]
+fn what_is_read_as_it_is_and_what_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let marked = folder.path().join("marked.json");
+    fs::write(&marked, "\u{feff}{\"creature\": \"biped-1\", \"movement\": {\"name\": \"running\"}}")?;
+    succeed(gambol("check").arg(&marked));
+    for command in [&["check"][..], &["gait", "--creature", "biped-1"]] {
+        let mut piped = gambol(command[0]);
+        piped.args(&command[1..]).arg("/dev/stdin").stdin(std::process::Stdio::piped());
+        assert_says(&fail(&mut piped), &["/dev/stdin is a pipe, and is read more than once: give a file"]);
+    }
+    let run = folder.path().join("run");
+    succeed(&mut small_run(&run, 1));
+    let message = fail(gambol("export").arg(&run).args(["--to", "svg", "--out"]).arg(folder.path().join("new/")));
+    assert_says(&message, &["new/: that is the name of a folder; name a file"]);
+    Ok(())
+}
+
+#[test]
+fn what_the_studio_cannot_open_is_named() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let file = folder.path().join("creature.json");
+    fs::write(&file, "{}")?;
+    let message = fail(gambol("studio").arg("--no-open").arg(&file));
+    assert_says(&message, &["creature.json is a file, and the studio opens a run or a shipped creature"]);
+    let message = fail(gambol("studio").args(["--no-open", "--runs"]).arg(&file));
+    assert_says(&message, &["creature.json: that is a file; name a folder"]);
+    Ok(())
+}
+
+#[test]
+fn a_negative_number_is_out_of_range_and_no_unknown_flag() {
+    for arguments in [&["train", "biped-1", "running", "--seed", "-5"][..], &["studio", "--port", "-1"]] {
+        let ended = run(gambol(arguments[0]).args(&arguments[1..]));
+        assert_eq!(ended.code, Some(2), "{}", ended.stderr);
+        assert_says(&ended.stderr, &["invalid value '-"]);
+        assert!(!ended.stderr.contains("-- -"), "{}", ended.stderr);
+    }
 }

@@ -66,7 +66,7 @@ pub struct MeasurementBound {
 }
 
 impl PromotionRule {
-    /// Checks the numbers, and that the rule could ever be met.
+    /// Checks the numbers. Whether the rule contradicts itself says [`can_be_met`](Self::can_be_met).
     ///
     /// # Errors
     /// Names the field and what is allowed.
@@ -129,6 +129,39 @@ impl PromotionRule {
             Self::Any(rules) => rules.iter().any(|rule| rule.is_met(state)),
             Self::All(rules) => rules.iter().all(|rule| rule.is_met(state)),
             Self::Not(rule) => !rule.is_met(state),
+        }
+    }
+
+    /// Whether it could be met after some generation, if all but the number of generations were as it likes: not by
+    /// `{"not": {"generations": 1}}`, nor by `{"all": [{"generations": 5}, {"not": {"generations": 5}}]}`.
+    pub fn can_be_met(&self) -> bool {
+        let mut generations = vec![1];
+        self.add_thresholds(&mut generations);
+        generations.into_iter().any(|generation| self.could_be(true, generation))
+    }
+
+    /// The generations between which it may change.
+    fn add_thresholds(&self, generations: &mut Vec<u64>) {
+        match self {
+            Self::Generations(threshold) => generations.push((*threshold).max(1)),
+            Self::Any(rules) | Self::All(rules) => rules.iter().for_each(|rule| rule.add_thresholds(generations)),
+            Self::Not(rule) => rule.add_thresholds(generations),
+            _ => {}
+        }
+    }
+
+    /// Whether it could be met, or not met, after so many generations.
+    fn could_be(&self, met: bool, generation: u64) -> bool {
+        let mut rules = match self {
+            Self::Generations(threshold) => return (generation >= *threshold) == met,
+            Self::Not(rule) => return rule.could_be(!met, generation),
+            Self::Any(rules) | Self::All(rules) => rules.iter().map(|rule| rule.could_be(met, generation)),
+            _ => return true,
+        };
+        // One rule of `any` is enough to meet it, and one of `all` not to.
+        match matches!(self, Self::Any(_)) == met {
+            true => rules.any(|could| could),
+            false => rules.all(|could| could),
         }
     }
 

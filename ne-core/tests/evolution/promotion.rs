@@ -147,3 +147,22 @@ fn giving_up_ends_the_run_too() -> Result<(), Box<dyn std::error::Error>> {
     assert_eq!(reason.to_string(), "the population was given up, and another begins anew");
     Ok(())
 }
+
+#[test]
+fn a_rule_that_contradicts_itself_is_known() -> Result<(), serde_json::Error> {
+    for (can, rule) in [
+        (true, r#"{ "generations": 5 }"#),
+        (true, r#"{ "not": { "generations": 2 } }"#),
+        (false, r#"{ "not": { "generations": 1 } }"#),
+        (false, r#"{ "all": [{ "generations": 5 }, { "not": { "generations": 5 } }] }"#),
+        (true, r#"{ "all": [{ "generations": 5 }, { "not": { "generations": 6 } }] }"#),
+        (true, r#"{ "any": [{ "not": { "generations": 1 } }, "usable"] }"#),
+        (false, r#"{ "all": [{ "not": { "generations": 1 } }, "usable"] }"#),
+        (false, r#"{ "not": { "any": [{ "generations": 1 }, "usable"] } }"#),
+        (true, r#"{ "not": { "all": [{ "generations": 1 }, "usable"] } }"#),
+        (true, r#"{ "all": [{ "steps": 5 }, { "not": { "fitness": 5 } }] }"#),
+    ] {
+        assert_eq!(serde_json::from_str::<PromotionRule>(rule)?.can_be_met(), can, "{rule}");
+    }
+    Ok(())
+}

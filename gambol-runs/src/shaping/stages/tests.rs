@@ -312,6 +312,10 @@ fn errors_name_stage_and_field() {
             "stages[1] (\"b\"): give_up.when.steps = 0: must be at least 1",
         ),
         (
+            two(json!({ "name": "b", "promotion": { "not": { "generations": 1 } } })),
+            "stages[1] (\"b\"): promotion = not (1 generations): must be a rule that some number of generations can meet",
+        ),
+        (
             two(json!({ "name": "b", "promotion": { "any": [] } })),
             "stages[1] (\"b\"): promotion.any = []: must be at least one rule",
         ),
