@@ -118,8 +118,12 @@ impl Gaits {
             Some(text) => self.ablation(&creatures, text, &mut runs, registry),
             None => self.scenarios(&creatures, &mut runs, registry),
         };
-        let is_interruption = |error: &Box<dyn Error>| matches!(error.downcast_ref(), Some(GaitsError::Interrupted));
-        if done.as_ref().is_err_and(is_interruption) { Ok(ExitCode::from(INTERRUPTED)) } else { done }
+        match done {
+            Err(error) if matches!(error.downcast_ref(), Some(GaitsError::Interrupted)) => {
+                Ok(ExitCode::from(INTERRUPTED))
+            }
+            done => done,
+        }
     }
 
     /// Every creature with every movement.
