@@ -67,7 +67,7 @@ pub struct Variation {
     /// own seed.
     pub terrain: bool,
     /// Whether the first of several trials is in a [near](Self::near) world, so that the world of the settings is
-    /// never out of sight; bumps and terrain it shares with the others; default `false`. With one trial alone it has no effect.
+    /// never out of sight; it has no bumps, and the terrain of the others; default `false`. With one trial alone it has no effect.
     pub near_first: bool,
     /// Of gravity.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.9)))]

@@ -2,8 +2,8 @@
 //!
 //! A bone for each part, at the hinge that the part hangs on; a slot for each, in the order in which parts are drawn, with a
 //! picture of the part from a texture [atlas]; and a slot that shows nothing, named `PART:box`, with its shape as a bounding
-//! box. The animation `loop` stays in place: DragonBones has no root motion. The armature's `userData` says in two numbers how
-//! far a loop would have gone, px, and how many pixels a metre has.
+//! box. The animation `loop` stays in place: DragonBones has no root motion. The armature's `userData` says in three numbers how
+//! far a loop would have gone, px, how many pixels a metre has, and how long the loop is in the gait, s: played, it has whole frames.
 
 mod atlas;
 #[cfg(test)]
@@ -90,7 +90,7 @@ fn skeleton(blueprint: &Blueprint, cycle: &Cycle, atlas: &Atlas, scale: Scale) -
         "skin": [{ "name": "", "slot": slots(&shown) }],
         "animation": [animation(blueprint, cycle, scale)],
         "defaultActions": [{ "gotoAndPlay": "loop" }],
-        "userData": { "floats": [scale.pixels(cycle.travel), rounded(scale.0)] },
+        "userData": { "floats": [scale.pixels(cycle.travel), rounded(scale.0), rounded(cycle.seconds)] },
     });
     json!({
         "name": blueprint.name(),

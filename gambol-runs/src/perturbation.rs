@@ -44,12 +44,14 @@ impl Cause {
     /// The causes that take turns, in this order.
     pub const ALL: [Self; 5] = [Self::Bumps, Self::Pushes, Self::Friction, Self::Physics, Self::Together];
 
-    /// Those that take turns in water, where there is no ground.
-    pub const IN_WATER: [Self; 4] = [Self::Pushes, Self::Friction, Self::Physics, Self::Together];
+    /// Those that take turns in water, where there is no ground, and on a terrain that is the same whatever its seed.
+    pub const WITHOUT_BUMPS: [Self; 4] = [Self::Pushes, Self::Friction, Self::Physics, Self::Together];
 
     /// Those that take turns where a judge has its creature.
     pub(crate) fn all_of(judge: &Judge) -> &'static [Self] {
-        if judge.environment().settings().water.is_some() { &Self::IN_WATER } else { &Self::ALL }
+        let (environment, terrain) = (judge.environment(), judge.environment().terrain());
+        let is_the_same = !terrain.is_flat() && !terrain.has_chance();
+        if environment.settings().water.is_some() || is_the_same { &Self::WITHOUT_BUMPS } else { &Self::ALL }
     }
 
     /// Its name, as in files.
@@ -229,9 +231,31 @@ pub(crate) mod tests {
         let judge = judge_in_water("apod", "swimming");
         for index in 0..20 {
             let World { cause, conditions, .. } = World::draw(Seed::of_run(3), index, &judge, 10.0);
-            assert_eq!(cause, Cause::IN_WATER[index as usize % 4]);
+            assert_eq!(cause, Cause::WITHOUT_BUMPS[index as usize % 4]);
             assert_ne!(conditions, Conditions::reference(judge.environment().outputs()), "{cause:?}");
         }
+    }
+
+    /// The same of another layout of a terrain that has only one.
+    #[test]
+    fn every_world_on_drawn_ground_is_perturbed() {
+        let flat = judge("tetrapod-1", "running");
+        let drawn = |obstacles: &str| {
+            let terrain: creatures::Terrain = serde_json::from_str(obstacles).expect("a terrain");
+            judge_on("tetrapod-1", "running", &terrain)
+        };
+        let causes = |judge: &Judge| {
+            let world = |index| World::draw(Seed::of_run(3), index, judge, 10.0);
+            (0..10).map(|index| world(index).cause).collect::<Vec<_>>()
+        };
+        let same = drawn(r#"{"obstacles": [{"kind": "gaps"}], "jitter": 0}"#);
+        for index in 0..20 {
+            let World { cause, conditions, .. } = World::draw(Seed::of_run(3), index, &same, 10.0);
+            assert_ne!(conditions, Conditions::reference(same.environment().outputs()), "{cause:?}");
+        }
+        assert!(!causes(&same).contains(&Cause::Bumps));
+        let other = drawn(r#"{"obstacles": [{"kind": "gaps"}], "jitter": 0.3}"#);
+        assert!(causes(&flat).contains(&Cause::Bumps) && causes(&other).contains(&Cause::Bumps));
     }
 
     #[test]

@@ -184,7 +184,7 @@ pub(crate) mod tests {
 
     #[test]
     fn the_long_trial_is_of_all_causes_together_and_in_other_worlds_than_the_short_one() {
-        for causes in [Cause::ALL.len(), Cause::IN_WATER.len()].map(|causes| causes as u32) {
+        for causes in [Cause::ALL.len(), Cause::WITHOUT_BUMPS.len()].map(|causes| causes as u32) {
             for index in 0..Trial::Long.worlds() as u32 {
                 let (number, _) = Trial::Long.perturbed(index, causes).expect("a perturbed world");
                 assert_eq!(number % causes, causes - 1, "{causes} causes");

@@ -46,12 +46,13 @@ impl Run {
         Ok(Self::Plain(Box::new(shaping::begin_from(config, source, None, false, folder, resources)?)))
     }
 
-    /// Goes on with a run from where it stopped. Other stop conditions, if given, take the place of the planned ones.
+    /// Goes on with a run from where it stopped; not with a stage of one. Other stop conditions, if given, take the place of the planned ones.
     ///
     /// # Errors
     /// As [`resume`](crate::training::resume) and [`resume_stages`](crate::shaping::resume_stages).
     pub fn resume(folder: &Path, stop: Option<StopConditions>, resources: Resources) -> Result<Self, ShapingError> {
         let config = RunFolder::open(folder)?.read_config()?;
+        shaping::check_whole(folder)?;
         Ok(match config.stages.is_empty() {
             true => Self::Plain(Box::new(Training::resume(folder, stop, &resources)?)),
             false => Self::Staged(Box::new(StagedTraining::resume(folder, stop, resources)?)),

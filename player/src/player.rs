@@ -71,10 +71,10 @@ impl Player {
         Ok(player)
     }
 
-    /// Another body that does what the same character does, at its start; cheaper than [`new`](Self::new).
+    /// Another body that does what the same character does, at its start, on ground of height 0; cheaper than [`new`](Self::new).
     #[must_use]
     pub fn another(&self) -> Self {
-        let mut other = self.clone();
+        let mut other = Self { ground: 0.0, ..self.clone() };
         other.reset();
         other
     }

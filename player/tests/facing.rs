@@ -113,3 +113,19 @@ fn a_turned_body_looks_the_other_way() {
     let turned: Vec<f32> = before.iter().map(|angle| std::f32::consts::PI - angle).collect();
     assert_eq!(rays(&player), turned);
 }
+
+/// The net senses the height of the torso above the ground.
+#[test]
+fn another_body_stands_on_ground_of_its_own() {
+    let character = Character::from_bytes(include_bytes!("../fixtures/all-senses.player")).expect("a character");
+    let parts: Vec<PartState> = character.start_pose().collect();
+    let outside: Vec<f32> = character.outside().map(|_| 1.0).collect();
+    let mut first = Player::new(character.into()).expect("valid");
+    let speeds = |player: &mut Player| player.tick(&parts, &outside, Command::STAND, 0.02).expect("its parts").to_vec();
+    let flat = speeds(&mut first);
+    first.reset();
+    first.set_ground(0.5);
+    let mut other = first.another();
+    assert_eq!(speeds(&mut other), flat);
+    assert_ne!(speeds(&mut first), flat);
+}

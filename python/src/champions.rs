@@ -84,17 +84,21 @@ pub(crate) fn export_champion(
     py.detach(|| {
         let champion = champion(&path)?;
         let destination = Destination::new(format, &champion, out).map_err(wrong)?;
-        if let Some(there) = destination.paths.iter().find(|path| path.exists()).filter(|_| !overwrite) {
-            return Err(PyFileExistsError::new_err(format!(
-                "{} is there: overwrite=True overwrites it",
-                there.display()
-            )));
-        }
+        let check = || match destination.paths.iter().find(|path| path.exists()).filter(|_| !overwrite) {
+            Some(there) => {
+                let message = format!("{} is there: overwrite=True overwrites it", there.display());
+                Err(PyFileExistsError::new_err(message))
+            }
+            None => Ok(()),
+        };
+        check()?;
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         let usual = Picture::default();
         let picture = Picture { size: size.unwrap_or(usual.size), rate: rate.unwrap_or(usual.rate), ground };
         let options = Options { name: destination.name.clone(), steps, picture };
         let files = export(&champion, registry(), format, &options).map_err(wrong)?;
+        // What has come there since is not overwritten unasked either.
+        check()?;
         destination.write(&files).map_err(|error| PyOSError::new_err(error.to_string()))?;
         Ok(destination.paths)
     })

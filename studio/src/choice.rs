@@ -13,6 +13,7 @@ use gambol_runs::{
     suggest,
     texts::shell_word,
 };
+use ne_core::StopConditions;
 use serde::Deserialize;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -109,16 +110,11 @@ impl Choice {
             variation: self.variation.clone(),
             from: from.map(Path::to_owned),
             set: set.to_vec(),
+            seed: self.seed,
+            limits: StopConditions { generations: self.generations, ..StopConditions::default() },
             ..Request::default()
         };
-        let mut config = request.resolve(&registry)?;
-        if let Some(seed) = self.seed {
-            config.seed = seed;
-        }
-        if let Some(generations) = self.generations {
-            config.stop.generations = Some(generations);
-        }
-        Ok(config)
+        Ok(request.resolve(&registry)?)
     }
 
     /// What to type for the same run: a creature that was drawn is a file, and so is a terrain.
@@ -204,6 +200,17 @@ mod tests {
 
     fn problem(choice: &Choice) -> String {
         choice.describe(&Registry::default(), None, &kept()).problem.expect("something is wrong")
+    }
+
+    /// As flags of the command line, a number of generations takes the place of the preset's steps.
+    #[test]
+    fn generations_are_those_of_the_command_line() {
+        let registry = Registry::default();
+        let of = |generations| Choice { generations, ..choice("biped-1", "playing") };
+        let stop = |choice: &Choice| choice.resolve(&registry, None).expect("it can be trained").stop;
+        assert!(stop(&of(None)).steps.is_some());
+        let chosen = stop(&of(Some(30)));
+        assert_eq!((chosen.generations, chosen.steps), (Some(30), None));
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::{
     protocol::RunState,
 };
 use gambol_exports::{Format, Options, Picture};
-use gambol_runs::{champion::Champion, run_folder::RunFolder};
+use gambol_runs::{champion::Champion, run_folder::RunFolder, shaping};
 use std::path::PathBuf;
 
 /// What is wanted of a run.
@@ -110,8 +110,12 @@ impl Library {
         let modified = |path: PathBuf| std::fs::metadata(path).and_then(|file| file.modified()).ok();
         // What has ended has the report that was made then, which says why.
         let is_under_way = matches!(self.state(run), Some(RunState::Running | RunState::Paused));
-        let is_old = modified(folder.report()) < modified(folder.champion()).max(modified(folder.log()));
-        if is_under_way || is_old {
+        // A run with stages has the log of the latest of them, and no champion of its own before the first has ended.
+        let latest = shaping::stage_runs(folder)?.pop().map(|stage_run| RunFolder::at(&stage_run.folder));
+        let latest = latest.as_ref().unwrap_or(folder);
+        let newest = modified(folder.champion()).max(modified(latest.champion())).max(modified(latest.log()));
+        let report = modified(folder.report());
+        if is_under_way || report.is_none() || report < newest {
             gambol_reports::report::write_report(folder, self.registry(), None)?;
         }
         Ok(Download { name: None, media: "text/html; charset=utf-8", bytes: std::fs::read(folder.report())? })

@@ -227,7 +227,7 @@ impl Session {
     pub(crate) fn longer_by(&self, generations: u64) -> StopConditions {
         let done = self.inner().rows.len() as u64;
         let generations = Some(done.saturating_add(generations));
-        StopConditions { generations, ..StopConditions::default() }
+        self.config.stop.resumed_with(StopConditions { generations, ..StopConditions::default() })
     }
 
     /// Saves and ends it.

@@ -48,7 +48,7 @@ pub(crate) fn start(session: &Arc<Session>, plan: Plan) -> Result<(), SessionErr
     session.means().workers.start(&name, Box::new(job)).map_err(SessionError::Thread)
 }
 
-/// Lets it go on: from a pause, or from where it had ended, by so many generations more than it had planned.
+/// Lets it go on: from a pause, or from where it had ended, by so many generations more than it has done.
 ///
 /// # Errors
 /// As [`start`].

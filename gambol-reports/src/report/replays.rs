@@ -104,7 +104,11 @@ impl<'a> Stills<'a> {
 
     fn replay(&self, episode: &Episode<RapierEnvironment>, seed: Seed, network: &Network) -> Replay {
         let recording = play(episode, network.clone(), seed, self.steps);
-        let time_step = episode.environment().settings().time_step;
+        // That of the world it was in, which may vary.
+        let time_step = match recording.snapshots[..] {
+            [ref first, ref second, ..] => second.time - first.time,
+            _ => episode.environment().settings().time_step,
+        };
         Replay::new(&recording.snapshots, time_step, self.stride)
     }
 }

@@ -19,7 +19,7 @@ use envs_rapier::RapierEnvironment;
 use ne_core::{Seed, SettingError, champion_selection::ReEvaluations, successive_halving::Rung};
 use ne_net::{DenseShape, Topology};
 use serde::{Deserialize, Serialize};
-use tasks::{Episode, Medium, MovementSpec, TermSpec};
+use tasks::{Commands, Episode, Medium, MovementSpec, TermSpec};
 
 /// The task and the topology of the controller a configuration describes: checked, built, ready.
 #[derive(Clone)]
@@ -88,6 +88,10 @@ impl Setup {
         if needs_commands && config.commands.is_none() {
             let allowed = format!("commands, which {} is judged by", config.movement.name);
             return Err(SettingError::new("commands", "null", allowed).into());
+        }
+        if config.trials.lessons && !matches!(config.commands, Some(Commands::Random(_))) {
+            let allowed = "false where no random commands are given: lessons are drawn of them";
+            return Err(SettingError::new("trials.lessons", true, allowed).into());
         }
         let parts = config.episode_parts();
         let (episode, task) = parts.build_both(config.engine, registry)?;

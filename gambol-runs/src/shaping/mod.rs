@@ -27,7 +27,7 @@ pub use stage_progress::{
     ENDED_EARLY, ShapingError, StageProgress, adopt, begin_from, configured_from, is_of_goal, outcome_of,
     resume_curriculum, resume_stages, train_curriculum, train_from, train_stages,
 };
-pub use stage_runs::{StageRun, leading, run_of_stage, stage_runs, why_all_failed};
+pub use stage_runs::{StageRun, check_whole, leading, run_of_stage, stage_runs, why_all_failed};
 pub use staged_training::StagedTraining;
 pub use stages::{StageError, StageProblem, Stages};
 pub use transfer::TransferError;

@@ -14,7 +14,7 @@ use crate::{
     training::{Outcome, Resources, TrainError, TrainOptions, Training},
 };
 use ne_core::{Progress, StopConditions, StopReason};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// How a run with stages is watched.
 pub struct StageProgress<'a> {
@@ -43,6 +43,17 @@ pub enum ShapingError {
         "a configuration with stages begins with its first, from nothing; leave out the stages, or what to go on from"
     )]
     Stages,
+    /// What is to go on is a stage, and would go on without the rules of its run.
+    #[error(
+        "{} is a stage of the run in {}, which goes on as a whole: {} resume {}", stage.display(), run.display(),
+        crate::program_name(), crate::texts::shell_word(run)
+    )]
+    StageOfARun {
+        /// The folder of the stage.
+        stage: PathBuf,
+        /// That of the run.
+        run: PathBuf,
+    },
     /// There is nothing to go through.
     #[error("the configuration has no stages")]
     NoStages,

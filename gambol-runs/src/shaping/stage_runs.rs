@@ -1,5 +1,6 @@
 //! The stage runs of a run with stages, read from its folder.
 
+use super::ShapingError;
 use crate::{
     champion::Champion,
     run_folder::{FolderError, RunFolder},
@@ -58,6 +59,17 @@ pub fn run_of_stage(folder: &Path) -> Option<PathBuf> {
     let run = RunFolder::open(stages.parent()?).ok()?;
     let config = run.read_config().ok()?;
     (!config.stages.is_empty()).then(|| run.path().into())
+}
+
+/// Checks that a folder is not that of a stage, which goes on as a part of its run alone.
+///
+/// # Errors
+/// If it is one.
+pub fn check_whole(folder: &Path) -> Result<(), ShapingError> {
+    match run_of_stage(folder) {
+        Some(run) => Err(ShapingError::StageOfARun { stage: folder.into(), run }),
+        None => Ok(()),
+    }
 }
 
 pub(super) fn stage_run(folder: &RunFolder, number: usize, stage: usize, name: &str) -> Result<StageRun, FolderError> {

@@ -108,6 +108,8 @@ impl Export {
             ExportError::Setting { .. } => format!("--{error}"),
             error => format!("{}: {error}", file.display()),
         })?;
+        // What has come there since is not overwritten unasked either.
+        destination.paths.iter().try_for_each(|place| check_output(place, self.force))?;
         destination.write(&exported).map_err(|error| format!("cannot write {error}"))?;
         for (place, file) in destination.paths.iter().zip(&exported) {
             say!("{}  {}, {} bytes", format.name(), place.display(), file.bytes.len())?;

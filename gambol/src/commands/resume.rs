@@ -2,7 +2,7 @@ use super::{
     Outcome,
     train::{Limits, RunFlags, carry_out},
 };
-use crate::{Registry, program_name, run_folder::RunFolder, shaping, texts::shell_word, training};
+use crate::{Registry, run_folder::RunFolder, shaping, training};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -26,14 +26,7 @@ pub(crate) struct Resume {
 impl Resume {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         let mut config = RunFolder::open(&self.folder)?.read_config()?;
-        if let Some(run) = shaping::run_of_stage(&self.folder) {
-            let (program, stage, word) = (program_name(), self.folder.display(), shell_word(&run));
-            let run = run.display();
-            return Err(format!(
-                "{stage} is a stage of the run in {run}, which goes on as a whole: {program} resume {word}"
-            )
-            .into());
-        }
+        shaping::check_whole(&self.folder)?;
         config.stop = self.limits.beyond(config.stop);
         self.limits.until(&mut config, registry);
         let stop = Some(config.stop);

@@ -83,6 +83,7 @@ const SETTINGS: &[(&str, &[&str])] = &[
     ("movement.settings=fast",                      &["movement.settings: invalid type: string \"fast\""]),
     ("movement.terms=[{\"term\":\"headway\",\"settings\":{\"backward\":true}}]",
                                                     &["movement.terms[0].settings.backward: unknown field", "did you mean `backwards`?"]),
+    ("trials={\"count\":2,\"combine\":\"worst-lesson\",\"lessons\":true}", &["trials.lessons = true: must be false where no random commands are given"]),
     ("movement.name=jumping",                       &["a movement is chosen on the command line or in a file, not with --set"]),
     ("preset=thesis",                               &["a preset is chosen with --preset"]),
     ("movement.terms=[{\"term\":\"energy\"},{\"term\":\"energy\"}]", &["movement.terms[1].term = energy", "named once"]),

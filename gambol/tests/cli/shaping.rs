@@ -5,6 +5,8 @@ use crate::{
     folder::{contents, read},
     program::{assert_says, fail, gambol, run, small_run, succeed, text},
 };
+use gambol::{Registry, run::Run, training::Resources};
+use ne_core::StopSignal;
 use serde_json::{Value, json};
 use std::{
     fs,
@@ -110,7 +112,12 @@ fn stages_follow_each_other_and_their_champions_are_kept() -> Outcome {
     );
     // A stage does not go on alone; with more generations the last one of the run does.
     let message = fail(gambol("resume").arg(run_folder.join("stages/02-feel")).args(["--generations", "99"]));
-    assert_says(&message, &[" is a stage of the run in ", ", which goes on as a whole: gambol resume "]);
+    let whole = [" is a stage of the run in ", ", which goes on as a whole: gambol resume "];
+    assert_says(&message, &whole);
+    // Nor for a program that does one generation at a time.
+    let resources = Resources { threads: 1, registry: Registry::default(), signal: StopSignal::default() };
+    let refused = Run::resume(&run_folder.join("stages/02-feel"), None, resources).err().expect("a stage");
+    assert_says(&refused.to_string(), &whole);
     succeed(gambol("resume").arg(&run_folder).args(["--generations", "45", "--no-report", "--quiet"]));
     assert_eq!(generations("03-jump"), json!(18));
     Ok(())

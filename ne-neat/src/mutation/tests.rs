@@ -46,7 +46,8 @@ fn genomes(seed: u64, recurrent: bool) -> Vec<NeatGenome> {
 
 fn mutated(genome: &NeatGenome, settings: MutationSettings, seed: u64) -> NeatGenome {
     let mut child = genome.clone();
-    let proposal = settings.mutate(&mut child, NEW, &CHOICES, &mut stream(seed));
+    let new = NewWeights { limit: settings.weights.limit as f32, ..NEW };
+    let proposal = settings.mutate(&mut child, new, &CHOICES, &mut stream(seed));
     apply(proposal, &mut child, &mut Innovations::new(1000, 1000));
     let checked = NeatGenome::new(*child.layout(), child.nodes().to_vec(), child.connections().to_vec());
     assert_eq!(checked, Ok(child.clone()), "a genome");

@@ -30,10 +30,14 @@ def shown(
         yield callback
         return
     with bars(unit="generation", leave=True) as bar:
+        is_begun = False
 
         def told(line: dict[str, Any]) -> bool | None:
-            if bar.total is None:
+            nonlocal is_begun
+            # A run that ends after so many steps has no number of generations either then.
+            if not is_begun:
                 bar.reset(total=generations())
+            is_begun = True
             bar.set_postfix_str(_best(line), refresh=False)
             # A run that goes on begins where it was.
             bar.update(line["generation"] - bar.n)

@@ -85,7 +85,7 @@ pub enum Request {
     Pause,
     /// Let it go on: from a pause, or from where it had stopped.
     GoOn {
-        /// More generations than it had planned.
+        /// More generations than it has done.
         #[serde(default)]
         generations: Option<u64>,
     },

@@ -73,9 +73,19 @@ pub(super) fn play<E: Environment>(environment: &mut E, script: Script, first: u
     played
 }
 
-/// All numbers of a snapshot, with names.
+/// All numbers of a snapshot, with names; the time since a press that never came is -1.
 pub(super) fn numbers(snapshot: &Snapshot) -> Vec<(String, f64)> {
-    let mut numbers = vec![("time".to_owned(), f64::from(snapshot.time)), ("motor_work".into(), snapshot.motor_work)];
+    let command = &snapshot.command;
+    let never_pressed = command.since_press == f32::INFINITY;
+    let mut numbers = vec![
+        ("time".to_owned(), f64::from(snapshot.time)),
+        ("motor_work".into(), snapshot.motor_work),
+        ("push_work".into(), snapshot.push_work),
+        ("command.speed".into(), f64::from(command.speed)),
+        ("command.jump".into(), f64::from(u8::from(command.jump))),
+        ("command.stride_began".into(), f64::from(command.stride_began)),
+        ("command.since_press".into(), if never_pressed { -1.0 } else { f64::from(command.since_press) }),
+    ];
     for (index, part) in snapshot.parts.iter().enumerate() {
         let fields = [
             ("x", part.x),

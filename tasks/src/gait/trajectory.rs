@@ -317,6 +317,9 @@ fn check_snapshot(body: &Body, index: usize, snapshot: &Snapshot) -> Result<(), 
     if !snapshot.motor_work.is_finite() {
         return not_finite("the motors' work".into());
     }
+    if !snapshot.push_work.is_finite() {
+        return not_finite("the energy of pushes".into());
+    }
     for (part, state) in body.parts.iter().zip(&snapshot.parts) {
         let PartState { x, y, cos, sin, vx, vy, spin, touching: _ } = *state;
         if ![x, y, cos, sin, vx, vy, spin].into_iter().all(f32::is_finite) {

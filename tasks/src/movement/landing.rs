@@ -81,11 +81,11 @@ impl Movement for Landing {
             self.leapt = now.time;
         }
         if self.best > 0.0 {
-            if now.time - self.leapt <= LEAPS_ON {
-                self.good += seconds * self.worth * self.uprightness();
-            } else if self.stands(now) {
-                self.good += seconds * self.best;
-            }
+            let leaps_on = now.time - self.leapt <= LEAPS_ON;
+            let leaping = if leaps_on { self.worth * self.uprightness() } else { 0.0 };
+            // A hop that is no leap does not keep it from standing.
+            let standing = if leaping == 0.0 && self.stands(now) { self.best } else { 0.0 };
+            self.good += seconds * leaping.max(standing);
         }
         Verdict::GoOn
     }

@@ -107,9 +107,6 @@ impl Movement for Leap {
             }
             return Verdict::GoOn;
         }
-        if let Some((_, worth)) = self.landed.take() {
-            self.best = self.best.max(worth);
-        }
         let first = self.left.iter().copied().fold(f32::INFINITY, f32::min);
         let apart = if self.feet.is_empty() { 0.0 } else { now.time - first };
         let uneven = UNEVEN * ((APART - apart) / (APART - TOGETHER)).max(0.0);
@@ -117,6 +114,10 @@ impl Movement for Leap {
         let (since, share) = *self.flight.get_or_insert((now.time, share));
         self.rise = self.rise.max(centre_height(&self.masses, now) - self.start);
         if now.time - since >= SHORTEST {
+            // It leaps again: a foot that leaves the ground for a moment is no leap.
+            if let Some((_, worth)) = self.landed.take() {
+                self.best = self.best.max(worth);
+            }
             self.best = self.best.max(FALLEN * share * self.counted());
         }
         Verdict::GoOn

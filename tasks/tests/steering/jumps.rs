@@ -1,7 +1,7 @@
 //! The terms that pay for a jump and for what comes after it.
 
 use super::{Pose, puppet, script, sine, value};
-use tasks::{Body, Jumping, Landing, Leap, Snapshot};
+use tasks::{Body, Jumping, Landing, Leap, PartState, Snapshot};
 
 #[test]
 fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
@@ -24,6 +24,15 @@ fn leap_is_the_rise_in_a_flight_that_all_legs_begin_together() {
     let lasts =
         |seconds: f32| jump(1.0, 1.5, 0.0).into_iter().take_while(|now| now.time < 1.5 + seconds).collect::<Vec<_>>();
     assert_eq!((leap(&lasts(0.4)), leap(&lasts(0.2))), (high, 0.25 * high), "a quarter for a landing not survived");
+    // A foot that leaves the ground for a moment is no leap.
+    let mut bounces = lasts(0.2);
+    let aloft = bounces.iter().position(|now| now.aloft()).expect("it leaps");
+    let (index, aloft) = (bounces.len() - 5, bounces[aloft].parts.clone());
+    let touching = |parts: &[PartState]| parts.iter().map(|part| part.touching).collect::<Vec<_>>();
+    for (part, &touches) in bounces[index].parts.iter_mut().zip(&touching(&aloft)) {
+        part.touching = touches;
+    }
+    assert_eq!(leap(&bounces), 0.25 * high, "nor is a bounce a landing that is survived");
     assert!((leap(&jump(1.0, 1.5, 0.09)) - high).abs() < 1e-6);
     let uneven = leap(&jump(1.0, 1.5, 0.2));
     assert!(uneven > 0.05 && uneven < 0.4 * high, "{uneven}");
@@ -67,6 +76,16 @@ fn landing_is_the_time_after_a_leap_and_less_of_it_where_the_body_leaps_on_tilte
         assert!((tilted / on - share).abs() < 1e-3, "{degrees}°: {tilted} of {on}");
     }
     assert!((landing(22.5, 4.0) - landing(22.5, 2.75)).abs() < 0.1, "what is tilted does not stand");
+    // A hop of 0.24 s that is no leap, from 2 s on: the body stands after it.
+    let hops = script(3.4, move |time| {
+        let share = ((time - 1.0) / 0.6).clamp(0.0, 1.0);
+        let hop = ((time - 2.0) / 0.26).clamp(0.0, 1.0);
+        let aloft = (share > 0.0 && share < 1.0) || (hop > 0.0 && hop < 1.0);
+        let rise = 1.2 * share * (1.0 - share) + 0.2 * hop * (1.0 - hop);
+        Pose { rise, lifted: [if aloft { 0.1 } else { 0.0 }; 2], ..Pose::default() }
+    });
+    let hopped = value(Landing::default(), &body, &hops);
+    assert!(hopped > landing(0.0, 3.4) - 0.45, "{hopped} of {}", landing(0.0, 3.4));
     let legless = Body { legless: true, ..puppet() };
     let turned = value(Landing::default(), &legless, &leaps(45.0, 2.75));
     assert!((turned - on).abs() < 0.1, "{turned}: a body without legs may turn");

@@ -414,6 +414,11 @@ fn idleness_is_the_share_of_motion_left_out_since_the_first_second() {
     assert_idle(&swing(40.0, 0.0, 0.0, 4.0), 0.5);
     assert_idle(&swing(7.5, 7.5, 0.0, 4.0), 0.5);
     assert_idle(&swing(40.0, 40.0, 0.0, 0.98), 1.0);
+    // What is more than half a turn apart looks closer again.
+    for tenths in 21..40 {
+        let steps = swing(95.0, 170.0, 0.0, 4.0).into_iter().take_while(|now| now.time < tenths as f32 / 10.0);
+        assert_idle(&steps.collect::<Vec<_>>(), 0.0);
+    }
     assert_eq!(value(Idleness::default(), &body, &swing(40.0, 40.0, 0.0, 4.0)[..40]), 1.0, "over within a second");
     assert_eq!(value(Idleness::default(), &Body::default(), &swing(0.0, 0.0, 0.0, 4.0)), 0.0, "nothing is expected");
 }

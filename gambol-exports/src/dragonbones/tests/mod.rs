@@ -156,7 +156,7 @@ fn slots_are_in_the_order_of_drawing_with_the_shapes_as_bounding_boxes() {
     assert_eq!(arm["subType"], "polygon");
     let highest = corners.iter().skip(1).step_by(2).map(number).fold(f64::INFINITY, f64::min);
     assert!((highest + pixels(0.35)).abs() < 1e-3);
-    assert_eq!(armature["userData"]["floats"], json!([pixels(0.8), pixels(1.0)]));
+    assert_eq!(armature["userData"]["floats"], json!([pixels(0.8), pixels(1.0), rounded(cycle.seconds)]));
 }
 
 #[test]

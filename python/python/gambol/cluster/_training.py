@@ -24,7 +24,7 @@ def train(runs: Sequence[Mapping[str, Any]], *, cluster: Any = None) -> list[Run
 
     Returns:
         The runs, in their order. Ctrl-C ends all after the generation under way and is raised again; what there was is saved, and
-        :func:`gambol.resume` goes on.
+        :meth:`gambol.Run.resume` goes on.
 
     Raises:
         ValueError: if an argument is wrong.
