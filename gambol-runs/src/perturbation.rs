@@ -248,13 +248,13 @@ pub(crate) mod tests {
             let world = |index| World::draw(Seed::of_run(3), index, judge, 10.0);
             (0..10).map(|index| world(index).cause).collect::<Vec<_>>()
         };
-        let same = drawn(r#"{"obstacles": [{"kind": "gaps"}], "jitter": 0}"#);
+        let same = drawn(r#"{"obstacles": [{"gaps": {}}], "jitter": 0}"#);
         for index in 0..20 {
             let World { cause, conditions, .. } = World::draw(Seed::of_run(3), index, &same, 10.0);
             assert_ne!(conditions, Conditions::reference(same.environment().outputs()), "{cause:?}");
         }
         assert!(!causes(&same).contains(&Cause::Bumps));
-        let other = drawn(r#"{"obstacles": [{"kind": "gaps"}], "jitter": 0.3}"#);
+        let other = drawn(r#"{"obstacles": [{"gaps": {}}], "jitter": 0.3}"#);
         assert!(causes(&flat).contains(&Cause::Bumps) && causes(&other).contains(&Cause::Bumps));
     }
 
