@@ -127,6 +127,37 @@ fn two_processes_share_the_work() -> Outcome {
 }
 
 #[test]
+fn while_others_are_at_work_there_is_no_comparison_and_that_is_no_success() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("shared");
+    // No machine comes to its end before it is killed.
+    let endless = || {
+        let mut compare = small_of(&out, 1_000_000_000);
+        compare.args(["--at-once", "8", "--threads", "1"]);
+        compare
+    };
+    let mut other = start(&mut endless());
+    let log = |run: &str| out.join("runs").join(run).join("log.jsonl");
+    let runs = ["ga", "thesis"].iter().flat_map(|strategy| {
+        ["running", "jumping"]
+            .iter()
+            .flat_map(move |movement| (1..=2).map(move |seed| format!("{strategy}/biped-1-{movement}/seed-{seed}")))
+    });
+    for run in runs {
+        while !log(&run).is_file() {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+        }
+    }
+    let ended = run(&mut endless());
+    other.kill()?;
+    other.wait()?;
+    assert_eq!(ended.code, Some(4), "{}{}", ended.stdout, ended.stderr);
+    assert_says(&ended.stdout, &["8 runs are being done by other processes; when they have ended, repeat the command"]);
+    assert!(!out.join("comparison.html").exists());
+    Ok(())
+}
+
+#[test]
 fn with_a_preset_all_are_alike_and_it_is_told_what_they_had() -> Outcome {
     let folder = tempfile::tempdir()?;
     for (preset, test, hidden) in

@@ -84,8 +84,8 @@ impl Movement for Landing {
             let leaps_on = now.time - self.leapt <= LEAPS_ON;
             let leaping = if leaps_on { self.worth * self.uprightness() } else { 0.0 };
             // A hop that is no leap does not keep it from standing.
-            let standing = if leaping == 0.0 && self.stands(now) { self.best } else { 0.0 };
-            self.good += seconds * leaping.max(standing);
+            let stands = leaping == 0.0 && self.stands(now);
+            self.good += seconds * if stands { self.best } else { leaping };
         }
         Verdict::GoOn
     }
