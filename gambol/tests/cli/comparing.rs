@@ -149,8 +149,9 @@ fn while_others_are_at_work_there_is_no_comparison_and_that_is_no_success() -> O
         }
     }
     let ended = run(&mut endless());
-    other.kill()?;
+    let killed = other.kill();
     other.wait()?;
+    killed?;
     assert_eq!(ended.code, Some(4), "{}{}", ended.stdout, ended.stderr);
     assert_says(&ended.stdout, &["8 runs are being done by other processes; when they have ended, repeat the command"]);
     assert!(!out.join("comparison.html").exists());
