@@ -1,5 +1,5 @@
+use crate::{Hull, PhysicsSettings, inertia::inertia_per_mass};
 use creatures::{Blueprint, BodyPart, Hinge, Shape};
-use std::f32::consts::PI;
 use tasks::{Body, BodyHinge, BodyMotor};
 
 /// m/s².
@@ -21,6 +21,24 @@ pub fn body_of(blueprint: &Blueprint) -> Body {
     }
 }
 
+/// The same as [`body_of`], in a world with these settings, whose creature's densities are multiplied with a factor.
+pub(crate) fn body_in(
+    blueprint: &Blueprint,
+    settings: &PhysicsSettings,
+    mass_factor: f32,
+    uneven_ground: bool,
+) -> Body {
+    let mut body = Body { gravity: settings.gravity, uneven_ground, ..body_of(blueprint) };
+    let water = settings.water.map(|water| (water, water.density_around(blueprint, mass_factor)));
+    for (part, shaped) in body.parts.iter_mut().zip(blueprint.parts()) {
+        part.mass *= mass_factor;
+        part.inertia *= mass_factor;
+        part.buoyancy =
+            water.map_or(0.0, |(water, density)| 1.0 - Hull::new(shaped, &water, density, mass_factor).weight_left());
+    }
+    body
+}
+
 fn part(part: &BodyPart) -> tasks::BodyPart {
     let mass = part.mass();
     let (corners, radius) = match part.shape {
@@ -34,25 +52,14 @@ fn part(part: &BodyPart) -> tasks::BodyPart {
             (vec![[0.0, -y], [0.0, y]], radius)
         }
     };
-    tasks::BodyPart { name: part.name.clone(), mass, inertia: mass * inertia_per_mass(&part.shape), corners, radius }
-}
-
-/// Moment of inertia about the centre over mass, m².
-pub(crate) fn inertia_per_mass(shape: &Shape) -> f32 {
-    match *shape {
-        Shape::Box { width, height } => (width * width + height * height) / 12.0,
-        Shape::Circle { radius } => 0.5 * radius * radius,
-        Shape::Capsule { length, radius } => capsule_inertia(length, radius) / shape.area(),
+    tasks::BodyPart {
+        name: part.name.clone(),
+        mass,
+        inertia: mass * inertia_per_mass(&part.shape),
+        buoyancy: 0.0,
+        corners,
+        radius,
     }
-}
-
-/// The second moment of area about the centre, m⁴: a rectangle and two half discs, each moved out from its own centroid.
-fn capsule_inertia(length: f32, radius: f32) -> f32 {
-    let rectangle = 2.0 * radius * length * (4.0 * radius * radius + length * length) / 12.0;
-    let disc = PI * radius * radius;
-    let centroid = 4.0 * radius / (3.0 * PI);
-    let out = 0.5 * length + centroid;
-    rectangle + disc * (0.5 * radius * radius - centroid * centroid + out * out)
 }
 
 fn hinge(hinge: &Hinge, parts: &[BodyPart]) -> BodyHinge {

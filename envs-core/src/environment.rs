@@ -1,6 +1,6 @@
 use crate::{
     Conditions, Engine, EnvironmentError, Ground, Landscape, PhysicsSettings, PushSchedule, RestPose, Settled,
-    Variation, anatomy::body_of, body::Body, settled::advance,
+    Variation, anatomy::body_in, body::Body, settled::advance,
 };
 use creatures::{Actuation, Blueprint, Landings, Motors, Senses, Sensor, Source, Terrain, TerrainError};
 use ne_core::{Failure, Seed, SettingError};
@@ -29,7 +29,6 @@ pub struct ActuatedHinge {
 #[derive(Clone)]
 struct Plan<E> {
     blueprint: Blueprint,
-    body: tasks::Body,
     senses: Senses,
     motors: Motors,
     settings: PhysicsSettings,
@@ -54,6 +53,7 @@ struct State<E> {
     rest: Arc<RestPose>,
     gaps: Arc<[[f32; 2]]>,
     pushes: PushSchedule,
+    anatomy: Arc<tasks::Body>,
     commands: CommandSchedule,
     snapshot: Snapshot,
     landings: Landings,
@@ -159,12 +159,11 @@ impl<E: Engine> CreatureEnvironment<E> {
         check_start(&blueprint)?;
         let reference = Conditions::reference(motors.len());
         let engine = E::new(&blueprint, &settings, &landscape.ground, &reference)?;
-        let settled = Settled::new(engine, &blueprint, &settings, &reference, &landscape)
+        let body = Arc::new(body_in(&blueprint, &settings, reference.mass, landscape.ground != Ground::flat()));
+        let settled = Settled::new(engine, &blueprint, &settings, &reference, &landscape, body)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), motors.len());
-        let uneven_ground = landscape.ground != Ground::flat();
         let plan = Plan {
-            body: tasks::Body { gravity: pull(&settings, &blueprint, 1.0), uneven_ground, ..body_of(&blueprint) },
             blueprint,
             senses,
             motors,
@@ -248,19 +247,13 @@ impl<E: Engine> CreatureEnvironment<E> {
         let landscape = around(&settings, landscape)?;
         let blueprint = &self.plan.blueprint;
         let engine = E::new(blueprint, &settings, &landscape.ground, conditions)?;
-        let settled = Settled::new(engine, blueprint, &settings, conditions, &landscape)
+        let body = Arc::new(body_in(blueprint, &settings, conditions.mass, landscape.ground != Ground::flat()));
+        let settled = Settled::new(engine, blueprint, &settings, conditions, &landscape, body)
             .map_err(|failure| EnvironmentError::Settling { creature: blueprint.name().into(), failure })?;
         let state = State::new(settled.clone(), self.plan.motors.len());
         let variation = Variation::default();
         let terrain = Terrain::default();
-        let uneven_ground = landscape.ground != Ground::flat();
-        let mut plan = Plan { settings, variation, landscape, terrain, settled, ..(*self.plan).clone() };
-        plan.body.uneven_ground = uneven_ground;
-        plan.body.gravity = pull(&settings, &plan.blueprint, conditions.mass);
-        for part in &mut plan.body.parts {
-            part.mass *= conditions.mass;
-            part.inertia *= conditions.mass;
-        }
+        let plan = Plan { settings, variation, landscape, terrain, settled, ..(*self.plan).clone() };
         Ok(Self { plan: Arc::new(plan), state })
     }
 
@@ -391,7 +384,9 @@ impl<E: Engine> CreatureEnvironment<E> {
         let landscape = self.landscape_of(seed);
         let engine = E::new(blueprint, &settings, &landscape.ground, &conditions)
             .map_err(|error| Failure::Other { what: error.to_string() })?;
-        Settled::new(engine, blueprint, &settings, &conditions, &landscape)
+        // Small bumps in the way of a trial leave the ground as even as it is for judges.
+        let body = Arc::new(body_in(blueprint, &settings, conditions.mass, settled.body.uneven_ground));
+        Settled::new(engine, blueprint, &settings, &conditions, &landscape, body)
     }
 }
 
@@ -409,7 +404,7 @@ impl<E: Engine> Environment for CreatureEnvironment<E> {
     }
 
     fn body(&self) -> Option<&tasks::Body> {
-        Some(&self.plan.body)
+        Some(&self.state.anatomy)
     }
 
     fn reset(&mut self, seed: Seed) -> Result<(), Failure> {
@@ -462,18 +457,10 @@ fn around(settings: &PhysicsSettings, landscape: Landscape) -> Result<Landscape,
     }
 }
 
-/// What pulls a creature down, m/s²: gravity less buoyancy.
-fn pull(settings: &PhysicsSettings, blueprint: &Blueprint, mass_factor: f32) -> f32 {
-    match settings.water {
-        None => settings.gravity,
-        Some(water) => settings.gravity * water.weight_left(blueprint, mass_factor),
-    }
-}
-
 impl<E: Engine> State<E> {
     /// The beginning of a trial.
     fn new(settled: Settled<E>, motors: usize) -> Self {
-        let Settled { engine, rest, gaps, pushes, commands, snapshot, time_step } = settled;
+        let Settled { engine, rest, gaps, pushes, body: anatomy, commands, snapshot, time_step } = settled;
         let still = vec![0.0; motors];
         let landings = Landings::default();
         Self {
@@ -481,6 +468,7 @@ impl<E: Engine> State<E> {
             rest,
             gaps,
             pushes,
+            anatomy,
             commands,
             snapshot,
             landings,

@@ -50,6 +50,7 @@ mod engine;
 mod environment;
 mod error;
 mod ground;
+mod inertia;
 mod push;
 mod settings;
 mod settled;

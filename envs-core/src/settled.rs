@@ -2,7 +2,7 @@ use crate::{Conditions, Engine, Landscape, PhysicsSettings, PushSchedule, RestPo
 use creatures::Blueprint;
 use ne_core::Failure;
 use std::sync::Arc;
-use tasks::{CommandSchedule, PartState, Snapshot};
+use tasks::{Body, CommandSchedule, PartState, Snapshot};
 
 /// A creature at rest in its start pose (but for the torso's spin, if the conditions give it one), the clock at zero: what every trial begins with.
 #[derive(Clone)]
@@ -15,6 +15,8 @@ pub struct Settled<E> {
     pub gaps: Arc<[[f32; 2]]>,
     /// When the torso is pushed in this trial.
     pub pushes: PushSchedule,
+    /// What the creature is made of in this trial.
+    pub body: Arc<Body>,
     /// What the body is told to do in this trial.
     pub commands: CommandSchedule,
     /// Where every part is; time and motor work are 0.
@@ -32,13 +34,14 @@ const REST_STEPS: u32 = 10;
 const TURNING_STEPS: u32 = 10;
 
 impl<E: Engine> Settled<E> {
-    /// Turns the joints as the conditions say, and lets the creature come to rest. `settings`: those of the trial.
+    /// Turns the joints as the conditions say, and lets the creature come to rest. `settings` and `body`: those of the trial.
     pub(crate) fn new(
         mut engine: E,
         blueprint: &Blueprint,
         settings: &PhysicsSettings,
         conditions: &Conditions,
         landscape: &Landscape,
+        body: Arc<Body>,
     ) -> Result<Self, Failure> {
         let mut parts = vec![PartState::default(); blueprint.parts().len()];
         engine.look(&mut parts);
@@ -65,7 +68,7 @@ impl<E: Engine> Settled<E> {
         let gaps = landscape.gaps().collect();
         let pushes = PushSchedule::new(&conditions.pushes, blueprint, conditions.mass);
         let commands = CommandSchedule::default();
-        Ok(Self { engine, rest, gaps, pushes, commands, snapshot, time_step: settings.time_step })
+        Ok(Self { engine, rest, gaps, pushes, body, commands, snapshot, time_step: settings.time_step })
     }
 
     /// The same creature, told to do this.

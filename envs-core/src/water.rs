@@ -1,4 +1,4 @@
-use crate::anatomy::inertia_per_mass;
+use crate::inertia::inertia_per_mass;
 use creatures::{Blueprint, BodyPart, Shape};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
@@ -56,11 +56,6 @@ impl Water {
     /// Its mass per area, kg/m², around a creature whose densities are multiplied with a factor.
     pub fn density_around(&self, blueprint: &Blueprint, mass_factor: f32) -> f32 {
         self.density.unwrap_or_else(|| mass_factor * mean_density(blueprint))
-    }
-
-    /// The share of a creature's weight that buoyancy leaves: 0 in balance, below 0 for one that rises.
-    pub(crate) fn weight_left(&self, blueprint: &Blueprint, mass_factor: f32) -> f32 {
-        self.density.map_or(0.0, |density| 1.0 - density / (mass_factor * mean_density(blueprint)))
     }
 }
 

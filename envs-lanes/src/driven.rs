@@ -96,6 +96,7 @@ impl DrivenLanes {
         lane.value = 0.0;
         lane.plays = true;
         lane.snapshot.clone_from(&start.snapshot);
+        lane.movement.bind(&start.body);
         lane.movement.begin(&lane.snapshot);
     }
 

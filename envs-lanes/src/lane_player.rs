@@ -26,7 +26,8 @@ pub(crate) struct LanePlayer<'a, 'b> {
 struct Slot<'b> {
     /// What is played in it.
     playing: Option<Playing<'b>>,
-    movement: Box<dyn Movement>,
+    /// For each trial of the workload one that knows its body, once it was played here.
+    movements: Vec<Option<Box<dyn Movement>>>,
     snapshot: Snapshot,
 }
 
@@ -52,7 +53,8 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
         };
         workload.players.fetch_add(1, Relaxed);
         let batch = Batch::new(episode.environment(), settled, workload.controllers.topology(), episode.instructions());
-        let slot = || Slot { playing: None, movement: episode.movement.clone(), snapshot: Snapshot::default() };
+        let slot =
+            || Slot { playing: None, movements: vec![None; workload.trials.len()], snapshot: Snapshot::default() };
         let slots = (0..LANES).map(|_| slot()).collect();
         let mut player = Self { episode, workload, batch, slots, done: Vec::new() };
         for lane in 0..LANES {
@@ -92,12 +94,12 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
     /// How a lane's trial has ended, if it has.
     fn judge(&mut self, lane: usize) -> Option<Outcome> {
         let (batch, slot) = (&self.batch, &mut self.slots[lane]);
-        slot.playing.as_ref()?;
+        let movement = slot.movements[slot.playing.as_ref()?.trials.start].as_mut()?;
         let (steps, time_step) = (batch.steps(lane), batch.time_step(lane));
         if let Err(failure) = batch.show(lane, &mut slot.snapshot) {
             return Some(Outcome { steps, time_step, failure: Some(failure) });
         }
-        let failure = match slot.movement.observe(&slot.snapshot) {
+        let failure = match movement.observe(&slot.snapshot) {
             Verdict::Fail(reason) => Some(Failure::Unstable { what: reason.into() }),
             Verdict::GoOn if steps < self.episode.steps() => return None,
             Verdict::GoOn | Verdict::End => None,
@@ -110,8 +112,9 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
         let workload = self.workload;
         let slot = &mut self.slots[lane];
         let Some(playing) = &mut slot.playing else { return };
+        let Some(movement) = &slot.movements[playing.trials.start] else { return };
         let (individual, trial) = (playing.individual, workload.trials[playing.trials.start]);
-        let ended = Trial::new(outcome, &*slot.movement);
+        let ended = Trial::new(outcome, &**movement);
         playing.trials.start += 1;
         if ended.failed() {
             workload.failed[individual].fetch_min(trial, Relaxed);
@@ -152,7 +155,8 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
     }
 
     fn begin_trial(&mut self, lane: usize) {
-        let Slot { playing: Some(Playing { trials, thinking, .. }), movement, snapshot } = &mut self.slots[lane] else {
+        let Slot { playing: Some(Playing { trials, thinking, .. }), movements, snapshot } = &mut self.slots[lane]
+        else {
             return;
         };
         match thinking {
@@ -163,6 +167,11 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
         let Ok(settled) = &self.workload.starts[self.workload.trials[trials.start] as usize] else { return };
         self.batch.begin(lane, settled);
         snapshot.clone_from(&settled.snapshot);
-        movement.begin(snapshot);
+        let bound = || {
+            let mut movement = self.episode.movement.clone();
+            movement.bind(&settled.body);
+            movement
+        };
+        movements[trials.start].get_or_insert_with(bound).begin(snapshot);
     }
 }

@@ -5,14 +5,14 @@ use crate::{
     config::RunConfig,
     front::Front,
     run_folder::{
-        FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing,
+        ChampionStanding, FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing,
         lines::{Kept, LineFile},
     },
     setup::Setup,
     strategies::AnyStrategy,
 };
 use ne_core::{
-    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Seed, Strategy,
+    Evaluation, Evolution, Generation, GenerationReport, Genome, Observer, ObserverError, Progress, Seed, Strategy,
     TieredFitness, promotion::Decision,
 };
 use ne_net::Network;
@@ -57,9 +57,14 @@ pub(crate) struct EarlierLines {
 }
 
 impl EarlierLines {
-    /// Checks the lines of the first `generations` generations.
-    pub(crate) fn check(folder: &RunFolder, config: &RunConfig, generations: u64) -> Result<Self, FolderError> {
-        let generations = usize::try_from(generations).unwrap_or(usize::MAX);
+    /// Checks the lines of a run that stands here.
+    pub(crate) fn check(
+        folder: &RunFolder,
+        config: &RunConfig,
+        progress: &Progress,
+        champion: Option<TieredFitness>,
+    ) -> Result<Self, FolderError> {
+        let generations = usize::try_from(progress.generations).unwrap_or(usize::MAX);
         let (log, reports) = Kept::check::<GenerationReport>(&folder.log(), generations)?;
         // The log tells how many lines the gallery must have.
         let mut best = None;
@@ -69,6 +74,11 @@ impl EarlierLines {
             entries += usize::from(champion > best);
             entries += usize::from(config.record.populations_at.contains(&report.generation));
             best = champion;
+        }
+        if let Some(last) = reports.last()
+            && ((last.evaluations, last.steps) != (progress.evaluations, progress.steps) || best != champion)
+        {
+            return Err(FolderError::ForeignLog { path: folder.log(), generation: last.generation });
         }
         let (gallery, _) = Kept::check::<GalleryEntry>(&folder.gallery(), entries)?;
         let (timing, _) = Kept::check::<Timing>(&folder.timing(), generations)?;
@@ -85,7 +95,8 @@ pub fn check_lines(folder: &RunFolder, config: &RunConfig) -> Result<(), FolderE
     if standing.seed != Seed::of_run(config.seed) {
         return Err(FolderError::Foreign { path: folder.checkpoint(), what: "the seed" });
     }
-    EarlierLines::check(folder, config, standing.progress.generations).map(drop)
+    let champion = standing.champion.map(|ChampionStanding { tier, fitness, .. }| TieredFitness { tier, fitness });
+    EarlierLines::check(folder, config, &standing.progress, champion).map(drop)
 }
 
 /// The champion of a run with this configuration, if it has one.

@@ -136,6 +136,9 @@ impl Alone {
 impl Stage for Alone {
     fn begin(&mut self, _: usize, seed: Seed) -> Result<(), Failure> {
         self.environment.reset(seed)?;
+        if let Some(body) = self.environment.body() {
+            self.movement.bind(body);
+        }
         self.movement.begin(self.environment.snapshot());
         (self.done, self.value, self.plays, self.unusable) = (0, 0.0, true, None);
         Ok(())

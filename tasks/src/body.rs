@@ -12,7 +12,7 @@ pub struct Body {
     /// The torso's angle as the creature's file draws it, rad, counter-clockwise. Tilt counts from there, so that a body that
     /// topples while it settles is tilted.
     pub start_angle: f32,
-    /// What pulls it down, m/s²: in water gravity less buoyancy, which may be below 0.
+    /// Gravity, m/s².
     pub gravity: f32,
     /// What each part is like.
     pub parts: Vec<BodyPart>,
@@ -36,6 +36,8 @@ pub struct BodyPart {
     pub mass: f32,
     /// Moment of inertia about its centre, kg·m².
     pub inertia: f32,
+    /// The share of its weight that water bears: 0 on land, above 1 for a part that rises.
+    pub buoyancy: f32,
     /// The corners of its shape in its own frame, m: the shape is everything within `radius` of their convex hull.
     pub corners: Vec<[f32; 2]>,
     /// How far the shape reaches beyond its corners, m.
@@ -91,6 +93,18 @@ impl Body {
     pub fn mass(&self) -> f32 {
         self.parts.iter().map(|part| part.mass).sum()
     }
+
+    /// What pulls it down as a whole, m/s²: gravity less buoyancy, below 0 for a body that rises.
+    pub fn pull(&self) -> f32 {
+        let mass = self.mass();
+        let unborne: f32 = self.parts.iter().map(BodyPart::unborne_mass).sum();
+        if mass > 0.0 { self.gravity * (unborne / mass) } else { self.gravity }
+    }
+
+    /// Weight of all parts less what water bears of it, N.
+    pub fn weight(&self) -> f64 {
+        f64::from(self.mass()) * f64::from(self.pull())
+    }
 }
 
 impl BodyHinge {
@@ -109,6 +123,11 @@ impl BodyHinge {
 }
 
 impl BodyPart {
+    /// Its mass less what water bears of it, kg.
+    pub fn unborne_mass(&self) -> f32 {
+        self.mass * (1.0 - self.buoyancy)
+    }
+
     /// Its longest side, m: the larger of its extents along the two axes of its own frame.
     pub fn length(&self) -> f32 {
         let extent = |axis: usize| {

@@ -22,7 +22,8 @@ pub trait Environment: Clone + Send + Sync {
     /// Seconds one step takes. Only `reset` may change it: a varied trial can have steps of its own.
     fn time_step(&self) -> f32;
 
-    /// What the body is made of, for movements that want to know; `None`, the default, where there is nothing to tell.
+    /// What the body is made of, for movements that want to know; `None`, the default, where there is nothing to tell. Only
+    /// `reset` may change it: a varied trial can have masses and gravity of its own.
     fn body(&self) -> Option<&Body> {
         None
     }

@@ -145,6 +145,9 @@ impl<E: Environment> EvaluationState<E> {
         if let Err(failure) = environment.reset(seed) {
             return (0, Some(failure));
         }
+        if let Some(body) = environment.body() {
+            movement.bind(body);
+        }
         movement.begin(environment.snapshot());
         watcher.watch(&Moment { step: 0, snapshot: environment.snapshot(), inputs, outputs, phenotype });
         for step in 1..=steps {

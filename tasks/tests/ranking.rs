@@ -18,6 +18,7 @@ fn puppet() -> Body {
         name: name.into(),
         mass: 1.0,
         inertia: 0.01,
+        buoyancy: 0.0,
         corners: vec![[-x, -y], [x, -y], [x, y], [-x, y]],
         radius: 0.0,
     };

@@ -7,8 +7,8 @@ use envs_lanes::{Instructions, LaneEpisode};
 use ne_core::{Evaluation, Phenotype, Seed, Task};
 use ne_net::DenseNet;
 use tasks::{
-    Combine, Energy, Environment, Episode, FallEnds, Jumping, Movement, Objectives, Rollovers, Running, Sum, TimeAloft,
-    Trials,
+    Body, Combine, Energy, Environment, Episode, FallEnds, Jumping, Movement, Objectives, Rollovers, Running, Snapshot,
+    Sum, TimeAloft, Trials, Verdict,
 };
 
 fn movement() -> Box<dyn Movement> {
@@ -45,6 +45,57 @@ fn a_batch_gives_what_rapier_gives() {
                 assert_eq!(found, rapier.evaluate(net, Seed::of_run(3)), "{name}, {variation:?}");
             }
         }
+    }
+}
+
+/// Worth what the body weighs that it was told of, N.
+#[derive(Clone, Default)]
+struct Weighing(f64);
+
+impl Movement for Weighing {
+    fn name(&self) -> &str {
+        "weighing"
+    }
+
+    fn unit(&self) -> &str {
+        "N"
+    }
+
+    fn bind(&mut self, body: &Body) {
+        self.0 = body.weight();
+    }
+
+    fn begin(&mut self, _: &Snapshot) {}
+
+    fn observe(&mut self, _: &Snapshot) -> Verdict {
+        Verdict::GoOn
+    }
+
+    fn value(&self) -> f64 {
+        self.0
+    }
+}
+
+#[test]
+fn a_movement_is_told_what_the_body_weighs_in_each_trial() {
+    let blueprint = shipped("tetrapod-1");
+    let sensors = blueprint.creature().sensors.clone();
+    let variation = Variation { mass: 0.5, gravity: 0.5, ..Variation::default() };
+    let trials = Trials { count: 5, combine: Combine::Mean, lessons: false };
+    let (rapier, lanes) = both(&blueprint, &sensors, PhysicsSettings::default(), variation);
+    let rapier = Episode::new(rapier, Box::<Weighing>::default(), 10, trials).expect("valid");
+    let lanes = LaneEpisode::new(lanes, Box::<Weighing>::default(), 10, trials).expect("valid");
+    let (seed, mut nets) = (Seed::of_run(4), nets(rapier.inputs(), rapier.outputs(), 40));
+    let reference = rapier.environment().body().expect("a creature").weight();
+    let weights = (0..trials.count).map(|trial| {
+        let world = variation.draw(seed.trial(trial), rapier.outputs());
+        reference * f64::from(world.mass) * f64::from(world.gravity)
+    });
+    let expected = weights.sum::<f64>() / f64::from(trials.count);
+    for (net, found) in nets.clone().iter_mut().zip(batch(&lanes, &mut nets, seed)) {
+        let fitness = found.outcome.as_ref().expect("stands").get();
+        assert!((fitness / expected - 1.0).abs() < 1e-5, "{fitness} N, not {expected}");
+        assert_eq!(found, rapier.evaluate(net, seed));
     }
 }
 

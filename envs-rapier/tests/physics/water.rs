@@ -6,7 +6,7 @@ use envs_core::{Conditions, Engine, Ground, Water};
 use envs_rapier::{PhysicsSettings, RapierEnvironment, RapierWorld, Variation};
 use ne_core::Seed;
 use std::f32::consts::{FRAC_PI_2, TAU};
-use tasks::{Environment, Movement, PartState, Swimming, conformance};
+use tasks::{BodyPart, Environment, Movement, NoExploits, PartState, Swimming, Verdict, conformance};
 
 const GRAVITY: f32 = 9.81;
 const LENGTH: f32 = 0.4;
@@ -160,14 +160,45 @@ fn a_wave_down_the_body_drives_it_the_other_way_at_any_time_step() {
     assert!(wave(-1.0, 0.02) < -0.8, "backwards");
 }
 
+/// One half sinks, the other rises: the body turns, and gains speed that no motor gave it.
+#[test]
+fn energy_in_water_is_counted_by_each_part_s_own_buoyancy() {
+    let mut creature = creatures::find("apod").expect("shipped");
+    let middle = creature.parts[0].position[0];
+    for part in &mut creature.parts {
+        part.density = if part.position[0] > middle { 900.0 } else { 90.0 };
+    }
+    let blueprint = Blueprint::new(creature).expect("valid");
+    let settings = settings(Water { drag: 0.01, slip: 0.0, ..Water::default() });
+    let (sensors, still) = (blueprint.creature().sensors.clone(), Variation::default());
+    let mut apod = RapierEnvironment::new(blueprint, &sensors, 3.0, settings, still).expect("builds");
+    let body = apod.body().expect("it has one").clone();
+    assert!(body.pull().abs() < 1e-4, "in balance as a whole");
+    let mut movement = NoExploits::default();
+    movement.bind(&body);
+    apod.reset(Seed::of_run(1)).expect("builds");
+    movement.begin(apod.snapshot());
+    let mut most: f32 = 0.0;
+    for _ in 0..150 {
+        apod.step().expect("stable");
+        assert_eq!(movement.observe(apod.snapshot()), Verdict::GoOn);
+        let moving = body.parts.iter().zip(&apod.snapshot().parts);
+        let energy = |(part, state): (&BodyPart, &PartState)| {
+            0.5 * part.mass * (state.vx * state.vx + state.vy * state.vy) + 0.5 * part.inertia * state.spin * state.spin
+        };
+        most = most.max(moving.map(energy).sum());
+    }
+    assert!(most > 7.0, "{most} J would be no exploit either way");
+}
+
 #[test]
 fn a_creature_in_water_weighs_what_buoyancy_leaves() {
     let gravity = |density| {
         let water = Water { density, ..Water::default() };
         let apod = swimmer("apod", settings(water), Variation::default());
-        apod.body().expect("it has one").gravity
+        apod.body().expect("it has one").pull()
     };
-    assert_eq!(gravity(None), 0.0);
+    assert!(gravity(None).abs() < 1e-5);
     assert!((gravity(Some(15.0)) - 0.5 * GRAVITY).abs() < 1e-4);
     assert!((gravity(Some(60.0)) + GRAVITY).abs() < 1e-4);
 }

@@ -72,6 +72,14 @@ pub enum FolderError {
         /// What differs.
         what: &'static str,
     },
+    /// Its log is of another run.
+    #[error("{} is not the log of this run: generation {generation} ended otherwise than the checkpoint says", path.display())]
+    ForeignLog {
+        /// The log.
+        path: PathBuf,
+        /// The last generation before the checkpoint.
+        generation: u64,
+    },
     /// It is of another run than the one that has its place.
     #[error(
         "{} is the folder of another run: its config.json has another \"{what}\" than the run that is to be there; move it away, and \

@@ -92,7 +92,7 @@ impl Training {
         // The configuration comes last: what is a run can be resumed, wherever it was killed.
         evolution.write_checkpoint(&folder.checkpoint()).map_err(FolderError::from)?;
         folder.write_config(config)?;
-        let earlier = EarlierLines::check(&folder, config, 0)?;
+        let earlier = EarlierLines::check(&folder, config, &Progress::default(), None)?;
         Self::new(evolution, config.clone(), setup, (folder, lock), earlier, evaluator, resources)
     }
 
@@ -152,7 +152,7 @@ impl Training {
         if let Some(reason) = is_over.filter(|_| promotion.is_none() && is_saved) {
             return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
         }
-        let earlier = EarlierLines::check(&folder, &config, checkpoint.progress.generations)?;
+        let earlier = EarlierLines::check(&folder, &config, &checkpoint.progress, best)?;
         // From here on the folder is known to be whole.
         if config.stop != planned {
             folder.write_config(&config)?;

@@ -206,6 +206,19 @@ fn a_report_of_a_damaged_run_names_the_file_and_keeps_the_old_report() -> Outcom
     Ok(())
 }
 
+/// With the seed of this one, and with as many evaluations.
+#[test]
+fn the_log_of_another_run_is_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let (run, other) = (folder.path().join("run"), folder.path().join("other"));
+    succeed(&mut small_run(&run, 4));
+    succeed(small_run(&other, 4).args(["--set", "strategy.cma-es.step_size=0.77"]));
+    fs::copy(other.join("log.jsonl"), run.join("log.jsonl"))?;
+    assert_refused(&run, &["log.jsonl is not the log of this run", "generation 4 ended otherwise"]);
+    assert_says(&fail(gambol("report").arg(&run)), &["log.jsonl is not the log of this run"]);
+    Ok(())
+}
+
 #[test]
 fn the_checkpoint_of_another_run_is_refused() -> Outcome {
     let folder = tempfile::tempdir()?;

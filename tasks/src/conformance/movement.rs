@@ -29,7 +29,7 @@ pub const MEASURES: Promise =
 /// Any body will do.
 pub const BINDS: Promise = Promise::new(
     "movement",
-    "`bind` takes any body, changes neither name nor unit, and changes nothing when it is bound to the same body again",
+    "`bind` takes any body, changes neither name nor unit, and forgets every body it was bound to before",
 );
 
 /// All of them.
@@ -92,11 +92,15 @@ fn binds(movement: &dyn Movement, body: &Body, stories: &[Story]) -> Result<Box<
     if labels(&*met) != labels(movement) {
         return Err(format!("{:?} at first, {:?} afterwards", labels(movement), labels(&*met)));
     }
-    let mut again = met.boxed_clone();
-    again.bind(body);
-    for story in stories {
-        let once = watch(&mut *met.boxed_clone(), story, Asked::EachStep);
-        watch(&mut *again.boxed_clone(), story, Asked::EachStep).same(&once, &format!("{}, twice", story.name))?;
+    for (earlier, other) in bodies().iter().map(|(name, other)| (*name, other)).chain([("the same", body)]) {
+        let mut again = movement.boxed_clone();
+        again.bind(other);
+        again.bind(body);
+        for story in stories {
+            let once = watch(&mut *met.boxed_clone(), story, Asked::EachStep);
+            let what = format!("{}, and before it {earlier}", story.name);
+            watch(&mut *again.boxed_clone(), story, Asked::EachStep).same(&once, &what)?;
+        }
     }
     Ok(met)
 }

@@ -41,6 +41,7 @@ pub(super) fn bodies() -> [(&'static str, Body); 3] {
         name: format!("part {index}"),
         mass: 1.0,
         inertia: 0.01,
+        buoyancy: 0.0,
         corners: vec![[-0.1, -0.2], [0.1, -0.2], [0.1, 0.2], [-0.1, 0.2]],
         radius: 0.0,
     };

@@ -102,6 +102,7 @@ pub(super) fn body() -> Body {
         name: name.into(),
         mass,
         inertia: mass * (width * width + height * height) / 12.0,
+        buoyancy: 0.0,
         corners: [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
             .map(|[x, y]| [0.5 * width * x, 0.5 * height * y])
             .into(),

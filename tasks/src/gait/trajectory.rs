@@ -222,11 +222,6 @@ impl<'a> Trajectory<'a> {
         matches!(self.ground, Surface::Flat)
     }
 
-    /// m/s².
-    pub(super) fn gravity(&self) -> f64 {
-        f64::from(self.body.gravity)
-    }
-
     /// Mass of all parts, kg.
     pub(super) fn mass(&self) -> f64 {
         self.body.parts.iter().map(|part| f64::from(part.mass)).sum()
@@ -343,8 +338,12 @@ fn check_body(body: &Body) -> Result<(), GaitError> {
         return wrong("gravity and start angle must be finite");
     }
     for part in &body.parts {
-        let finite =
-            part.corners.iter().flatten().chain([&part.radius, &part.inertia]).all(|number| number.is_finite());
+        let finite = part
+            .corners
+            .iter()
+            .flatten()
+            .chain([&part.radius, &part.inertia, &part.buoyancy])
+            .all(|number| number.is_finite());
         if !finite || part.corners.is_empty() || !positive(part.mass) || part.radius < 0.0 {
             return wrong(&format!("part {} must have a mass, corners and finite numbers", part.name));
         }

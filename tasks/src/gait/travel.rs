@@ -42,7 +42,7 @@ impl Travel {
             let border = |quarter: usize| trajectory.at(from + (to - from) * quarter as f64 / 4.0);
             std::array::from_fn(|quarter| trajectory.progress(border(quarter), border(quarter + 1)))
         };
-        let weight = trajectory.mass() * trajectory.gravity().abs();
+        let weight = trajectory.body().weight().abs();
         let work = trajectory.work(end).zip(trajectory.work(0)).map(|(end, start)| end - start);
         Self {
             distance,

@@ -76,7 +76,7 @@ impl Movement for Cruising {
 
     fn bind(&mut self, body: &Body) {
         self.body_length = body.body_length.into();
-        let weight = f64::from(body.mass()) * f64::from(body.gravity).abs();
+        let weight = body.weight().abs();
         self.weight = if weight > 0.0 { weight } else { 1.0 };
     }
 

@@ -92,8 +92,8 @@ pub trait Movement: MovementClone + Send + Sync {
     /// The unit of the value: "m", "J", "s", "1" for a count.
     fn unit(&self) -> &str;
 
-    /// Whose movement it will watch, told once and before anything else, if the environment knows. Most movements need
-    /// not know.
+    /// Whose movement it will watch, if the environment knows: told before anything else, and before an episode in which
+    /// the body weighs something else. What an earlier body was is forgotten. Most movements need not know.
     fn bind(&mut self, body: &Body) {
         let _ = body;
     }

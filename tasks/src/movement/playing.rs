@@ -287,7 +287,7 @@ impl Movement for Playing {
             false => ENOUGH * f64::from(body.start_height),
         };
         self.enough = enough.max(LEAST_RISE);
-        self.gravity = f64::from(body.gravity).max(0.1);
+        self.gravity = f64::from(body.pull()).max(0.1);
     }
 
     fn begin(&mut self, start: &Snapshot) {

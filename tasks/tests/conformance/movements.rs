@@ -41,6 +41,7 @@ enum Flaw {
     Panics,
     BindsBodiesWithLegsOnly,
     BindingIsCounted,
+    KeepsTheLongestBody,
     BindingGivesAName,
     InfiniteOnceMet,
     KeepsTheSumOnceMet,
@@ -85,7 +86,8 @@ impl Movement for Flawed {
     fn bind(&mut self, body: &Body) {
         assert!(!(self.is(Flaw::BindsBodiesWithLegsOnly) && body.legs.is_empty()), "on purpose");
         self.met += 1;
-        self.body_length = body.body_length.into();
+        let longest = if self.is(Flaw::KeepsTheLongestBody) { self.body_length } else { 0.0 };
+        self.body_length = longest.max(f64::from(body.body_length) * body.parts.len() as f64);
     }
 
     fn begin(&mut self, _: &Snapshot) {
@@ -165,6 +167,7 @@ fn broken_movements_are_caught() {
         (MEASURES, "measures at heights only", check(Flaw::MeasuresAtHeightsOnly)),
         (BINDS, "binds bodies with legs only", check(Flaw::BindsBodiesWithLegsOnly)),
         (BINDS, "binding is counted", check(Flaw::BindingIsCounted)),
+        (BINDS, "keeps the longest body it has met", check(Flaw::KeepsTheLongestBody)),
         (BINDS, "binding gives it a name", check(Flaw::BindingGivesAName)),
         (FINITE, "infinite once it has met a body", check(Flaw::InfiniteOnceMet)),
         (FORGETS, "begin keeps the sum once it has met a body", check(Flaw::KeepsTheSumOnceMet)),

@@ -21,6 +21,7 @@ fn puppet() -> Body {
         name: name.into(),
         mass: 1.0,
         inertia: 0.01,
+        buoyancy: 0.0,
         corners: corners.to_vec(),
         radius: 0.0,
     };

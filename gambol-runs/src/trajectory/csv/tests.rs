@@ -7,6 +7,7 @@ fn body(names: &[&str]) -> Body {
         name: (*name).into(),
         mass: 1.0,
         inertia: 1.0,
+        buoyancy: 0.0,
         corners: vec![[0.0, 0.0]],
         radius: 0.1,
     };

@@ -11,14 +11,13 @@ const TOLERANCE_SHARE: f64 = 0.25;
 /// A body that gains more energy in a short time than its motors, and pushes against it, gave in it. Motors that brake count as if they drove,
 /// so that an honest body stays well below.
 pub(super) fn find(trajectory: &Trajectory<'_>) -> Option<Cheat> {
-    let gravity = trajectory.gravity();
     let surplus: Vec<f64> = (0..=trajectory.steps())
         .map(|step| {
             let work = trajectory.work(step)? + trajectory.snapshots()[step].push_work;
-            Some(energy(trajectory, step, gravity) - work)
+            Some(energy(trajectory, step) - work)
         })
         .collect::<Option<_>>()?;
-    let threshold = TOLERANCE + TOLERANCE_SHARE * trajectory.mass() * gravity.abs() * trajectory.start_height();
+    let threshold = TOLERANCE + TOLERANCE_SHARE * trajectory.body().weight().abs() * trajectory.start_height();
     let steps = libm::round(WINDOW / trajectory.time_step()) as usize;
     let gains = (0..surplus.len()).map(|step| {
         let before = &surplus[step.saturating_sub(steps)..=step];
@@ -34,13 +33,14 @@ pub(super) fn find(trajectory: &Trajectory<'_>) -> Option<Cheat> {
 }
 
 /// Kinetic and potential energy of all parts, J.
-fn energy(trajectory: &Trajectory<'_>, step: usize, gravity: f64) -> f64 {
+fn energy(trajectory: &Trajectory<'_>, step: usize) -> f64 {
+    let gravity = f64::from(trajectory.body().gravity);
     let parts = trajectory.body().parts.iter().zip(&trajectory.snapshots()[step].parts);
     parts
         .map(|(part, state)| {
-            let [mass, inertia] = [part.mass, part.inertia].map(f64::from);
+            let [mass, inertia, unborne] = [part.mass, part.inertia, part.unborne_mass()].map(f64::from);
             let [y, vx, vy, spin] = [state.y, state.vx, state.vy, state.spin].map(f64::from);
-            0.5 * mass * (vx * vx + vy * vy) + 0.5 * inertia * spin * spin + mass * gravity * y
+            0.5 * mass * (vx * vx + vy * vy) + 0.5 * inertia * spin * spin + unborne * gravity * y
         })
         .sum()
 }
@@ -64,7 +64,7 @@ mod tests {
         let (body, unaware) = (body(), pushed.clone());
         let trajectory = Trajectory::new(&body, &unaware).expect("a script");
         for (step, snapshot) in pushed.iter_mut().enumerate() {
-            snapshot.push_work = energy(&trajectory, step, trajectory.gravity());
+            snapshot.push_work = energy(&trajectory, step);
         }
         assert_eq!(find(&Trajectory::new(&body, &pushed).expect("a script")), None);
     }
