@@ -61,7 +61,13 @@ const TOLERANCE: f32 = 1e-4;
 /// The first part, or hinge, that has no twin.
 pub fn twins(parts: &[SymmetryPart], hinges: &[SymmetryHinge]) -> Result<Vec<usize>, Asymmetry> {
     let Some(torso) = parts.first() else { return Ok(Vec::new()) };
-    let hinge_of = |child: usize| hinges.iter().find(|hinge| hinge.child == child);
+    let mut hangs: Vec<Option<&SymmetryHinge>> = vec![None; parts.len()];
+    for hinge in hinges {
+        if let Some(place) = hangs.get_mut(hinge.child) {
+            place.get_or_insert(hinge);
+        }
+    }
+    let hinge_of = |child: usize| hangs[child];
     let mut twin: Vec<Option<usize>> = vec![None; parts.len()];
     for part in 0..parts.len() {
         if twin[part].is_some() {

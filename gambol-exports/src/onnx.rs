@@ -8,10 +8,12 @@ mod net;
 mod protobuf;
 
 use crate::ExportError;
-use creatures::{Actuation, Channel, Probe};
+use creatures::{Actuation, Channel, Drive, Probe};
 use envs_rapier::RapierEnvironment;
 use gambol_runs::{Registry, champion::Champion, judge::Judge};
+use ne_core::Seed;
 use ne_net::Network;
+use player::source_record;
 use protobuf::Message;
 use serde_json::{Value, json};
 
@@ -21,9 +23,11 @@ const OPERATIONS: u64 = 17;
 
 const DESCRIPTION: &str = "\
 The net of a creature. Call it every time_step seconds. An input is (value - middle) * factor, and no further from 0 \
-than input_range; the metadata `inputs` lists what each value is. An output from -1 to 1 asks for a value of its range, \
-which the metadata `outputs` list: the speed of a motor, or the angle of a joint, towards which the motor turns with the \
-speed gain * (angle asked for - angle). Angles of joints are against those of the start pose.";
+than input_range; the metadata `inputs` lists what each value is, in words and as the source, index, first and second of \
+the player's specification, and `rest_height` is how high the torso rests. An output is limited to -1 to 1. With the \
+actuation `speed` it asks its motor for output * top_speed. With `angle` the target is output * the larger of its limits' \
+sizes, limited to them, and the motor is asked for gain * (target - angle), no faster than top_speed. Angles of joints are \
+against those of the start pose. The metadata `outputs` list limits and top speeds; rad, rad/s.";
 
 pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, ExportError> {
     let judge = Judge::new(champion.episode_parts(), registry)?;
@@ -33,6 +37,8 @@ pub(crate) fn of(champion: &Champion, registry: &Registry) -> Result<Vec<u8>, Ex
         ("movement", champion.movement.name.clone()),
         ("time_step", world.settings().time_step.to_string()),
         ("input_range", world.senses().input_range().to_string()),
+        ("rest_height", rest_height(world)?.to_string()),
+        ("body_length", world.blueprint().body_length().to_string()),
         ("inputs", inputs(world).to_string()),
         ("outputs", outputs(world).to_string()),
     ];
@@ -65,13 +71,31 @@ fn inputs(world: &RapierEnvironment) -> Value {
         let mut input = described(channel);
         input["middle"] = short(probe.middle);
         input["factor"] = short(probe.factor);
+        if let Some((source, index, first, second)) = source_record(probe.source) {
+            input["source"] = source.into();
+            input["index"] = index.into();
+            input["first"] = short(first);
+            input["second"] = short(second);
+        }
         input
     };
     senses.channels().iter().zip(senses.probes()).map(input).collect()
 }
 
 fn outputs(world: &RapierEnvironment) -> Value {
-    world.motors().channels().iter().map(described).collect()
+    let output = |(channel, drive): (&Channel, &Drive)| {
+        let mut output = described(channel);
+        output["limits"] = drive.limits.map(short).into_iter().collect();
+        output["top_speed"] = short(drive.top_speed);
+        output
+    };
+    world.motors().channels().iter().zip(world.motors().drives()).map(output).collect()
+}
+
+/// Height of the torso's centre at rest, m.
+fn rest_height(world: &RapierEnvironment) -> Result<f32, ExportError> {
+    let settled = world.settled(Seed::of_run(0)).map_err(|failure| ExportError::Failed { failure })?;
+    Ok(settled.rest.height())
 }
 
 fn described(channel: &Channel) -> Value {

@@ -14,6 +14,7 @@ pub(crate) fn of(champion: &Champion, registry: &Registry, steps: Option<u32>) -
     let judge = Judge::new(champion.episode_parts(), registry)?;
     // What cannot be played has no trace.
     let character = character::of(champion, judge.environment())?;
+    character.to_bytes()?;
     let steps = steps.unwrap_or(judge.steps());
     let mut trace = header(judge.environment(), character.outside().count());
     rows(judge.environment().clone(), champion, steps, &mut trace)

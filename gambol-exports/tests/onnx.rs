@@ -8,7 +8,7 @@ mod onnx_model;
 use common::{Outcome, all_sensors, champion, dense, recurrent, weights};
 use creatures::{Actuation, Sensor};
 use gambol_exports::{Format, Options, Picture, export};
-use gambol_runs::{Registry, champion::Champion};
+use gambol_runs::{Registry, champion::Champion, judge::Judge};
 use ne_net::{Activation, DenseNet, DenseShape, GraphNet, GraphNeuron, GraphShape, Network};
 use onnx_model::Model;
 use std::{error::Error, fs, path::Path, process::Command};
@@ -173,7 +173,27 @@ fn metadata_say_what_inputs_and_outputs_are() -> Outcome {
             assert_eq!([bound(0), bound(1)], channel.range.map(Some));
         }
     }
+    // With the formula of the description, what every motor is asked for.
+    let judge = Judge::new(champion.episode_parts(), &Registry::default())?;
+    let motors = judge.environment().motors();
+    assert_eq!(outputs.as_array().map(Vec::len), Some(motors.len()));
+    for (index, drive) in motors.drives().iter().enumerate() {
+        let number = |value: &serde_json::Value| value.as_f64().map(|number| number as f32).ok_or("no number");
+        let output = &outputs[index];
+        let [low, high] = [number(&output["limits"][0])?, number(&output["limits"][1])?];
+        for (asked, angle) in [(-2.0_f32, 0.1), (-0.6, -0.2), (0.3, 0.4), (1.0, 0.0)] {
+            let target = (asked.clamp(-1.0, 1.0) * low.abs().max(high.abs())).clamp(low, high);
+            let top_speed = number(&output["top_speed"])?;
+            let speed = (12.5 * (target - angle)).clamp(-top_speed, top_speed);
+            assert!((drive.speed(motors.actuation(), asked, || angle) - speed).abs() < 1e-5);
+        }
+    }
+    let height: f32 = metadata["rest_height"].parse()?;
+    assert!((0.2..2.0).contains(&height), "{height} m");
+    let angle = &inputs[0];
+    assert_eq!([&angle["source"], &angle["index"]].map(serde_json::Value::as_u64), [Some(2), Some(0)]);
     let contact = inputs.as_array().and_then(|inputs| inputs.last()).ok_or("no inputs")?;
+    assert_eq!(contact["source"].as_u64(), Some(7));
     assert_eq!((contact["middle"].as_f64(), contact["factor"].as_f64()), (Some(0.5), Some(6.0)));
     Ok(())
 }

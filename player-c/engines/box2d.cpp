@@ -7,10 +7,9 @@ int main(int count, char **arguments) {
     const float seconds = count > 2 ? std::stof(arguments[2]) : 10, speed = count > 3 ? std::stof(arguments[3]) : 1;
     std::ifstream file(count > 1 ? arguments[1] : "", std::ios::binary);
     const std::vector<uint8_t> bytes{std::istreambuf_iterator<char>(file), {}};
-    GambolCharacter *character;
+    GambolCharacter *character; GambolWorld learned;
     if (gambol_character_load(bytes.data(), bytes.size(), &character) != GAMBOL_STATUS_OK) return 1;
     GambolPlayer *player = gambol_player_new(character);
-    GambolWorld learned;
     gambol_character_world(character, &learned);
     b2World world({0, -learned.gravity});
     b2BodyDef at;
@@ -19,7 +18,7 @@ int main(int count, char **arguments) {
     world.CreateBody(&at)->CreateFixture(&flat, 0)->SetFriction(1);
     std::vector<b2Body *> bodies;
     for (GambolPart part; gambol_character_part(character, bodies.size(), &part) == GAMBOL_STATUS_OK;) {
-        if (part.shape != 0) return 1;  // How circles and capsules are made is shown in judge_box2d.cpp.
+        if (part.shape || learned.water) return 1;  // How circles and capsules are made is shown in judge_box2d.cpp.
         at.type = b2_dynamicBody, at.allowSleep = false, at.position = {part.x, part.y}, at.angle = part.angle;
         bodies.push_back(world.CreateBody(&at));
         b2PolygonShape box;
@@ -53,7 +52,8 @@ int main(int count, char **arguments) {
         }
         if (step % 240 == 0) std::printf("%.1f s: torso at %.2f m, %.2f m high\n", step / 480.0, now[0].x, now[0].y);
         if (step % 8 != 0) continue;  // A frame of 1/60 s.
-        gambol_player_tick(player, now.data(), now.size(), nullptr, 0, speed, 0, 1 / 60.0f, asked.data(), asked.size());
+        if (gambol_player_tick(player, now.data(), now.size(), nullptr, 0, speed, 0, 1 / 60.0f, asked.data(),
+                               asked.size())) return 1;  // It senses rays or gaps, say.
         for (uint32_t i = 0, hinge; i < asked.size(); i++)
             if (!gambol_character_output(character, i, &hinge)) joints[hinge]->SetMotorSpeed(asked[i]);
     }

@@ -129,7 +129,11 @@ static void judge_frame(struct Engine *engine, Scene *scene, double seconds, int
             torques[i] = scene->law == LAW_TOP || wanted > hinge->top_torque ? hinge->top_torque : wanted;
         }
         if (scene->law == LAW_TORQUES) {
-            memset(torques, 0, sizeof torques);
+            // Those that are no outputs are held still by the same law.
+            for (size_t i = 0; i < scene->hinge_count; i++) {
+                const float spin = scene->states[scene->hinges[i].child].spin - scene->states[scene->hinges[i].parent].spin;
+                torques[i] = spin > 0 ? -torques[i] : torques[i];
+            }
             gambol_player_torques(scene->player, scene->states, scene->part_count, by_output, scene->output_count);
             for (size_t i = 0; i < scene->output_count; i++) torques[scene->outputs[i]] = by_output[i];
         }
@@ -154,14 +158,25 @@ static void judge_settle(struct Engine *engine, Scene *scene, double seconds, in
     }
 }
 
+// A name may have commas and quotes.
+static void judge_quoted(FILE *out, const char *name) {
+    fputc('"', out);
+    for (; *name; name++) {
+        if (*name == '"') fputc('"', out);
+        fputc(*name, out);
+    }
+    fputc('"', out);
+}
+
 static void judge_write(FILE *out, const Scene *scene, int step, double time, const JudgeCommand *command) {
     for (size_t i = 0; i < scene->part_count; i++) {
         const GambolPartState *state = &scene->states[i];
         char name[256];
         gambol_character_part_name(scene->character, i, name, sizeof name);
-        fprintf(out, "%d,%.9g,%s,%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g,%u\n", step, time, name, state->x, state->y,
-                atan2f(state->sin, state->cos), state->touching != 0, state->vx, state->vy, state->spin, command->speed,
-                command->jump);
+        fprintf(out, "%d,%.9g,", step, time);
+        judge_quoted(out, name);
+        fprintf(out, ",%.9g,%.9g,%.9g,%d,%.9g,%.9g,%.9g,%.9g,%u\n", state->x, state->y, atan2f(state->sin, state->cos),
+                state->touching != 0, state->vx, state->vy, state->spin, command->speed, command->jump);
     }
 }
 

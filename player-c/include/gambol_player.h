@@ -289,11 +289,14 @@ enum GambolStatus gambol_player_reset(struct GambolPlayer *player);
 enum GambolStatus gambol_player_face(struct GambolPlayer *player,
                                      uint32_t left);
 
-// How high the ground is where the body stands, m; 0 until it is said.
+// How high the ground is where the body stands, m; 0 until it is said. What is not finite is `GAMBOL_STATUS_NOT_FINITE`, and changes
+// nothing. Only a character that senses the height of its torso goes by it. One that was trained on a terrain that rises or falls
+// heard its height above the ground it started on: tell it the height of that.
 //
 // # Safety
 // `player` is null or is new and not given back.
-enum GambolStatus gambol_player_set_ground(struct GambolPlayer *player, float height);
+enum GambolStatus gambol_player_set_ground(struct GambolPlayer *player,
+                                           float height);
 
 // A frame: from where the parts are, what the game measures and what the character is told, to the speeds that its motors are
 // asked for until the next, rad/s, in the order of the outputs.
@@ -318,7 +321,9 @@ enum GambolStatus gambol_player_tick(struct GambolPlayer *player,
 
 // The torque of each motor, N·m, counter-clockwise on the child and as much the other way on the parent, for engines whose hinges
 // have no motors. May be asked for at every step of the engine, several times a frame: a light part shakes where steps are long, as
-// `motor_gain` × step ÷ inertia grows beyond 2. Motors of the engine do better.
+// `motor_gain` × step ÷ inertia grows beyond 2. Motors of the engine do better. Numbers that are not finite are
+// `GAMBOL_STATUS_NOT_FINITE`, and all torques 0. A motor that is no output gets none here: the game holds it still by the same law,
+// asked for speed 0.
 //
 // # Safety
 // As [`gambol_player_tick`].

@@ -61,7 +61,9 @@ pub unsafe extern "C" fn gambol_player_face(player: *mut GambolPlayer, left: u32
     }
 }
 
-/// How high the ground is where the body stands, m; 0 until it is said.
+/// How high the ground is where the body stands, m; 0 until it is said. What is not finite is `GAMBOL_STATUS_NOT_FINITE`, and changes
+/// nothing. Only a character that senses the height of its torso goes by it. One that was trained on a terrain that rises or falls
+/// heard its height above the ground it started on: tell it the height of that.
 ///
 /// # Safety
 /// `player` is null or is new and not given back.
@@ -69,6 +71,9 @@ pub unsafe extern "C" fn gambol_player_face(player: *mut GambolPlayer, left: u32
 pub unsafe extern "C" fn gambol_player_set_ground(player: *mut GambolPlayer, height: f32) -> GambolStatus {
     // SAFETY: the caller promises it.
     let Some(GambolPlayer(player)) = (unsafe { player.as_mut() }) else { return GambolStatus::NullPointer };
+    if !height.is_finite() {
+        return GambolStatus::NotFinite;
+    }
     player.set_ground(height);
     GambolStatus::Ok
 }
@@ -99,11 +104,14 @@ pub unsafe extern "C" fn gambol_player_tick(
     // SAFETY: the caller promises all of these.
     let (player, parts, outside, speeds) =
         unsafe { (player.as_mut(), read(parts, part_count), read(outside, outside_count), write(speeds, speed_count)) };
-    let Some(speeds) = speeds else { return GambolStatus::NullPointer };
-    speeds.fill(0.0);
-    let (Some(GambolPlayer(player)), Some(parts), Some(outside)) = (player, parts, outside) else {
+    let Some(GambolPlayer(player)) = player else {
+        speeds.into_iter().flatten().for_each(|speed| *speed = 0.0);
         return GambolStatus::NullPointer;
     };
+    player.hold_still();
+    let Some(speeds) = speeds else { return GambolStatus::NullPointer };
+    speeds.fill(0.0);
+    let (Some(parts), Some(outside)) = (parts, outside) else { return GambolStatus::NullPointer };
     let command = Command { speed: commanded_speed, jump };
     if speeds.len() != player.speeds().len() {
         return GambolStatus::Count;
@@ -119,7 +127,9 @@ pub unsafe extern "C" fn gambol_player_tick(
 
 /// The torque of each motor, N·m, counter-clockwise on the child and as much the other way on the parent, for engines whose hinges
 /// have no motors. May be asked for at every step of the engine, several times a frame: a light part shakes where steps are long, as
-/// `motor_gain` × step ÷ inertia grows beyond 2. Motors of the engine do better.
+/// `motor_gain` × step ÷ inertia grows beyond 2. Motors of the engine do better. Numbers that are not finite are
+/// `GAMBOL_STATUS_NOT_FINITE`, and all torques 0. A motor that is no output gets none here: the game holds it still by the same law,
+/// asked for speed 0.
 ///
 /// # Safety
 /// As [`gambol_player_tick`].
@@ -138,6 +148,10 @@ pub unsafe extern "C" fn gambol_player_torques(
     };
     if parts.len() != player.character().parts.len() || torques.len() != player.speeds().len() {
         return GambolStatus::Count;
+    }
+    if !parts.iter().all(PartState::is_finite) {
+        torques.fill(0.0);
+        return GambolStatus::NotFinite;
     }
     player.torques(parts, torques);
     GambolStatus::Ok

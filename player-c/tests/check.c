@@ -60,11 +60,16 @@ static int check_calls(const GambolCharacter *character, GambolPlayer *player, c
     if (gambol_character_part(character, part_count, &part) != GAMBOL_STATUS_INDEX) return fail("a part too many");
     if (gambol_character_part(NULL, 0, &part) != GAMBOL_STATUS_NULL_POINTER) return fail("a part of null");
     if (gambol_player_new(NULL) != NULL || gambol_character_mirrored(NULL) != NULL) return fail("made of null");
+    if (gambol_player_tick(player, parts, part_count, outside, outside_count, 1, 1, 0.02f, speeds, count)
+        != GAMBOL_STATUS_OK) return fail("a frame");
     speeds[0] = 1;
     if (gambol_player_tick(player, parts, part_count - 1, outside, outside_count, 0, 0, 0.02f, speeds, count)
         != GAMBOL_STATUS_COUNT || speeds[0] != 0) return fail("a part too few");
     if (gambol_player_tick(player, parts, part_count, outside, outside_count, 0, 0, 0.02f, speeds, count - 1)
         != GAMBOL_STATUS_COUNT) return fail("a speed too few");
+    if (gambol_player_torques(player, parts, part_count, speeds, count) != GAMBOL_STATUS_OK) return fail("the torques");
+    for (size_t i = 0; i < count; i++)
+        if (speeds[i] != 0) return fail("a torque that nothing was asked for");
     if (gambol_player_tick(player, parts, part_count, outside, outside_count, 0, 0, 2.0f, speeds, count)
         != GAMBOL_STATUS_SECONDS) return fail("a frame of two seconds");
     if (gambol_player_tick(player, parts, part_count, outside, outside_count, NAN, 0, 0.02f, speeds, count)
@@ -76,6 +81,21 @@ static int check_calls(const GambolCharacter *character, GambolPlayer *player, c
     if (gambol_player_tick(NULL, parts, part_count, outside, outside_count, 0, 0, 0.02f, speeds, count)
         != GAMBOL_STATUS_NULL_POINTER) return fail("a null player");
     if (gambol_player_face(NULL, 1) != GAMBOL_STATUS_NULL_POINTER) return fail("nobody turns");
+    const size_t words = part_count * sizeof(GambolPartState) / sizeof(uint32_t);
+    GambolPartState *nowhere = (GambolPartState *)gambol_memory_new(words);
+    if (!nowhere) return fail("memory");
+    memcpy(nowhere, parts, part_count * sizeof *nowhere);
+    nowhere[part_count - 1].spin = NAN;
+    if (gambol_player_torques(player, nowhere, part_count, speeds, count) != GAMBOL_STATUS_NOT_FINITE)
+        return fail("the torques of a spin that is no number");
+    for (size_t i = 0; i < count; i++)
+        if (speeds[i] != 0) return fail("a torque from a spin that is no number");
+    gambol_memory_free((uint32_t *)nowhere, words);
+    if (gambol_player_set_ground(player, NAN) != GAMBOL_STATUS_NOT_FINITE) return fail("ground nowhere");
+    if (gambol_player_set_ground(player, 0) != GAMBOL_STATUS_OK) return fail("the ground");
+    if (gambol_character_hinge_count(character) != part_count - 1) return fail("the hinges");
+    char name[256];
+    if (gambol_character_part_name(character, 0, name, sizeof name) != strlen(name)) return fail("the name of a part");
     if (gambol_player_reset(player) != GAMBOL_STATUS_OK) return fail("reset");
     return 0;
 }

@@ -153,6 +153,8 @@ function classes(library) {
     #counts;
     #seconds = 0;
     #facing;
+    // What is handed out: memory of the library moves as it grows.
+    #own;
 
     constructor(character) {
       this.character = character;
@@ -161,6 +163,8 @@ function classes(library) {
       const [parts, outside] = [character.parts.length, character.outside().length];
       const [inputs, outputs] = [library.gambol_player_inputs(this.#place, 0, 0), character.outputs.length];
       this.#counts = { parts, outside, inputs, outputs };
+      const numbers = (count) => new Float32Array(count);
+      this.#own = { inputs: numbers(inputs), outputs: numbers(outputs), speeds: numbers(outputs), torques: numbers(outputs) };
       const count = PART_STATE * parts + outside + inputs + 2 * outputs;
       this.#memory = allocate(count);
       owned.register(this, [library.gambol_player_free, this.#place]);
@@ -197,7 +201,8 @@ function classes(library) {
 
     /** How high the ground is where the body stands, m; 0 until it is said. */
     setGround(height) {
-      check(library.gambol_player_set_ground(this.#place, height));
+      // What is not finite changes nothing, as in gambol-player.js.
+      library.gambol_player_set_ground(this.#place, height);
     }
 
     /** Since the start, s. */
@@ -209,19 +214,19 @@ function classes(library) {
     get inputs() {
       const { inputs } = this.#counts;
       library.gambol_player_inputs(this.#place, this.#at("inputs"), inputs);
-      return this.#numbers("inputs", inputs);
+      return this.#copied("inputs");
     }
 
     /** What the net put out in the last frame. */
     get outputs() {
       const { outputs } = this.#counts;
       library.gambol_player_outputs(this.#place, this.#at("outputs"), outputs);
-      return this.#numbers("outputs", outputs);
+      return this.#copied("outputs");
     }
 
     /** The speed that the motor of each output was last asked for, rad/s. */
     get speeds() {
-      return this.#numbers("speeds", this.#counts.outputs);
+      return this.#own.speeds;
     }
 
     /** A frame; see gambol-player.js. The next call writes over what is returned. */
@@ -232,9 +237,10 @@ function classes(library) {
         this.#place, states, parts.length, measured, outside.length, command.speed, command.jump ? 1 : 0, seconds, speeds,
         this.#counts.outputs,
       );
+      this.#copied("speeds");
       check(status);
       this.#seconds += Math.fround(seconds);
-      return this.speeds;
+      return this.#own.speeds;
     }
 
     /** The torque of the motor of each output, N·m; see gambol-player.js. The next call writes over it. */
@@ -243,7 +249,7 @@ function classes(library) {
       const { outputs } = this.#counts;
       const to = this.#at("outputs");
       check(library.gambol_player_torques(this.#place, this.#at("parts"), parts.length, to, outputs));
-      return this.#numbers("outputs", outputs);
+      return this.#copied("outputs", "torques");
     }
 
     #put(parts, outside) {
@@ -268,8 +274,10 @@ function classes(library) {
       return this.#memory + 4 * before[array];
     }
 
-    #numbers(array, count) {
-      return new Float32Array(library.memory.buffer, this.#at(array), count);
+    #copied(array, to = array) {
+      const own = this.#own[to];
+      own.set(new Float32Array(library.memory.buffer, this.#at(array), own.length));
+      return own;
     }
   }
 

@@ -875,11 +875,12 @@ namespace Gambol
         /// <summary>What is played.</summary>
         public Character Character => character;
 
-        /// <summary>How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of
-        /// its torso goes by it.</summary>
+        /// <summary>How high the ground is where the body stands, m; 0 until it is said, and unchanged by what is not finite. Only a
+        /// character that senses the height of its torso goes by it. One that was trained on a terrain that rises or falls heard
+        /// its height above the ground it started on: tell it the height of that.</summary>
         public void SetGround(float height)
         {
-            ground = height;
+            if (IsFinite(height)) ground = height;
         }
 
         /// <summary>Turns round, from the next frame on. A body that looks the same from both sides (Character.Symmetry) runs the
@@ -951,7 +952,9 @@ namespace Gambol
 
         /// <summary>The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the
         /// parent, for engines whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top
-        /// torque. May be asked for at every step of the engine, several times a frame. The next call writes over it.</summary>
+        /// torque. May be asked for at every step of the engine, several times a frame. The next call writes over it. 0 where a
+        /// spin is not finite. A motor that is no output gets none here: the game holds it still by the same law, asked for
+        /// speed 0.</summary>
         /// <param name="states">Where each part is, in the order of Character.Parts.</param>
         public float[] Torques(PartState[] states)
         {
@@ -959,7 +962,7 @@ namespace Gambol
             {
                 var hinge = character.Hinges[character.Outputs[index]];
                 var spin = SpinOf(states, hinge.Child) - SpinOf(states, hinge.Parent);
-                var torque = (speeds[index] - spin) * character.World.MotorGain;
+                var torque = IsFinite(spin) ? (speeds[index] - spin) * character.World.MotorGain : 0f;
                 torques[index] = Clamp(torque, -hinge.Motor.TopTorque, hinge.Motor.TopTorque);
             }
             return torques;
@@ -1008,6 +1011,7 @@ namespace Gambol
             if (pressed || (told.Speed != 0f && command.Speed == 0f)) strideBegan = time;
             command = told;
             step = frame;
+            seconds += frame;
             Sense(outside, time);
             Activate();
             for (var index = 0; index < drives.Length; index++)
@@ -1016,7 +1020,6 @@ namespace Gambol
                 if (!IsFinite(asked)) return NotFinite;
                 speeds[twins == null ? index : twins.Outputs[index]] = left ? -asked : asked;
             }
-            seconds += frame;
             return null;
         }
 

@@ -522,10 +522,11 @@ export class Player {
     [this.#sincePress, this.#strideBegan] = [Infinity, 0];
   }
 
-  /** How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its torso
-   * goes by it. */
+  /** How high the ground is where the body stands, m; 0 until it is said, and unchanged by what is not finite. Only a character that
+   * senses the height of its torso goes by it. One that was trained on a terrain that rises or falls heard its height above the
+   * ground it started on: tell it the height of that. */
   setGround(height) {
-    this.#ground = f32(height);
+    if (Number.isFinite(f32(height))) this.#ground = f32(height);
   }
 
   /** Turns round, from the next frame on: "left" or "right". A body that looks the same from both sides (`character.symmetry`)
@@ -583,7 +584,8 @@ export class Player {
    * - `seconds`: how long this frame lasts, from 0 to 1 s.
    *
    * Throws a TickError if there are too few or too many parts or measurements, or a number is not finite. The motors are then
-   * asked for speed 0.
+   * asked for speed 0, and what was told is not heard: clocks stand still, and after a number that is not finite the net begins
+   * anew. A net whose own numbers grow beyond all bounds fails in the same way, but its frame has passed.
    */
   tick(parts, outside, command, seconds) {
     const error = this.#control(parts, outside, command, f32(seconds));
@@ -595,13 +597,15 @@ export class Player {
 
   /** The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the parent, for
    * engines whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top torque. May be asked
-   * for at every step of the engine, several times a frame. The next call writes over it. */
+   * for at every step of the engine, several times a frame. The next call writes over it. 0 where a spin is not finite. A motor
+   * that is no output gets none here: the game holds it still by the same law, asked for speed 0. */
   torques(parts) {
     const { hinges, outputs, world } = this.character;
     for (let index = 0; index < outputs.length; index += 1) {
       const { parent, child, motor } = hinges[outputs[index]];
       const lacking = this.#speeds[index] - ((parts[child]?.spin ?? 0) - (parts[parent]?.spin ?? 0));
-      this.#torques[index] = clamp(lacking * world.motorGain, -motor.topTorque, motor.topTorque);
+      const wanted = Number.isFinite(lacking) ? lacking * world.motorGain : 0;
+      this.#torques[index] = clamp(wanted, -motor.topTorque, motor.topTorque);
     }
     return this.#torques;
   }
@@ -634,6 +638,7 @@ export class Player {
     this.#commandedSpeed = speed;
     this.#jump = jump;
     this.#step = step;
+    this.#seconds += step;
     this.#sense(outside, time);
     this.#activate();
     for (let index = 0; index < this.#drives.length; index += 1) {
@@ -642,7 +647,6 @@ export class Player {
       const place = this.#twins === null ? index : this.#twins.outputs[index];
       this.#speeds[place] = side * asked;
     }
-    this.#seconds += step;
     return null;
   }
 

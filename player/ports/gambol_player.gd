@@ -769,10 +769,12 @@ class Player:
 		_stride_began = 0.0
 		_step = 0.0
 
-	# How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its torso
-	# goes by it.
+	# How high the ground is where the body stands, m; 0 until it is said, and unchanged by what is not finite. Only a character that
+	# senses the height of its torso goes by it. One that was trained on a terrain that rises or falls heard its height above the
+	# ground it started on: tell it the height of that.
 	func set_ground(height):
-		_ground = height
+		if Numbers.is_finite_number(height):
+			_ground = height
 
 	# Turns round, from the next frame on: "left" or "right". A body that looks the same from both sides (`character.symmetry`)
 	# runs the other way with the same net, and what it is told is meant the way it faces. A body that stands turns best; one that
@@ -819,13 +821,15 @@ class Player:
 
 	# The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the parent, for
 	# bodies whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top torque. May be asked
-	# for at every step of the engine, several times a frame. The next call writes over it.
+	# for at every step of the engine, several times a frame. The next call writes over it. 0 where a spin is not finite. A motor
+	# that is no output gets none here: the game holds it still by the same law, asked for speed 0.
 	func torques(parts):
 		for index in range(_torques.size()):
 			var hinge = character.hinges[character.outputs[index]]
 			var lacking = speeds[index] - (_spin(parts, hinge.child) - _spin(parts, hinge.parent))
 			var most = hinge.motor.top_torque
-			_torques[index] = clamp(lacking * character.world.motor_gain, -most, most)
+			var wanted = lacking * character.world.motor_gain if Numbers.is_finite_number(lacking) else 0.0
+			_torques[index] = clamp(wanted, -most, most)
 		return _torques
 
 	func _spin(parts, part):
@@ -872,6 +876,7 @@ class Player:
 		_commanded_speed = command.speed
 		_jump = command.jump
 		_step = step
+		seconds += step
 		_sense(outside, time)
 		_activate()
 		for index in range(speeds.size()):
@@ -879,7 +884,6 @@ class Player:
 			if not Numbers.is_finite_number(asked):
 				return NOT_FINITE
 			speeds[index if _twins == null else _twins.outputs[index]] = _side * asked
-		seconds += step
 		return ""
 
 	# Copies a part as the net knows it; whether all its numbers are finite.

@@ -60,7 +60,7 @@ pub use creatures::{Actuation, Probe, Shape, Source, symmetry::Asymmetry};
 pub use error::{FileError, TickError, VERSION};
 #[doc(hidden)]
 pub use example::example;
-pub use file::MAGIC;
+pub use file::{MAGIC, source_record};
 pub use ne_net::Activation;
 pub use net::{Net, Neuron};
 pub use player::Player;

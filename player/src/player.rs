@@ -17,6 +17,8 @@ pub struct Player {
     rest: Arc<Rest>,
     drives: Vec<Drive>,
     view: View,
+    /// How many things the game measures.
+    outside: usize,
     /// How high the ground is, m.
     ground: f32,
     /// Inputs, and what each neuron put out last.
@@ -54,6 +56,7 @@ impl Player {
             rest: Arc::new(rest),
             drives: character.drives().map(|(drive, _)| drive).collect(),
             view: View::new(character.facing),
+            outside: character.outside().count(),
             ground: 0.0,
             nodes: vec![0.0; character.net.nodes()],
             parts: vec![PartState::default(); character.parts.len()],
@@ -94,10 +97,18 @@ impl Player {
         &self.character
     }
 
-    /// How high the ground is where the body stands, m; 0 until it is said. Only a character that senses the height of its
-    /// torso goes by it.
+    /// How high the ground is where the body stands, m; 0 until it is said, and unchanged by what is not finite. Only a character
+    /// that senses the height of its torso goes by it. One that was trained on a terrain that rises or falls heard its height above
+    /// the ground it started on: tell it the height of that.
     pub fn set_ground(&mut self, height: f32) {
-        self.ground = height;
+        if height.is_finite() {
+            self.ground = height;
+        }
+    }
+
+    /// Asks all motors for speed 0 until the next frame.
+    pub fn hold_still(&mut self) {
+        self.speeds.fill(0.0);
     }
 
     /// Turns round, from the next frame on: a body that looks [the same from both sides](Character::symmetry) runs the other way
@@ -154,7 +165,8 @@ impl Player {
     ///
     /// # Errors
     /// If there are too few or too many parts or measurements, or a number is not finite. The motors are then asked for
-    /// speed 0.
+    /// speed 0, and what was told is not heard: clocks stand still, and after a number that is not finite the net begins anew. A
+    /// net whose own numbers grow beyond all bounds fails in the same way, but its frame has passed.
     pub fn tick(
         &mut self,
         parts: &[PartState],
@@ -165,7 +177,7 @@ impl Player {
         match self.control(parts, outside, command, seconds) {
             Ok(()) => Ok(&self.speeds),
             Err(error) => {
-                self.speeds.fill(0.0);
+                self.hold_still();
                 if error == TickError::NotFinite {
                     self.nodes.fill(0.0);
                 }
@@ -177,7 +189,8 @@ impl Player {
     /// The torque of the motor of each output, N·m, counter-clockwise on the child and as much the other way on the parent, for
     /// engines whose hinges have no motors: in proportion to the speed that is lacking, up to the motor's top torque. May be
     /// asked for at every step of the engine, several times a frame: a light part shakes where steps are long, as `motor_gain` × step
-    /// ÷ inertia grows beyond 2. Motors of the engine do better. As many as there are outputs are written.
+    /// ÷ inertia grows beyond 2. Motors of the engine do better. As many as there are outputs are written; 0 where a spin is not
+    /// finite. A motor that is no output gets none here: the game holds it still by the same law, asked for speed 0.
     pub fn torques(&self, parts: &[PartState], torques: &mut [f32]) {
         let character = &*self.character;
         let spin = |part: u16| parts.get(usize::from(part)).map_or(0.0, |part| part.spin);
@@ -185,7 +198,8 @@ impl Player {
             let hinge = &character.hinges[usize::from(hinge)];
             let most = hinge.motor.map_or(0.0, |motor| motor.top_torque);
             let lacking = speed - (spin(hinge.child) - spin(hinge.parent));
-            *torque = limit(lacking * character.world.motor_gain, -most, most);
+            let wanted = if lacking.is_finite() { lacking * character.world.motor_gain } else { 0.0 };
+            *torque = limit(wanted, -most, most);
         }
     }
 
@@ -200,15 +214,16 @@ impl Player {
         if parts.len() != character.parts.len() {
             return Err(TickError::Parts { expected: character.parts.len(), found: parts.len() });
         }
-        let expected = character.outside().count();
-        if outside.len() != expected {
-            return Err(TickError::Outside { expected, found: outside.len() });
+        if outside.len() != self.outside {
+            return Err(TickError::Outside { expected: self.outside, found: outside.len() });
         }
         if !(0.0..=LONGEST_FRAME).contains(&seconds) {
             return Err(TickError::Seconds);
         }
         let is_finite = |number: &f32| number.is_finite();
-        if !parts.iter().all(PartState::is_finite) || !outside.iter().chain([&command.speed]).all(is_finite) {
+        if !parts.iter().fold(true, |finite, part| finite & part.is_finite())
+            || !outside.iter().chain([&command.speed]).all(is_finite)
+        {
             return Err(TickError::NotFinite);
         }
         self.view.see(parts, &mut self.parts);
@@ -221,6 +236,7 @@ impl Player {
             self.stride_began = time;
         }
         (self.command, self.step) = (command, seconds);
+        self.seconds += f64::from(seconds);
         self.sense(outside, time);
         self.character.net.activate(&mut self.nodes);
         let actuation = self.character.actuation;
@@ -232,7 +248,6 @@ impl Player {
             let (place, speed) = self.view.drive(output, asked);
             self.speeds[place] = speed;
         }
-        self.seconds += f64::from(seconds);
         Ok(())
     }
 

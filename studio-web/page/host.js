@@ -34,6 +34,7 @@ class Host {
     this.disk = new Disk();
     if (!this.keeps) return;
     try {
+      if (!await isOnlyWriter()) throw new Error("another tab keeps the runs");
       this.store = await Store.open("gambol studio");
       await this.store.load(this.disk);
     } catch (error) {
@@ -230,6 +231,16 @@ function say(module, what) {
   const bytes = typeof what === "string" ? new TextEncoder().encode(what) : what;
   const at = module.room(bytes.length);
   new Uint8Array(module.memory.buffer, at, bytes.length).set(bytes);
+}
+
+// Whether no other worker writes the store, nor will for as long as this one lives. Where tabs share no worker each has its
+// own; that of a tab which is loaded anew may take a moment to end.
+function isOnlyWriter() {
+  if (!navigator.locks) return Promise.resolve(true);
+  return new Promise(resolve => {
+    const held = () => { resolve(true); return new Promise(() => {}); };
+    navigator.locks.request("gambol studio", { signal: AbortSignal.timeout(3000) }, held).catch(() => resolve(false));
+  });
 }
 
 // A module that a page has compiled.

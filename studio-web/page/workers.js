@@ -23,6 +23,8 @@ class WorkerConnection extends Connection {
     this.arena.onmessage = ({ data }) => this.hear(data);
     this.runs.start?.();
     addEventListener("pagehide", () => this.runs.postMessage({ leave: true }));
+    // A page that the browser had put away has left.
+    addEventListener("pageshow", ({ persisted }) => { if (persisted) location.reload(); });
   }
 
   worker(name) {

@@ -23,8 +23,9 @@ pub(super) fn activation(code: u8) -> Option<Activation> {
     Activation::ALL.into_iter().find(|&activation| of_activation(activation) == code)
 }
 
-/// The record of a source: its number, a part or hinge, and two settings.
-pub(super) fn of_source(source: Source) -> Option<(u8, usize, f32, f32)> {
+/// The record of a source, as the specification of the file (`docs/player.md`) lists them: its number, a part or hinge, and two settings.
+/// `None` for a sensor of another crate.
+pub fn source_record(source: Source) -> Option<(u8, usize, f32, f32)> {
     Some(match source {
         Source::TorsoRotation => (0, 0, 0.0, 0.0),
         Source::TorsoSpin => (1, 0, 0.0, 0.0),

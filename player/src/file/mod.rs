@@ -7,6 +7,8 @@ mod read;
 mod validate;
 mod write;
 
+pub use codes::source_record;
+
 use crate::{Character, FileError};
 use alloc::vec::Vec;
 

@@ -67,7 +67,7 @@ impl Writer {
         }
         let mut listed: Vec<(u32, usize)> = places.into_iter().collect();
         listed.sort_by_key(|&(bits, places)| (Reverse(places), bits));
-        let allowed = "at most 65535 that differ";
+        let allowed = "at most 65535 that differ, weights and all others";
         let length =
             u16::try_from(listed.len()).map_err(|_| FileError::Field { field: "numbers", index: 0, allowed })?;
         let index: BTreeMap<u32, u16> = listed.iter().map(|&(bits, _)| bits).zip(0..).collect();
@@ -148,7 +148,7 @@ impl Writer {
 
     fn input(&mut self, index: usize, probe: &Probe) -> Result<(), FileError> {
         let allowed = "a sensor of Gambol's own: those of other crates have code of theirs";
-        let record = codes::of_source(probe.source).ok_or(FileError::Field { field: "inputs", index, allowed })?;
+        let record = codes::source_record(probe.source).ok_or(FileError::Field { field: "inputs", index, allowed })?;
         let (code, of, first, second) = record;
         self.bytes(&[code]).count(of).f32s([first, second, probe.middle, probe.factor]);
         Ok(())
