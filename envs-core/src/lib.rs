@@ -2,7 +2,7 @@
 //!
 //! An engine knows bodies, hinges and contacts. What makes a [`tasks::Environment`] of them is the same for every
 //! engine, and stands here: [`CreatureEnvironment`] lets a [`Blueprint`](creatures::Blueprint) settle, varies the world
-//! from trial to trial, reads the sensors, drives the motors and measures. An engine implements [`Engine`], seven small
+//! from trial to trial, reads the sensors, drives the motors and measures. An engine implements [`Engine`], eight small
 //! functions, and nothing else. So two engines can differ in how bodies move, and in nothing that was not meant.
 //!
 //! ```text

@@ -42,9 +42,18 @@ impl Cycle {
         let report = GaitReport::measure(body, &recording.snapshots, judge.rules().map(AsRef::as_ref))?;
         let strength = report.rhythm.strength;
         let stride = report.rhythm.stride_time.filter(|_| strength >= WEAKEST);
+        let (blueprint, swims) = (world.blueprint(), world.settings().water.is_some());
         stride
-            .and_then(|stride| Self::find(world.blueprint(), &recording.snapshots, world.time_step().into(), stride))
+            .and_then(|stride| Self::find(blueprint, &recording.snapshots, world.time_step().into(), stride))
+            .map(|cycle| if swims { cycle.at_height(blueprint.parts()[0].y.into()) } else { cycle })
             .ok_or(ExportError::NoCycle { strength })
+    }
+
+    /// The same, higher or lower, so that the torso is at this height in the mean, m: how high a swimmer is by then says nothing.
+    fn at_height(mut self, height: f64) -> Self {
+        let mean = self.poses.iter().map(|pose| pose.y).sum::<f64>() / self.poses.len() as f64;
+        self.poses.iter_mut().for_each(|pose| pose.y += height - mean);
+        self
     }
 
     /// The best cycle in the second half of a gait, about as long as a stride takes, s.
@@ -143,6 +152,20 @@ mod tests {
             pose.snapshot(blueprint)
         };
         (0..600).map(pose).collect()
+    }
+
+    #[test]
+    fn a_cycle_can_be_put_at_a_height() {
+        for (blueprint, _) in samples() {
+            let snapshots = recorded(&blueprint, 0.5, 0.0);
+            let found = Cycle::find(&blueprint, &snapshots, 0.02, 0.5).expect("it repeats itself");
+            let put = found.clone().at_height(-3.0);
+            let mean = put.poses.iter().map(|pose| pose.y).sum::<f64>() / put.poses.len() as f64;
+            assert!((mean + 3.0).abs() < 1e-9, "{mean} m");
+            let moved = put.poses[0].y - found.poses[0].y;
+            let alike = put.poses.iter().zip(&found.poses).all(|(put, found)| (put.y - found.y - moved).abs() < 1e-9);
+            assert!(alike && put.travel == found.travel);
+        }
     }
 
     #[test]

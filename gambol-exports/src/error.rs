@@ -31,6 +31,9 @@ pub enum ExportError {
         /// How regularly its joints repeat themselves, from 0 to 1.
         strength: f64,
     },
+    /// Sky and ground are to be painted behind a swimmer.
+    #[error("there is no ground to paint: it swims")]
+    NoGround,
     /// What it does cannot be measured.
     #[error(transparent)]
     Gait(#[from] tasks::gait::GaitError),

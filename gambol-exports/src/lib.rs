@@ -177,6 +177,9 @@ fn drawn(champion: &Champion, registry: &Registry, picture: &Picture) -> Result<
 /// With at most so many frames a second.
 fn drawn_at(champion: &Champion, registry: &Registry, picture: &Picture, most: f64) -> Result<Loop, ExportError> {
     picture.check()?;
+    if picture.ground && champion.physics.water.is_some() {
+        return Err(ExportError::NoGround);
+    }
     let cycle = Cycle::of_champion(champion, registry)?;
     let picture = picture.at_most(most, &cycle);
     Loop::new(&Blueprint::new(champion.creature.clone())?, cycle, &picture)

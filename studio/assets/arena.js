@@ -10,7 +10,7 @@ class Arena {
     this.place = place;
     this.stage = new Stage(canvas, 0.8);
     this.speed = 1;
-    this.playing = true;
+    this.playing = !reducedMotion.matches;
     this.follow = true;
     this.zoom = 1;
     this.followed = 0;

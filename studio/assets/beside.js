@@ -3,20 +3,28 @@
 class Beside {
   // `showAgain`: shows what is beside it from the start.
   constructor(connection, arena, showAgain) {
-    Object.assign(this, { connection, beside: arena, showAgain });
+    Object.assign(this, { connection, beside: arena, showAgain, against: document.getElementById("beside-against") });
     this.select = document.getElementById("show-beside");
     this.stage = document.getElementById("beside-stage");
     this.arena = new Arena(document.getElementById("beside-canvas"), connection, 1);
     this.readouts = new Readouts(document.getElementById("beside-readouts"));
     this.select.addEventListener("change", () => this.choose());
     // A run that is being trained may have a champion by now.
-    for (const kind of ["focus", "pointerenter"]) this.select.addEventListener(kind, () => connection.ask({ do: "look" }));
+    for (const kind of ["focus", "pointerenter"]) this.select.addEventListener(kind, () => this.look());
     connection.on("catalogue", ({ runs }) => this.fill(runs));
     connection.on("beside", event => this.tell(event));
     connection.on("opened", () => this.end());
   }
 
   get run() { return this.select.value; }
+
+  // All runs are read for it, so not again and again.
+  look() {
+    const now = performance.now();
+    if (now - (this.lookedAt ?? -Infinity) < 5000) return;
+    this.lookedAt = now;
+    this.connection.ask({ do: "look" });
+  }
 
   fill(runs) {
     const chosen = this.run;
@@ -41,7 +49,7 @@ class Beside {
 
   end() {
     if (!this.stage.hidden) this.connection.ask({ do: "leave", arena: 1 });
-    this.stage.hidden = true;
+    this.stage.hidden = this.against.hidden = true;
     this.select.value = "";
     this.arena.leave();
   }
@@ -49,6 +57,7 @@ class Beside {
   // In other chapters it is not there.
   setVisible(on) {
     this.stage.hidden = !on || !this.run;
+    this.against.hidden = this.stage.hidden || !this.against.children.length;
     this.select.closest("label").hidden = !on;
   }
 
@@ -56,7 +65,10 @@ class Beside {
     document.getElementById("beside-caption").textContent = `${creature} · ${movement}`;
     const known = verdict && verdict.usable !== null;
     const text = document.getElementById("beside-verdict");
-    text.textContent = !known ? "Not judged yet" : verdict.usable ? "Usable" : `Not usable yet: ${verdict.against.join("; ")}`;
+    text.textContent = !known ? "Not judged yet" : verdict.usable ? "Usable" : "Not usable yet";
+    // Below: they would hide the creature.
+    this.against.replaceChildren(...(known ? verdict.against : []).map(reason => element("li", reason)));
+    this.against.hidden = this.stage.hidden || !this.against.children.length;
     text.className = `verdict ${!known ? "verdict-none" : verdict.usable ? "verdict-good" : "verdict-bad"}`;
   }
 

@@ -12,16 +12,24 @@ const FIELDS = [
 ];
 
 class Choose {
+  // `onTrain`: a training has begun.
   constructor(connection, onTrain) {
     this.connection = connection;
     this.choice = { movement: "running", creature: "biped-1" };
     this.set = new Map();
+    // What is wrong with numbers that are typed, by field.
+    this.wrong = new Map();
     this.past = [];
     this.settings = new Settings(set => this.change(() => set(this.set)));
     this.onTrain = onTrain;
     connection.on("catalogue", catalogue => this.fill(catalogue));
     connection.on("schema", ({ schema }) => { this.settings.schema = schema; this.ask(); });
     connection.on("described", described => this.describe(described));
+    connection.on("opened", () => {
+      if (this.isAsked) this.onTrain();
+      this.isAsked = false;
+    });
+    connection.on("refused", ({ request }) => { if (request === "train") this.isAsked = false; });
     const get = name => document.getElementById(name);
     get("choose-train").addEventListener("click", () => this.train());
     get("settings-undo").addEventListener("click", () => this.undo());
@@ -45,8 +53,8 @@ class Choose {
   }
 
   train() {
+    this.isAsked = true;
     this.connection.ask({ do: "train", choice: this.request });
-    this.onTrain();
   }
 
   // A creature that is being drawn, in place of one by name.
@@ -77,14 +85,16 @@ class Choose {
     const creatures = document.getElementById("choose-creature");
     const chosen = this.creature?.name;
     const cards = catalogue.creatures.map(creature => creatureCard(creature, creature.name === chosen, () => {
-      this.choice.creature = creature.name;
-      delete this.choice.drawn;
-      this.set.clear();
-      this.ask();
+      this.change(() => {
+        this.choice.creature = creature.name;
+        delete this.choice.drawn;
+        this.set.clear();
+      });
     }));
     creatures.replaceChildren(creatures.querySelector("legend"), ...cards);
     const movements = document.getElementById("choose-movement");
     movements.replaceChildren(movements.querySelector("legend"), ...catalogue.movements.map(movement => this.movementChoice(movement)));
+    this.wrong.clear();
     document.getElementById("choose-fields").replaceChildren(...FIELDS.map(field => this.field(field)));
     this.ask();
   }
@@ -100,7 +110,7 @@ class Choose {
     const label = element("label");
     const input = element("input");
     Object.assign(input, { type: "radio", name: "movement", value: name, checked: this.choice.movement === name });
-    input.addEventListener("change", () => { this.choice.movement = name; this.set.clear(); this.ask(); });
+    input.addEventListener("change", () => this.change(() => { this.choice.movement = name; this.set.clear(); }));
     label.title = description;
     label.append(input, element("span", name));
     return label;
@@ -124,10 +134,10 @@ class Choose {
       const value = number && input.value !== "" ? Number(input.value) : input.value;
       const isWrong = (number && input.value !== "" && (!Number.isSafeInteger(value) || value < 0)) || input.validity.badInput;
       input.setCustomValidity(isWrong ? `A whole number from 0 to ${Number.MAX_SAFE_INTEGER}.` : "");
-      if (isWrong) return input.reportValidity();
-      if (value === "") delete this.choice[name];
-      else this.choice[name] = value;
-      return this.ask();
+      input.setAttribute("aria-invalid", String(isWrong));
+      if (isWrong) this.wrong.set(name, `${text}: ${input.validationMessage}`); else this.wrong.delete(name);
+      if (isWrong) return this.tellProblem();
+      return this.change(() => { if (value === "") delete this.choice[name]; else this.choice[name] = value; });
     });
     label.append(input);
     return label;
@@ -135,22 +145,31 @@ class Choose {
 
   describe({ config, preset, problem, command }) {
     document.getElementById("choose-command").textContent = command;
-    document.getElementById("choose-train").disabled = Boolean(problem);
-    document.getElementById("choose-problem").textContent = problem || "";
+    this.problem = problem;
+    this.tellProblem();
     if (preset) this.settings.show(preset, config, this.set, problem);
     document.getElementById("settings-undo").disabled = !this.past.length;
     document.getElementById("settings-reset").disabled = !this.set.size;
   }
 
+  // What is typed wrong comes first: it is not in the choice.
+  tellProblem() {
+    const problem = [...this.wrong.values()][0] || this.problem;
+    document.getElementById("choose-train").disabled = Boolean(problem);
+    document.getElementById("choose-problem").textContent = problem || "";
+  }
+
   change(act) {
-    this.past.push(new Map(this.set));
+    this.past.push({ choice: { ...this.choice }, set: new Map(this.set) });
     act();
     this.ask();
   }
 
   undo() {
     const before = this.past.pop();
-    if (before) { this.set = before; this.ask(); }
+    if (!before) return;
+    Object.assign(this, before);
+    this.fill(this.catalogue);
   }
 }
 

@@ -32,8 +32,10 @@ class Editor extends EditorHistory {
   set mark(selection) { this.selection = selection; }
 
   load(creature) {
+    this.cancel();
+    // What was drawn before can be had back.
+    if (this.past.length) Object.assign(this, { past: [...this.past, this.entry()], future: [] });
     Object.assign(this, { present: readableCreature(creature), selection: null, problems: [] });
-    this.forgetPast();
     this.hand.drop();
     this.setTool("select");
     this.canvas.fit();
@@ -131,6 +133,7 @@ class Editor extends EditorHistory {
     this.edit(c => {
       for (const key of Object.keys(c)) delete c[key];
       Object.assign(c, emptyCreature());
+      c.name = this.hooks.freeName?.(c.name) ?? c.name;
       this.selection = null;
     });
     this.canvas.fit();

@@ -1,5 +1,8 @@
 // Keeping: the gallery of runs, what the open one can be made into, and files that are dropped on the page.
 
+// No message to the studio may be longer, bytes.
+const LARGEST_FILE = 15e6;
+
 class Keep {
   constructor(connection, watch, { open, draw, close }) {
     Object.assign(this, { connection, watch, open, draw, close });
@@ -37,7 +40,7 @@ class Keep {
     });
   }
 
-  fill({ runs, formats, creatures, terrains, drawn }) {
+  fill({ runs, more_runs: more, formats, creatures, terrains, drawn }) {
     this.formats = formats;
     const bodies = creatures.filter(({ name }) => drawn.includes(name));
     const grounds = terrains.filter(terrain => terrain.drawn);
@@ -45,6 +48,8 @@ class Keep {
     document.querySelector("#keep-drawn ul").replaceChildren(...bodies.map(body => this.bodyLine(body)), ...grounds.map(({ name }) => this.groundLine(name)));
     document.getElementById("keep-empty").hidden = runs.length > 0;
     document.getElementById("keep-runs").replaceChildren(...runs.map(run => this.card(run)));
+    document.getElementById("keep-more").hidden = !more;
+    document.getElementById("keep-more").textContent = `${count(more, "older run is", "older runs are")} not shown.`;
     if (this.removed && !runs.some(({ run }) => run === this.removed)) {
       if (this.watch.run === this.removed) this.close(runs);
       this.removed = null;
@@ -61,7 +66,7 @@ class Keep {
     const line = element("p");
     const worth = running ? "training" : fitness === null ? "" : tidy(fitness);
     line.append(element("b", run), element("span", worth));
-    line.title = `${creature.title || creature.name}, ${movement}`;
+    line.title = `${run}: ${creature.title || creature.name}, ${movement}`;
     button.append(canvas, line);
     button.addEventListener("click", () => this.open(run));
     item.append(button);
@@ -94,11 +99,15 @@ class Keep {
     document.getElementById("keep-robustness").hidden = true;
     const address = `runs/${encodeURIComponent(run)}`;
     this.connection.link(document.getElementById("keep-report"), `${address}/report`, `${run}.html`);
-    this.connection.link(document.getElementById("keep-champion"), `${address}/champion.json`, `${run}.json`);
+    this.connection.link(document.getElementById("keep-champion"), `${address}/champion.json`, `${run}.champion.json`);
     const links = (this.formats || []).flatMap(({ name, endings }) => endings.map((ending, file) => {
       const link = element("button", endings.length > 1 ? `${name} ${ending}` : name, "small");
       link.type = "button";
-      link.addEventListener("click", () => this.export(run, name, file));
+      link.addEventListener("click", async () => {
+        link.disabled = true;
+        await this.export(run, name, file);
+        link.disabled = false;
+      });
       return link;
     }));
     document.getElementById("keep-exports").replaceChildren("Export:", ...links);
@@ -115,9 +124,10 @@ class Keep {
   async export(run, format, file) {
     this.say(`${format} is being made …`);
     const { ok, name, blob } = await this.get(`runs/${encodeURIComponent(run)}/export/${format}/${file}`);
-    if (!ok) return this.say(await blob.text());
-    saveAs(blob, name);
-    return this.say(`${name} is saved.`);
+    if (ok) saveAs(blob, name);
+    const said = ok ? `${name} is saved.` : await blob.text();
+    // Another run may be open by now.
+    if (document.getElementById("keep-title").textContent === run) this.say(said);
   }
 
   async verify() {
@@ -186,10 +196,15 @@ class Keep {
   async read(file) {
     if (!file) return;
     if (file.name.endsWith(".tar") && this.connection.isAlone) return this.connection.unpack(file.name, await file.arrayBuffer());
+    if (file.size > LARGEST_FILE) return this.watch.refuse(`${file.name}: ${large(file.size)} bytes, and at most ${large(LARGEST_FILE)} can be read`);
     let text, parsed;
     try { text = await file.text(); parsed = JSON.parse(text); } catch (error) { return this.watch.refuse(`${file.name}: ${error.message}`); }
     if (parsed?.format === "gambol creature") this.draw(parsed);
-    else this.connection.ask({ do: "open-champion", name: file.name, text });
+    else {
+      // Asked for again where the studio was away.
+      this.champion = { do: "open-champion", name: file.name, text };
+      this.connection.ask(this.champion);
+    }
     return undefined;
   }
 }

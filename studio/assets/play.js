@@ -10,11 +10,26 @@ class Play {
     const get = name => document.getElementById(name);
     this.inputs = { gravity: get("play-gravity"), tilt: get("play-tilt"), friction: get("play-friction"), terrain: get("play-terrain") };
     for (const name of ["gravity", "tilt"]) this.inputs[name].addEventListener("input", () => this.tilt());
+    for (const name of ["gravity", "tilt", "friction"]) this.inputs[name].addEventListener("input", () => this.tellWorld());
+    this.tellWorld();
     for (const name of ["friction", "terrain"]) this.inputs[name].addEventListener("change", () => this.begin());
     get("play-box").addEventListener("click", () => this.putBox());
     // From the front: one along its way would hardly be seen.
     get("play-push").addEventListener("click", () => connection.ask({ do: "push", part: 0, velocity: [-2, 1] }));
     get("play-reset").addEventListener("click", () => this.begin());
+    get("play-learned").addEventListener("click", () => { this.asLearned(); this.begin(); });
+    // The keys are the champion's again, once a control was clicked or let go of.
+    for (const kind of ["click", "pointerup", "change"]) {
+      get("play").addEventListener(kind, event => {
+        if (kind === "pointerup" && !event.target.matches("input")) return;
+        if (kind === "click" && (!event.detail || !event.target.matches("button"))) return;
+        if (kind === "change" && !(this.isByPointer && event.target.matches("select"))) return;
+        get("arena-canvas").focus({ preventScroll: true });
+      });
+    }
+    get("play").addEventListener("pointerdown", () => { this.isByPointer = true; });
+    get("play").addEventListener("keydown", () => { this.isByPointer = false; });
+    connection.on("opened", () => this.asLearned());
     document.addEventListener("keydown", event => this.key(event, true));
     document.addEventListener("keyup", event => this.key(event, false));
     // Nothing is told of what is let go of elsewhere.
@@ -34,6 +49,22 @@ class Play {
   }
 
   setTerrain(name) { this.inputs.terrain.value = name; }
+
+  // The world as the champion has learned in it.
+  asLearned() {
+    Object.assign(this.inputs.gravity, { value: 1 });
+    Object.assign(this.inputs.tilt, { value: 0 });
+    Object.assign(this.inputs.friction, { value: 1 });
+    this.setTerrain("");
+    this.tellWorld();
+  }
+
+  tellWorld() {
+    const { gravity, tilt, friction } = this.inputs;
+    document.getElementById("play-gravity-value").textContent = `${fixed(Number(gravity.value), 2)} ×`;
+    document.getElementById("play-tilt-value").textContent = `${fixed(Number(tilt.value), 0)}°`;
+    document.getElementById("play-friction-value").textContent = `${fixed(Number(friction.value), 2)} ×`;
+  }
 
   // The champion from the start, in the world that is set.
   begin() {

@@ -60,6 +60,7 @@ class Studio {
       if (on && this.wasOff) {
         this.refuse("");
         if (this.opened?.run) connection.ask({ do: "open", run: this.opened.run });
+        else if (this.keep.champion) connection.ask(this.keep.champion);
       } else if (!on) this.refuse(problem);
       this.wasOff = !on;
     };
@@ -79,6 +80,10 @@ class Studio {
     };
     this.arena.onHit = hit => this.chapter === "play" && this.play.push(hit);
     document.addEventListener("keydown", event => this.key(event));
+    window.addEventListener("hashchange", () => {
+      const chapter = location.hash.slice(2);
+      if (CHAPTERS.includes(chapter) && chapter !== this.chapter) this.go(chapter);
+    });
     window.matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => { readTheme(); loop.redrawAll(); });
   }
 
@@ -118,6 +123,7 @@ class Studio {
   go(chapter) {
     const before = this.chapter;
     this.chapter = chapter;
+    if (before && before !== chapter) window.scrollTo(0, 0);
     for (const section of document.querySelectorAll("main > section")) section.hidden = !section.dataset.chapters.split(" ").includes(chapter);
     for (const button of document.querySelectorAll("nav button")) {
       if (button.dataset.chapter === chapter) button.setAttribute("aria-current", "page"); else button.removeAttribute("aria-current");
@@ -128,7 +134,7 @@ class Studio {
     document.getElementById("show-who").closest("label").hidden = chapter === "play";
     this.beside.setVisible(chapter !== "play");
     if (chapter === "draw") this.buildEditor();
-    if (chapter === "keep" && before !== "keep") this.connection.ask({ do: "look" });
+    if ((chapter === "keep" || chapter === "choose") && before !== chapter) this.connection.ask({ do: "look" });
     if (before && before !== chapter && (chapter === "play" || before === "play")) this.showNow();
     if (chapter === "play") document.getElementById("arena-canvas").focus();
   }
@@ -142,7 +148,7 @@ class Studio {
     this.connection.on("checked", ({ number, problems }) => { this.checked.get(number)?.(problems); this.checked.delete(number); });
     this.editor = new Editor(document.getElementById("draw-editor"), {
       check: creature => this.check({ do: "check", creature }),
-      changed: () => {},
+      freeName: name => this.freeName(name),
       play: creature => {
         this.choose.setDrawn(creature);
         this.choose.train();
@@ -201,7 +207,15 @@ class Studio {
     const { creatures, drawn } = this.choose.catalogue;
     this.showEditor("creature");
     const isShipped = creatures.some(({ name }) => name === creature.name) && !drawn.includes(creature.name);
-    this.editor.load(isShipped ? { ...creature, name: `my ${creature.name}` } : creature);
+    this.editor.load(isShipped ? { ...creature, name: this.freeName(`my ${creature.name}`) } : creature);
+  }
+
+  // A name for a creature that none has.
+  freeName(name) {
+    const taken = new Set(this.choose.catalogue?.creatures.map(creature => creature.name));
+    let free = name;
+    for (let number = 2; taken.has(free); number += 1) free = `${name} ${number}`;
+    return free;
   }
 
   // What is shown at somebody's wish is the latest there is, whatever was pinned.

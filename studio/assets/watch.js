@@ -20,10 +20,15 @@ class Watch {
     const press = (name, act) => get(name).addEventListener("click", act);
     press("run-pause", () => {
       get("run-pace").value = "free";
-      connection.ask({ do: this.state === "paused" ? "go-on" : "pause" });
+      const waits = this.state === "paused";
+      connection.ask({ do: waits ? "go-on" : "pause" });
+      if (!waits) this.expect("training, waits after this generation", ["run-pause"]);
     });
     press("run-step", () => connection.ask({ do: "step" }));
-    press("run-stop", () => connection.ask({ do: "stop" }));
+    press("run-stop", () => {
+      connection.ask({ do: "stop" });
+      this.expect("training, stops after this generation", ["run-stop", "run-pause", "run-step"]);
+    });
     get("run-pace").addEventListener("change", event => connection.ask({ do: event.target.value === "shown" ? "step" : "go-on" }));
     press("run-go-on", () => connection.ask({ do: "go-on", generations: Number(document.getElementById("run-more").value) }));
     arena.onStep = frame => this.note(frame);
@@ -76,6 +81,16 @@ class Watch {
     get("run-pause").textContent = this.state === "paused" ? "Train on" : "Pause training";
     for (const name of ["run-pause", "run-step", "run-stop", "run-pace"]) get(name).disabled = !trains;
     for (const name of ["run-go-on", "run-more"]) get(name).disabled = trains || !this.run;
+    get("run-announced").textContent = this.stateText;
+    this.showState();
+    // What has been trained is among the runs, with its fitness.
+    if (trained && !trains) this.connection.ask({ do: "look" });
+  }
+
+  // What was asked for comes after the generation under way.
+  expect(text, buttons) {
+    this.stateText = text;
+    for (const name of buttons) document.getElementById(name).disabled = true;
     this.showState();
   }
 
@@ -88,7 +103,7 @@ class Watch {
 
   take(rows) {
     for (const row of rows) {
-      const { fitness, evaluations, failures } = row;
+      const { fitness, population: evaluations, failures } = row;
       this.rows.push({ generation: this.rows.length + 1, best_so_far: row.best_so_far, best: fitness?.best, mean: fitness?.mean,
         median: fitness?.median, quantiles: fitness, failures, evaluations });
       this.last = row;
@@ -103,7 +118,7 @@ class Watch {
     const thin = [];
     const greatest = (stretch, field) => stretch.reduce((most, row) => (row[field] > (most ?? -Infinity) ? row[field] : most), undefined);
     // No stretch reaches from one stage into the next, and the first row of a stage stands alone: the chart begins anew there.
-    const starts = new Set(this.stages.map(stage => stage.row));
+    const starts = new Set([0, ...this.stages.map(stage => stage.row)]);
     for (let from = 0, to; from < this.rows.length; from = to) {
       to = from + 1;
       if (!starts.has(from)) while (to < Math.min(from + each, this.rows.length) && !starts.has(to)) to++;

@@ -82,7 +82,7 @@ impl Library {
             Wanted::Report => self.report(run, &folder).map_err(|error| failed(&*error)),
             Wanted::Champion => {
                 let bytes = std::fs::read(folder.champion()).map_err(|_| failed(&NO_CHAMPION))?;
-                Ok(Download { name: Some(saved_as(run, ".json")), media: "application/json", bytes })
+                Ok(Download { name: Some(saved_as(run, ".champion.json")), media: "application/json", bytes })
             }
             Wanted::Verify => {
                 let verification = champion_of(&folder)?.verify(self.registry()).map_err(|error| failed(&error))?;

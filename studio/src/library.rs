@@ -86,6 +86,7 @@ impl Library {
         let thing = |name: &str, description: &str| NamedThing { name: name.into(), description: description.into() };
         let movements = registry.movements.entries().iter().filter(|movement| movement.steps.is_some());
         let drawn = self.drawn_creatures();
+        let (runs, more_runs) = self.gallery();
         let shipped = registry.creatures.entries().iter().map(|entry| entry.value.clone());
         let is_drawn = |creature: &Creature| drawn.iter().any(|drawn| drawn.name == creature.name);
         Catalogue {
@@ -110,13 +111,14 @@ impl Library {
                 .iter()
                 .map(|format| ExportFormat { name: format.name(), endings: format.endings() })
                 .collect(),
-            runs: self.gallery(),
+            runs,
+            more_runs,
         }
     }
 
-    /// The runs, the latest first.
-    fn gallery(&self) -> Vec<RunEntry> {
-        let Ok(entries) = fs::read_dir(&self.runs) else { return Vec::new() };
+    /// The runs, the latest first, and how many more there are.
+    fn gallery(&self) -> (Vec<RunEntry>, usize) {
+        let Ok(entries) = fs::read_dir(&self.runs) else { return (Vec::new(), 0) };
         let changed = |path: &Path| fs::metadata(path.join("config.json")).and_then(|file| file.modified()).ok();
         let mut runs: Vec<(SystemTime, String, PathBuf)> = entries
             .flatten()
@@ -131,7 +133,8 @@ impl Library {
             let is_running = sessions.get(&run).is_some_and(|session| session.is_training());
             Some(RunEntry { run, creature: config.creature, movement: config.movement.name, fitness, is_running })
         };
-        runs.into_iter().take(MOST_RUNS).filter_map(entry).collect()
+        let more = runs.len().saturating_sub(MOST_RUNS);
+        (runs.into_iter().take(MOST_RUNS).filter_map(entry).collect(), more)
     }
 
     fn terrain_choices(&self) -> Vec<TerrainChoice> {

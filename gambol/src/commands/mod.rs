@@ -117,6 +117,7 @@ Exit codes:
   2    the command line was not understood
   3    verify: the replay is not what the champion file says; gait: the gait is not usable;
        train and resume with --until usable: no usable gait was found
+  4    compare, tune and reproduce: other processes are still at work on some of the runs
   130  a run was interrupted (Ctrl-C, SIGTERM, SIGHUP); it is saved and can be resumed
 
 Set GAMBOL_LOG=debug to see what the libraries do, and how long each generation, evaluation, re-evaluation, \

@@ -87,6 +87,29 @@ pub(crate) fn chooses(browser: &mut Browser, folder: &Path, home: &Home) {
         "the preset",
         "document.getElementById('choose-command').textContent === 'gambol train tetrapod-1 running'",
     );
+    // A number that cannot be is told, and nothing is trained with another in its place.
+    set(browser, "#choose-generations", "-5");
+    wait(browser, "what is wrong", "document.getElementById('choose-problem').textContent.startsWith('Generations: ')");
+    assert_eq!(browser.evaluate("document.getElementById('choose-train').disabled"), true);
+    set(browser, "#choose-generations", "");
+    wait(browser, "what is right", "!document.getElementById('choose-train').disabled");
+    // Another movement drops the settings, and undoing it brings both back.
+    set(browser, "#settings-search", "population");
+    set(browser, field, "16");
+    wait(browser, "a setting", "document.getElementById('choose-command').textContent.includes('population=16')");
+    browser.evaluate("document.querySelector('[name=movement][value=walking]').click()");
+    wait(
+        browser,
+        "another movement",
+        "document.getElementById('choose-command').textContent === 'gambol train tetrapod-1 walking'",
+    );
+    click(browser, "#settings-undo");
+    wait(
+        browser,
+        "the setting again",
+        "document.getElementById('choose-command').textContent \
+         === \"gambol train tetrapod-1 running --set 'strategy.cma-es.population=16'\"",
+    );
     train(browser, "tetrapod-2", "jumping", 3);
     let champion = folder.join("trained.json");
     fs::write(&champion, studio.kept_file(browser, "runs/tetrapod-2-jumping/champion.json")).expect("a file");
@@ -108,6 +131,11 @@ pub(crate) fn plays(browser: &mut Browser, folder: &Path, home: &Home) {
     set(browser, "#play-tilt", "30");
     set(browser, "#play-terrain", "steps");
     wait(browser, "the champion again", "parseFloat(document.querySelector('#arena-readouts dd').textContent) > 0.5");
+    assert_eq!(text(browser, "play-tilt-value"), "30°");
+    click(browser, "#play-learned");
+    assert_eq!(text(browser, "play-tilt-value"), "0°");
+    // The keys are the champion's.
+    assert_eq!(browser.evaluate("document.activeElement.id"), "arena-canvas");
     browser.press(ONE);
     wait(browser, "the generation", "document.getElementById('arena-caption').textContent.includes('creatures')");
     assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
@@ -140,6 +168,23 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
     );
     assert_eq!(browser.evaluate("document.querySelector('[name=creature]:checked')?.value !== undefined"), true);
     wait(browser, "its run", "document.querySelector(\"[data-run='my piano-running']\") !== null");
+    // A creature that is begun anew gets a name that none has, and what was drawn can be had back.
+    click(browser, "[data-chapter=draw]");
+    browser.evaluate(&rename.replace("my piano", "my-creature"));
+    browser.evaluate("document.querySelector('.editor-canvas').focus()");
+    browser.press(Key("k", "KeyK", 75));
+    wait(browser, "its training", "document.getElementById('run-command').textContent.includes('my-creature.json')");
+    click(browser, "[data-chapter=draw]");
+    browser.evaluate("[...document.querySelectorAll('.editor button')].find(button => button.textContent.trim().startsWith('New')).click()");
+    wait(browser, "a free name", &format!("{name}.value === 'my-creature 2'"));
+    click(browser, "[data-chapter=keep]");
+    browser.evaluate("document.getElementById('keep-draw').click()");
+    wait(browser, "another", &format!("{name}.value === 'my-creature'"));
+    browser.evaluate("document.querySelector('.editor-canvas').focus()");
+    browser.evaluate(
+        "document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, bubbles: true }))",
+    );
+    wait(browser, "what was drawn before", &format!("{name}.value === 'my-creature 2'"));
     assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
     is_clean(browser, &studio);
 }

@@ -109,7 +109,9 @@ pub(crate) fn shows_two(browser: &mut Browser, folder: &Path, home: &Home) {
     assert_ne!(browser.evaluate("document.getElementById('beside-readouts').textContent"), before);
     assert!(text(browser, "beside-caption").ends_with(" · running"), "{}", text(browser, "beside-caption"));
     let verdict = text(browser, "beside-verdict");
-    assert!(verdict.starts_with("Usable") || verdict.starts_with("Not usable yet: "), "{verdict}");
+    assert!(["Usable", "Not usable yet"].contains(&&*verdict), "{verdict}");
+    let reasons = browser.evaluate("document.querySelectorAll('#beside-against li').length");
+    assert_eq!(reasons == 0, verdict == "Usable", "{reasons} reasons below");
     // Both begin again together.
     click(browser, "#show-again");
     wait(

@@ -135,6 +135,8 @@ pub struct Catalogue {
     pub formats: Vec<ExportFormat>,
     /// Runs, the latest first.
     pub runs: Vec<RunEntry>,
+    /// How many older runs there are that are not among them.
+    pub more_runs: usize,
 }
 
 /// What a champion can be exported to.

@@ -19,7 +19,7 @@
 //! # fn report(body: &tasks::Body, snapshots: &[tasks::Snapshot]) -> Result<(), tasks::gait::GaitError> {
 //! let report = GaitReport::measure(body, snapshots, Some(&RunningRules::default()))?;
 //! for reason in report.verdict.iter().flat_map(|verdict| &verdict.reasons) {
-//!     // "left leg: no touchdown for 5.2 s, at most 3 s allowed"
+//!     // "left leg: no touchdown for 5.2 s, at most 1 s allowed"
 //!     let _ = reason.to_string();
 //! }
 //! # Ok(())

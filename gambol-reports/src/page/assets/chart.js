@@ -107,6 +107,11 @@ class FitnessChart {
   // Another history, of a run that goes on.
   update(run) {
     this.take(run);
+    // What was picked stays so, however the history is thinned by now.
+    if (this.picked !== null) {
+      const index = this.rows.findIndex(row => row.generation >= this.wanted);
+      this.picked = index < 0 ? this.rows.length - 1 : index;
+    }
     this.width = 0;
     this.place.setAttribute("aria-valuemin", this.rows[0].generation);
     this.place.setAttribute("aria-valuemax", this.rows[this.rows.length - 1].generation);
@@ -181,7 +186,7 @@ class FitnessChart {
     this.drawStages(root);
     if (this.failures) this.drawFailures(root, height);
     this.cross = svg("g", { class: "cross" }, root);
-    this.pick(this.picked ?? this.rows.length - 1, this.picked !== null);
+    this.pick(this.picked ?? this.rows.length - 1, this.picked !== null, this.wanted);
   }
 
   drawAxes(root, low, high, height, narrow) {
@@ -255,8 +260,9 @@ class FitnessChart {
   }
 
   // Shows the values of one generation; `chosen` draws the crosshair as well.
-  pick(index, chosen) {
+  pick(index, chosen, wanted) {
     const row = this.rows[Math.min(Math.max(index, 0), this.rows.length - 1)];
+    this.wanted = wanted ?? row.generation;
     this.picked = chosen ? this.rows.indexOf(row) : null;
     this.cross.replaceChildren();
     if (chosen) {

@@ -77,5 +77,10 @@ const loop = {
       requestAnimationFrame(frame);
     };
     requestAnimationFrame(stamp => { this.last = stamp; frame(stamp); });
+    // On paper everything is in sight.
+    window.addEventListener("beforeprint", () => {
+      for (const view of this.views) view.draw();
+      for (const details of document.querySelectorAll("details")) details.open = true;
+    });
   },
 };
