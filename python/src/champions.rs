@@ -1,6 +1,10 @@
 //! Champion files: what Python's `gambol.Champion` is made of.
 
-use crate::{episodes::registry, errors::wrong};
+use crate::{
+    episodes::{names_in, registry},
+    errors::wrong,
+    movements::raised,
+};
 use gambol_exports::{Destination, Format, Options, Picture, export};
 use gambol_reports::report;
 use gambol_runs::{
@@ -27,7 +31,8 @@ pub(crate) fn read_champion(py: Python<'_>, path: PathBuf) -> PyResult<String> {
 #[pyfunction]
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f64>, Option<u32>)> {
     py.detach(|| {
-        let verification = champion(&path)?.verify(registry()).map_err(wrong)?;
+        let champion = champion(&path)?;
+        let verification = believed(&champion, || champion.verify(registry()).map_err(wrong))?;
         let fitness = verification.evaluation.fitness().map(ne_core::Fitness::get);
         Ok((verification.is_identical(), fitness, verification.diverges_at))
     })
@@ -37,7 +42,9 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f6
 #[pyfunction]
 pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
-        let report = on_own_threads(|| gait::judge(&champion(&path)?, registry()).map_err(wrong))?;
+        let champion = champion(&path)?;
+        let judge = || on_own_threads(|| gait::judge(&champion, registry()).map_err(wrong));
+        let report = believed(&champion, judge)?;
         serde_json::to_string(&report).map_err(wrong)
     })
 }
@@ -55,9 +62,30 @@ pub(crate) fn champion_robustness(
         let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
         let perturbations = Perturbations { count: worlds, seed, variation };
         let champion = champion(&path)?;
-        let robustness = on_own_threads(|| robustness(&champion, registry(), &perturbations).map_err(wrong))?;
+        let replay = || on_own_threads(|| robustness(&champion, registry(), &perturbations).map_err(wrong));
+        let robustness = believed(&champion, replay)?;
         serde_json::to_string(&robustness).map_err(wrong)
     })
+}
+
+/// What comes of a champion, unless a movement that is written in Python has raised something.
+fn believed<T>(champion: &Champion, what: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
+    let movements = names_in(&champion.movement);
+    // What others have left.
+    let _ = raised(&movements);
+    let found = what();
+    raised(&movements)?;
+    found
+}
+
+/// The champion is not written over, even where files may be.
+fn is_another(file: &Path, champion: &Path) -> PyResult<()> {
+    match (file.canonicalize(), champion.canonicalize()) {
+        (Ok(file), Ok(champion)) if file == champion => {
+            Err(wrong(format!("{} is the champion itself", champion.display())))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Threads that all share are gone in a process that was forked.
@@ -84,6 +112,7 @@ pub(crate) fn export_champion(
     py.detach(|| {
         let champion = champion(&path)?;
         let destination = Destination::new(format, &champion, out).map_err(wrong)?;
+        destination.paths.iter().try_for_each(|file| is_another(file, &path))?;
         let check = || match destination.paths.iter().find(|path| path.exists()).filter(|_| !overwrite) {
             Some(there) => {
                 let message = format!("{} is there: overwrite=True overwrites it", there.display());
@@ -96,7 +125,7 @@ pub(crate) fn export_champion(
         let usual = Picture::default();
         let picture = Picture { size: size.unwrap_or(usual.size), rate: rate.unwrap_or(usual.rate), ground };
         let options = Options { name: destination.name.clone(), steps, picture };
-        let files = export(&champion, registry(), format, &options).map_err(wrong)?;
+        let files = believed(&champion, || export(&champion, registry(), format, &options).map_err(wrong))?;
         // What has come there since is not overwritten unasked either.
         check()?;
         destination.write(&files).map_err(|error| PyOSError::new_err(error.to_string()))?;
@@ -110,8 +139,10 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
     py.detach(|| {
         let champion = champion(&path)?;
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
+        is_another(&page, &path)?;
         let write = || report::write_replay(&champion, registry(), steps, &page);
-        on_own_threads(|| write().map_err(|error| PyOSError::new_err(error.to_string())))
+        let write = || on_own_threads(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
+        believed(&champion, write)
     })
 }
 

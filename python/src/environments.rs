@@ -73,7 +73,9 @@ impl Environments {
             return Err(wrong(format!("num_envs = {count}: must be from 1 to {MOST_ENVIRONMENTS}")));
         }
         check_threads(threads)?;
-        let set = steps.map(|steps| format!("movement.steps={steps}")).into_iter().chain(settings).collect();
+        // What is said by an argument is what counts, as in training.
+        let steps = steps.map(|steps| format!("movement.steps={steps}"));
+        let set = settings.into_iter().chain(steps).collect();
         let request = Request {
             creature: Some(creature),
             movement: Some(movement),

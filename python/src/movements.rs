@@ -89,11 +89,16 @@ struct Written {
     unit: String,
     make: Arc<Py<PyAny>>,
     made: Py<PyAny>,
-    /// Whether it could not be made, or could not begin.
+    /// Whether this episode could not begin.
     is_broken: bool,
 }
 
 impl Written {
+    /// Whether its object could not be made.
+    fn is_unmade(&self) -> bool {
+        Python::attach(|py| self.made.is_none(py))
+    }
+
     /// What Python answers; the first error is kept to be raised.
     fn ask<T>(&self, ask: impl FnOnce(&Bound<'_, PyAny>) -> PyResult<T>) -> Option<T> {
         if self.is_broken {
@@ -128,8 +133,13 @@ impl Movement for Written {
     }
 
     fn begin(&mut self, start: &tasks::Snapshot) {
+        // Each episode is asked for anew: what was raised in another may not be raised in this.
+        if self.is_unmade() {
+            *self = self.clone();
+        }
+        self.is_broken = self.is_unmade();
         let begun = self.ask(|made| made.call_method1("begin", (Snapshot(start.clone()),)).map(drop));
-        self.is_broken |= begun.is_none();
+        self.is_broken = begun.is_none();
     }
 
     fn observe(&mut self, now: &tasks::Snapshot) -> Verdict {

@@ -71,6 +71,18 @@ def test_what_cannot_be_exported_is_told(champion, tmp_path):
         champion.export("trace", tmp_path / "gait", seconds=0.0)
 
 
+def test_a_champion_is_not_written_over(champion):
+    """Even where files may be."""
+    before = champion.path.read_bytes()
+    for write in (
+        lambda: champion.replay(champion.path),
+        lambda: champion.export("csv", champion.path, overwrite=True),
+    ):
+        with pytest.raises(ValueError, match="is the champion itself"):
+            write()
+    assert champion.path.read_bytes() == before
+
+
 def test_a_notebook_shows_the_replay(run, champion, tmp_path):
     """In a frame that can do nothing but play."""
     page = champion.replay(tmp_path / "replay.html").read_text()
@@ -91,7 +103,7 @@ def test_a_controller_acts_as_its_net(champion):
     again = pickle.loads(pickle.dumps(controller))
     assert np.array_equal(again(observations), actions)
     assert repr(controller) == f"Controller(inputs={controller.inputs}, outputs={controller.outputs})"
-    with pytest.raises(ValueError, match=f"inputs must have {controller.inputs} columns, found 3"):
+    with pytest.raises(ValueError, match=rf"observations must be of shape \({controller.inputs},\) or .*, found \(3,\)"):
         controller([1.0, 2.0, 3.0])
 
 

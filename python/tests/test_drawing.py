@@ -102,7 +102,7 @@ def test_what_cannot_be_drawn_is_refused():
         gambol.CreatureEnv("biped-1", render_mode="ansi")
     with pytest.raises(ValueError, match="render_mode = 'human': must be None or 'rgb_array'"):
         gambol.make_vec("biped-1", render_mode="human")
-    for size in [(15, 400), (600, 4097), (600,)]:
+    for size in [(15, 400), (600, 4097), (600,), (600.5, 400)]:
         with pytest.raises(ValueError, match="render_size = .*from 16 to 4096 px"):
             gambol.make_vec("biped-1", render_mode="rgb_array", render_size=size)
     env = gambol.CreatureEnv("biped-1", render_mode="rgb_array")

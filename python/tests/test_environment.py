@@ -6,6 +6,7 @@ from pathlib import Path
 import gymnasium
 import numpy as np
 import pytest
+from gymnasium.error import ResetNeeded
 from gymnasium.utils.env_checker import check_env
 
 import gambol
@@ -73,8 +74,10 @@ def test_the_length_is_that_of_the_registration_or_of_the_caller():
     for step in range(3):
         *_, truncated, infos = env.step(np.zeros(2, np.float32))
         assert truncated == (step == 2) == ("fitness" in infos)
-    with pytest.raises(ValueError, match="reset"):
+    with pytest.raises(ResetNeeded, match="the episode has ended"):
         env.step(np.zeros(2, np.float32))
+    with pytest.raises(ResetNeeded, match="before step"):
+        gambol.CreatureEnv("biped-1", "jumping").step(np.zeros(2, np.float32))
 
 
 def test_a_spec_says_how_long_an_episode_is_and_how_far_a_usable_one_gets():

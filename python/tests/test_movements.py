@@ -137,6 +137,42 @@ def test_what_it_raised_once_is_not_raised_again(tmp_path):
     gambol.train("biped-1", "mended", out=tmp_path / "well", preset="plain", generations=2, population=4)
 
 
+def test_an_episode_that_could_not_begin_says_nothing_of_the_next():
+    """The first of all is broken off, as Ctrl-C would."""
+    begun = []
+
+    class Interrupted(Distance):
+        def begin(self, start):
+            begun.append(self)
+            if len(begun) == 1:
+                raise KeyboardInterrupt
+            super().begin(start)
+
+    gambol.register_movement("interrupted", Interrupted, steps=5)
+    envs = gambol.make_vec("biped-1", "interrupted", num_envs=1)
+    with pytest.raises(KeyboardInterrupt):
+        envs.reset(seed=1)
+    envs.reset(seed=1)
+    for _ in range(5):
+        *_, infos = envs.step(np.zeros((1, 2), np.float32))
+    assert "failure" not in infos
+    assert np.isfinite(infos["fitness"][0])
+
+
+def test_what_it_raises_is_raised_where_champions_are_played(tmp_path):
+    """And nowhere else."""
+    gambol.register_movement("fragile", Distance, steps=20)
+    run = gambol.train("biped-1", "fragile", out=tmp_path / "run", generations=1, population=8, settings={"variation": "none"})
+    assert run.champion.verify()
+    gambol.register_movement("fragile", Broken, steps=20)
+    for play in (run.champion.verify, lambda: run.champion.replay(tmp_path / "page.html")):
+        with pytest.raises(LookupError, match="the tenth step"):
+            play()
+    gambol.register_movement("fragile", Distance, steps=20)
+    gambol.make_vec("biped-1", "fragile", num_envs=1).reset(seed=1)
+    assert run.champion.verify()
+
+
 def test_movements_are_registered_by_several_threads_and_by_each_other():
     """None waits for ever."""
 

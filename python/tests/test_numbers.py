@@ -46,6 +46,29 @@ def test_an_argument_of_training_is_named(tmp_path, arguments, message):
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: gambol.CmaEs(3, seed=-1), "seed = -1: must be from 0"),
+        (lambda: gambol.CmaEs(-3), "dimension = -3: must be from 0"),
+        (lambda: gambol.CmaEs(layers=(3, -2)), r"layers\[1\] = -2: must be from 0"),
+        (lambda: gambol.CmaEs(3, step_size=float("nan")), "must be of finite numbers"),
+        (lambda: gambol.Neat(-1, 1), "inputs = -1: must be from 0"),
+    ],
+)
+def test_an_argument_of_a_strategy_is_named(make, message):
+    """None overflows."""
+    with pytest.raises(ValueError, match=message):
+        make()
+
+
+def test_layers_are_whole_numbers():
+    """Not what begins as one."""
+    with pytest.raises(TypeError, match=r"layers\[1\] must be a whole number"):
+        gambol.CmaEs(layers=(3, 2.7))
+    assert gambol.CmaEs(3, population=np.int64(9), step_size=np.float32(0.5)).ask().shape == (9, 3)
+
+
 def test_numbers_of_numpy_are_numbers(tmp_path):
     """In arguments and in settings."""
     settings = {"physics.gravity": np.float32(5.0), "movement.steps": np.int64(40), "controller.hidden": np.array([3, 3])}

@@ -104,6 +104,15 @@ def test_what_is_wrong_is_said(run, tmp_path):
         gambol.Champion(tmp_path / "champion.json")
 
 
+def test_a_run_with_stages_has_a_log_for_each(tmp_path):
+    """Playing is learned in stages."""
+    run = gambol.train("biped-1", "playing", out=tmp_path / "run", generations=2, population=8)
+    assert len(run.log["best"]) == 0
+    assert [stage.folder.name for stage in run.stages] == ["01-move"]
+    assert list(run.stages[0].log["generation"]) == [1, 2]
+    assert ", 2 generations" in run._repr_html_()
+
+
 def test_a_bar_shows_how_far_it_is(tmp_path, capfd):
     """If it is asked for; nothing is printed else."""
     pytest.importorskip("tqdm", reason="tqdm is not installed")

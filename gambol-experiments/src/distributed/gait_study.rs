@@ -15,12 +15,17 @@ pub struct GaitStudy {
     robust: bool,
 }
 
+/// The first of these that is there again.
+fn twice<T: PartialEq>(things: &[T]) -> Option<&T> {
+    things.iter().enumerate().find_map(|(index, thing)| things[..index].contains(thing).then_some(thing))
+}
+
 impl GaitStudy {
     /// `requests`: a creature and a movement each. `stop`: when a run ends; it must not count minutes. `robust`: whether each
     /// champion is replayed in 100 perturbed worlds.
     ///
     /// # Errors
-    /// If a request is wrong, or minutes are counted.
+    /// If a request is wrong, minutes are counted, there are no runs, or the same run is there twice.
     pub fn new(
         requests: &[Request],
         seeds: Vec<u64>,
@@ -36,7 +41,16 @@ impl GaitStudy {
             gambol_runs::Setup::new(&config, registry).map_err(|error| error.to_string())?;
             Ok(config)
         };
-        let scenarios = requests.iter().map(scenario).collect::<Result<_, String>>()?;
+        let scenarios = requests.iter().map(scenario).collect::<Result<Vec<RunConfig>, String>>()?;
+        if scenarios.is_empty() || seeds.is_empty() {
+            return Err("a study needs at least one creature, one movement and one seed".into());
+        }
+        if let Some(seed) = twice(&seeds) {
+            return Err(format!("the seed {seed} is there twice").into());
+        }
+        if let Some(config) = twice(&scenarios) {
+            return Err(format!("{} {} is there twice", config.creature.name, config.movement.name).into());
+        }
         Ok(Self { scenarios, seeds, robust })
     }
 

@@ -42,6 +42,23 @@ fn gaits(steps: Option<u64>) -> Result<GaitStudy, Failed> {
 }
 
 #[test]
+fn a_study_has_runs_and_none_of_them_twice() {
+    let request = Request { creature: Some("apod".into()), movement: Some("running".into()), ..Request::default() };
+    let requests = [request.clone(), request];
+    let stop = StopConditions { steps: Some(1000), ..StopConditions::default() };
+    for (count, seeds, says) in [
+        (1, vec![3, 3], "the seed 3 is there twice"),
+        (2, vec![1], "apod running is there twice"),
+        (0, vec![1], "at least one creature"),
+        (1, vec![], "at least one creature"),
+    ] {
+        let refused = GaitStudy::new(&requests[..count], seeds, stop, false, &Registry::default()).err();
+        let refused = refused.map(|error| error.to_string()).unwrap_or_default();
+        assert!(refused.contains(says), "{refused:?}");
+    }
+}
+
+#[test]
 fn a_study_until_usable_ends_each_run_at_the_tier_of_its_movement() {
     let registry = Registry::default();
     for (movement, tier) in [("running", 1), ("playing", 8)] {

@@ -201,7 +201,7 @@ impl Show {
                 }
             }
             None if generations == 0 => say!("no generation was done: {reason}")?,
-            None => say!("every evaluation failed; {reason} after {generations} generations")?,
+            None => say!("no champion was found; {reason} after {generations} generations")?,
         }
         if let Some(verdict) = verdict {
             let early = if too_early { format!("; but {ENDED_EARLY}") } else { String::new() };

@@ -32,7 +32,7 @@ def build(
     """Builds them; what is wrong is a ``ValueError`` in the library's own words."""
     is_walker = creature == _bipedal_walker.NAME
     return Environments(
-        os.fspath(_bipedal_walker.FILE if is_walker else creature),
+        os.fspath(_bipedal_walker.FILE) if is_walker else creature_text(creature),
         movement,
         whole("num_envs", num_envs, 1, 2**20),
         preset=preset,
@@ -51,12 +51,25 @@ def build(
 MOST_SEED = 2**64 - 1
 
 
+def creature_text(creature: str | os.PathLike[str]) -> str:
+    """A creature as the program takes it: a text may be a name, and a path is always one of a file."""
+    path = os.fspath(creature)
+    return path if isinstance(creature, str) else os.path.join(os.curdir, path)
+
+
 def assignments(settings: Mapping[str, Any] | None) -> list[str]:
-    """Settings as a configuration takes them: ``{"physics.gravity": 5}`` is ``physics.gravity=5``."""
-    return [f"{path}={_text(path, value)}" for path, value in (settings or {}).items()]
+    """Settings as a configuration takes them: ``{"physics.gravity": 5}`` is ``physics.gravity=5``.
+
+    Raises:
+        TypeError: if they are no mapping.
+    """
+    if settings is not None and not isinstance(settings, Mapping):
+        raise TypeError(f"settings must be a mapping from paths to values, found {settings!r}")
+    return [f"{path}={json_text(path, value)}" for path, value in (settings or {}).items()]
 
 
-def _text(path: str, value: Any) -> str:
+def json_text(path: str, value: Any) -> str:
+    """A value as JSON, NumPy's too; ``path`` names it where it has none."""
     try:
         return json.dumps(value, allow_nan=False, default=_plain)
     except ValueError as error:
@@ -67,7 +80,7 @@ def _plain(value: Any) -> Any:
     """What NumPy has as Python has it."""
     if isinstance(value, (np.generic, np.ndarray)):
         return value.tolist()
-    raise TypeError(f"a setting cannot be of type {type(value).__name__}")
+    raise TypeError(f"a value cannot be of type {type(value).__name__}")
 
 
 def seed_of(value: Any) -> int:

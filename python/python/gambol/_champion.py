@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from gambol import _gambol
+from gambol._build import seed_of, whole
 
 
 class Champion:
@@ -66,7 +67,8 @@ class Champion:
         Raises:
             ValueError: if a number is out of its range, or there is no such variation.
         """
-        found: dict[str, Any] = json.loads(_gambol.champion_robustness(self.path, worlds, seed, variation))
+        count = whole("worlds", worlds, 1, 100_000)
+        found: dict[str, Any] = json.loads(_gambol.champion_robustness(self.path, count, seed_of(seed), variation))
         return found
 
     def export(
@@ -104,7 +106,7 @@ class Champion:
             format,
             None if out is None else Path(out),
             seconds=seconds,
-            size=size,
+            size=None if size is None else whole("size", size, 16, 2048),
             rate=rate,
             ground=ground,
             overwrite=overwrite,
@@ -114,7 +116,7 @@ class Champion:
         """Writes a page that replays it and needs nothing else, as ``gambol replay --html`` does.
 
         Args:
-            page: the file; one that is there is overwritten.
+            page: the file; one that is there is overwritten, but for the champion itself.
             seconds: how long it is played; by default as long as its movement is judged.
 
         Returns:
@@ -155,12 +157,15 @@ class Controller:
     def __call__(self, observations: npt.ArrayLike) -> npt.NDArray[np.float32]:
         """The actions ``float32[outputs]`` for observations ``float32[inputs]``; ``[n, outputs]`` for ``[n, inputs]``.
 
-        A recurrent net remembers what it was given before; :meth:`reset` begins anew.
+        A recurrent net remembers what it was given before, the rows of one call one after the other: each of several environments
+        needs a controller of its own. :meth:`reset` begins anew.
 
         Raises:
             ValueError: if there are more or fewer observations than inputs.
         """
         given = np.asarray(observations, np.float32)
+        if given.ndim not in (1, 2) or given.shape[-1] != self.inputs:
+            raise ValueError(f"observations must be of shape ({self.inputs},) or (n, {self.inputs}), found {given.shape}")
         actions = self._net.activate(np.ascontiguousarray(np.atleast_2d(given)))
         return actions[0] if given.ndim == 1 else actions
 

@@ -30,8 +30,9 @@ def check_drawing(render_mode: str | None, allowed: Sequence[str], render_size: 
     if render_mode is not None and render_mode not in allowed:
         names = " or ".join(repr(mode) for mode in allowed)
         raise ValueError(f"render_mode = {render_mode!r}: must be None or {names}")
-    if len(render_size) != 2 or not all(_SMALLEST <= side <= _LARGEST for side in render_size):
-        wanted = f"must be width and height, each from {_SMALLEST} to {_LARGEST} px"
+    is_side = [isinstance(side, (int, np.integer)) and _SMALLEST <= side <= _LARGEST for side in render_size]
+    if is_side != [True, True]:
+        wanted = f"must be width and height, each a whole number from {_SMALLEST} to {_LARGEST} px"
         raise ValueError(f"render_size = {render_size!r}: {wanted}")
 
 

@@ -93,11 +93,16 @@ class CreatureEnv(gymnasium.Env[Floats, Floats]):
             seed = int(self.np_random.integers(0, 2**63))
         self._native.reset([seed], None, self._row)
         self._is_reset = True
+        self._ends[:] = False
         self._show()
         return self._row[0].copy(), {}
 
     def step(self, action: npt.ArrayLike) -> tuple[Floats, float, bool, bool, dict[str, Any]]:
         """A time step: observation, reward, terminated, truncated, infos."""
+        if not self._is_reset:
+            raise ResetNeeded("call reset before step")
+        if self._ends.any():
+            raise ResetNeeded("the episode has ended: call reset")
         taken = np.ascontiguousarray(action, np.float32).reshape(1, -1)
         if taken.shape[1] != self._native.shape[1]:
             raise ValueError(f"an action must be of shape {self.action_space.shape}, found {np.shape(action)}")

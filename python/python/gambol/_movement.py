@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Protocol
 
 from gambol import _gambol
+from gambol._build import whole
 from gambol._gambol import Snapshot
 
 
@@ -41,4 +42,5 @@ def register_movement(
     Raises:
         ValueError: if the name or the number is not allowed.
     """
-    _gambol.register_movement(name, unit, steps, description, make)
+    length = None if steps is None else whole("steps", steps, 1, 1_000_000)
+    _gambol.register_movement(name, unit, length, description, make)

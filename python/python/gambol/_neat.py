@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -10,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from gambol._build import json_text, seed_of, whole
 from gambol._champion import Controller
 from gambol._drawn_net import drawn
 from gambol._gambol import Genes, NeatSearch
@@ -153,7 +153,8 @@ class Neat(Resumable):
     def __init__(self, inputs: int, outputs: int, *, seed: int = 1, **settings: Any) -> None:
         """Builds the search; nothing is asked yet."""
         given = {field: value for field, value in settings.items() if value is not None}
-        self._search = NeatSearch(inputs, outputs, seed, json.dumps(given))
+        sizes = whole("inputs", inputs, 0, 2**32), whole("outputs", outputs, 0, 2**32)
+        self._search = NeatSearch(*sizes, seed_of(seed), json_text(self.name, given))
 
     def ask(self) -> list[NeatGenome]:
         """The next generation. Until it is told, the same again."""

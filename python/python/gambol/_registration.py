@@ -43,6 +43,9 @@ def register_environments() -> None:
 
 def _register(name: str, creature: str, movement: str, steps: int, scale: float) -> None:
     """``scale``: what a body length/s is in metres a step."""
+    # Gymnasium finds them by itself, and importing gambol must not bring them a second time.
+    if name in gymnasium.registry:
+        return
     gymnasium.register(
         name,
         entry_point="gambol._environment:CreatureEnv",

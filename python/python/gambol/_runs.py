@@ -14,9 +14,16 @@ import numpy as np
 import numpy.typing as npt
 
 from gambol import _gambol
-from gambol._build import MOST_SEED, assignments, seed_of, whole
+from gambol._build import MOST_SEED, assignments, creature_text, seed_of, whole
 from gambol._champion import Champion
 from gambol._progress import Callback, shown
+
+#: The columns of every log.
+_ALWAYS = (
+    *("generation", "evaluations", "steps", "best_so_far", "failures", "population"),
+    *("best", "mean", "median", "worst", "q10", "q25", "q75", "q90"),
+)
+
 
 class Run:
     """A run folder, whether this program made it or the command line did."""
@@ -34,21 +41,28 @@ class Run:
 
         ``generation``, ``evaluations``, ``steps``, ``best_so_far``, ``failures``, ``population``; of the generation's
         fitnesses ``best``, ``mean``, ``median``, ``worst`` and quantiles (``q10`` to ``q90``); and what the strategy says of
-        itself. NaN where there is nothing to tell.
+        itself. NaN where there is nothing to tell. ``best_so_far`` is the champion's fitness in one whole episode, NaN until one is
+        chosen. A run with stages has a log for each: see :attr:`stages`.
         """
         rows = [_flat(json.loads(line)) for line in _gambol.read_log(self.folder)]
-        names = list(dict.fromkeys(name for row in rows for name in row))
-        whole = {"generation", "evaluations", "steps", "failures", "population", "tier"}
+        names = list(dict.fromkeys([*_ALWAYS, *(name for row in rows for name in row)]))
+        counts = {"generation", "evaluations", "steps", "failures", "population", "tier"}
         return {
             name: np.array([row.get(name, 0) for row in rows], np.int64)
-            if name in whole
+            if name in counts
             else np.array([row.get(name, np.nan) for row in rows], np.float64)
             for name in names
         }
 
     @property
+    def stages(self) -> list[Run]:
+        """The stages that have begun, in order, each a run of its own; none if it has none."""
+        folders = (self.folder / "stages").glob("[0-9]*-*")
+        return [Run(folder) for folder in sorted(folders) if (folder / "config.json").is_file()]
+
+    @property
     def champion(self) -> Champion | None:
-        """The best so far; ``None`` if every evaluation failed."""
+        """The best so far; ``None`` while none was chosen, or if none could be played to its end."""
         path = self.folder / "champion.json"
         return Champion(path) if path.is_file() else None
 
@@ -78,7 +92,8 @@ class Run:
         """
         planned = self._planned if generations is None else lambda: generations
         with _evaluating_on(cluster) as elsewhere, shown(progress, callback, planned) as told:
-            ended = _gambol.resume(self.folder, generations, threads, _told(told), elsewhere)
+            until = None if generations is None else whole("generations", generations, 1, MOST_SEED)
+            ended = _gambol.resume(self.folder, until, whole("threads", threads, 0, 1024), _told(told), elsewhere)
         return Run(self.folder, ended[0])
 
     def _planned(self) -> int | None:
@@ -92,7 +107,8 @@ class Run:
 
     def _repr_html_(self) -> str:
         """Where it is, how far it came, and its champion's replay: for notebooks."""
-        champion, done = self.champion, len(_gambol.read_log(self.folder))
+        champion = self.champion
+        done = sum(len(_gambol.read_log(run.folder)) for run in self.stages or [self])
         line = f"<p>{html.escape(str(self.folder))}, {done} generations</p>"
         return line + (champion._repr_html_() if champion is not None else "")
 
@@ -153,7 +169,7 @@ def train(
     """
     with _evaluating_on(cluster) as elsewhere, shown(progress, callback, Run(out)._planned) as told:
         ended = _gambol.train(
-            None if creature is None else os.fspath(creature),
+            None if creature is None else creature_text(creature),
             movement,
             Path(out),
             preset=preset,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -10,6 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from gambol._build import json_text, seed_of, whole
 from gambol._gambol import Search
 from gambol._resumable import Resumable, one_for_each
 
@@ -60,8 +60,9 @@ class Strategy(Resumable):
     ) -> None:
         """Builds the search; nothing is asked yet."""
         given = {field: value for field, value in settings.items() if value is not None}
-        sizes = None if layers is None else [int(width) for width in layers]
-        self._search = Search(self.name, dimension, sizes, seed, json.dumps(given))
+        size = None if dimension is None else whole("dimension", dimension, 0, 2**32)
+        sizes = None if layers is None else [whole(f"layers[{i}]", width, 0, 2**32) for i, width in enumerate(layers)]
+        self._search = Search(self.name, size, sizes, seed_of(seed), json_text(self.name, given))
 
     def ask(self) -> npt.NDArray[np.float32]:
         """The next generation, ``float32[population, dimension]``. Until it is told, the same again."""
@@ -71,7 +72,7 @@ class Strategy(Resumable):
         """The results of the generation last asked, in its order.
 
         Args:
-            fitness: ``float64[population]``, to be maximised; NaN for an evaluation that failed.
+            fitness: ``float64[population]``, to be maximised; what is not finite is an evaluation that failed.
             objectives: ``float64[population, objectives]``, to be maximised, for strategies that search for several.
 
         Raises:
@@ -80,6 +81,8 @@ class Strategy(Resumable):
         """
         values = one_for_each(fitness)
         several = None if objectives is None else np.ascontiguousarray(objectives, np.float64)
+        if several is not None and several.ndim != 2:
+            raise ValueError(f"objectives must be of two dimensions, found {several.ndim}")
         self._search.tell(values, several)
 
     @property

@@ -165,6 +165,8 @@ class VectorEnv(GymnasiumVectorEnv[Floats, Floats, npt.NDArray[Any]]):
         if not self._is_reset:
             raise RuntimeError("call reset before step")
         taken = np.ascontiguousarray(actions, np.float32)
+        if np.may_share_memory(taken, self._observations) or np.may_share_memory(taken, self._rewards):
+            taken = taken.copy()
         if taken.shape != self.action_space.shape:
             raise ValueError(f"actions must be of shape {self.action_space.shape}, found {taken.shape}")
         if self._copy:

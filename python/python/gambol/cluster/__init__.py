@@ -12,7 +12,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
-from gambol._build import assignments
+from gambol._build import assignments, creature_text
 from gambol.cluster._dispatch import Dispatcher
 from gambol.cluster._experiments import Recipe, Runs, carry_out, recipe
 from gambol.cluster._ray import RayWorkers
@@ -28,7 +28,7 @@ Names = Sequence[str | os.PathLike[str]]
 def _names(names: Names | str | None) -> list[str]:
     if isinstance(names, str):
         return [names]
-    return [os.fspath(name) for name in names or ()]
+    return [creature_text(name) for name in names or ()]
 
 
 def _do(of: Recipe, out: str | os.PathLike[str], cluster: Any, check: float, on_run: OnRun | None) -> list[Path]:
@@ -130,16 +130,17 @@ def tune(
     Returns:
         ``tuned.json``, the best settings as a configuration file, and the files of the comparison of the trials.
     """
+    chosen = list(seeds)
     of = recipe(
         "tune",
         strategy=strategy,
         creatures=_names(creatures),
         movements=_names(movements),
-        seeds=list(seeds),
+        seeds=chosen,
         evaluations=evaluations,
         trials=trials,
         spread=spread,
-        draw_seed=next(iter(seeds), 0),
+        draw_seed=chosen[0] if chosen else 0,
         preset=preset,
         settings=assignments(settings),
     )

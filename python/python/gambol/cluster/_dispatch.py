@@ -87,7 +87,11 @@ class Dispatcher(Generic[Result]):
         """
         with self._changed:
             for number in doing.flying:
-                self._forget(number)
+                # What is under way is done to its end, or ended by force: a worker that was asked to stop cannot be.
+                if number in doing.queued:
+                    self._forget(number)
+                else:
+                    self._flights[number].doing = None
             self._doings.remove(doing)
         if doing.error is not None:
             raise doing.error

@@ -7,15 +7,23 @@ import json
 from pathlib import Path
 from typing import Any
 
+from gambol._build import json_text
 from gambol._gambol import Experiment
 
 #: How an experiment is made: the name of a constructor of ``Experiment``, and its arguments as JSON.
 Recipe = tuple[str, str]
 
+#: Arguments that are whole numbers.
+_WHOLE = ("seeds", "evaluations", "steps", "runs", "generations", "trials")
+
 
 def recipe(kind: str, **arguments: Any) -> Recipe:
     """The recipe of an experiment."""
-    return kind, json.dumps(arguments, sort_keys=True)
+    for name, value in arguments.items():
+        numbers = value if name == "seeds" else [value]
+        if name in _WHOLE and any(number is not None and number < 0 for number in numbers):
+            raise ValueError(f"{name} = {value}: must not be below 0")
+    return kind, json_text(kind, dict(sorted(arguments.items())))
 
 
 @functools.lru_cache(maxsize=8)

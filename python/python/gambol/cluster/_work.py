@@ -20,6 +20,10 @@ class DifferentBits(RuntimeError):
         #: What the task is called.
         self.task = task
 
+    def __reduce__(self) -> tuple[type[DifferentBits], tuple[str, str]]:
+        """It pickles."""
+        return type(self), (self.node, self.task)
+
 
 class Lost(RuntimeError):
     """A worker, a machine or a result was lost before the task was done."""
