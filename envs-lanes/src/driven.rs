@@ -192,7 +192,7 @@ impl DrivenStep {
     /// that after it. `is_last`: whether episodes last no longer.
     pub fn judged(movement: &mut dyn Movement, snapshot: &Snapshot, value: &mut f64, is_last: bool) -> Self {
         let end = match movement.observe(snapshot) {
-            Verdict::Fail(reason) => return Self::failed(Failure::Unstable { what: reason.into() }),
+            Verdict::Fail(reason) => return Self::failed(Failure::Other { what: reason.into() }),
             Verdict::End => Some(DrivenEnd::Ended),
             Verdict::GoOn => is_last.then_some(DrivenEnd::OutOfTime),
         };

@@ -100,7 +100,7 @@ impl<'a, 'b> LanePlayer<'a, 'b> {
             return Some(Outcome { steps, time_step, failure: Some(failure) });
         }
         let failure = match movement.observe(&slot.snapshot) {
-            Verdict::Fail(reason) => Some(Failure::Unstable { what: reason.into() }),
+            Verdict::Fail(reason) => Some(Failure::Other { what: reason.into() }),
             Verdict::GoOn if steps < self.episode.steps() => return None,
             Verdict::GoOn | Verdict::End => None,
         };

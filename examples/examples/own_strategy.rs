@@ -8,7 +8,7 @@
 use gambol::{
     Registry,
     compare::{ComparisonFolder, Method, Part, PlanRequest, WorkOptions, table, work, write_outcome},
-    strategies::NetStrategy,
+    strategies::{NetStrategy, weights_of},
 };
 use ne_core::{
     Evaluation, Fitness, Purpose, Seed, SettingError, StopConditions, Strategy, conformance::check_strategy,
@@ -59,6 +59,15 @@ impl NetStrategy for Annealing {
 
     fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The champion of another search is a candidate of this one.
+    fn genome(topology: &Topology, weights: &[f32]) -> Option<WeightVector> {
+        WeightVector::new(topology.clone(), weights.to_vec(), 0.0).ok()
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::suggest;
 use creatures::{Blueprint, Creature, CreatureError, Sense, Sensor, Terrain};
 use envs_rapier::Variation;
+use ne_core::field_path::{self, FieldError};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::{fmt, sync::Arc};
@@ -141,7 +142,7 @@ impl Catalogue<Variation> {
 #[derive(Clone)]
 pub struct MakeSense(Arc<Make>);
 
-type Make = dyn Fn(&Map<String, Value>) -> Result<Arc<dyn Sense>, serde_json::Error> + Send + Sync;
+type Make = dyn Fn(&Map<String, Value>) -> Result<Arc<dyn Sense>, FieldError> + Send + Sync;
 
 impl fmt::Debug for MakeSense {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -161,7 +162,7 @@ impl Catalogue<MakeSense> {
     /// sense is read from its settings: it derives `Deserialize` with `#[serde(default, deny_unknown_fields)]`.
     pub fn add_sense<S: Sense + DeserializeOwned + 'static>(&mut self, name: &str, description: &str) -> &mut Self {
         let make = |settings: &Map<String, Value>| -> Result<Arc<dyn Sense>, _> {
-            Ok(Arc::new(serde_json::from_value::<S>(Value::Object(settings.clone()))?))
+            Ok(Arc::new(field_path::from_value::<S>(&Value::Object(settings.clone()))?))
         };
         self.add(name, description, MakeSense(Arc::new(make)))
     }
@@ -175,8 +176,10 @@ impl Catalogue<MakeSense> {
             let Sensor::Custom(custom) = sensor else { return Ok(sensor.clone()) };
             let place = format!("sensors[{index}].custom");
             let make = self.find(&custom.name).map_err(|error| UnknownName(format!("{place}.name: {error}")))?;
-            let sense = (make.0)(&custom.settings)
-                .map_err(|error| UnknownName(format!("{place}.settings: {}", suggest::explain(&error.to_string()))))?;
+            let sense = (make.0)(&custom.settings).map_err(|FieldError { path, message, .. }| {
+                let field = if path == "." { String::new() } else { format!(".{path}") };
+                UnknownName(format!("{place}.settings{field}: {}", suggest::explain(&message)))
+            })?;
             Ok(Sensor::Custom(custom.clone().sensing(sense, blueprint)))
         };
         sensors.iter().enumerate().map(tell).collect()

@@ -95,7 +95,7 @@ mod tests {
         registry.movements.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
         let folder = tempfile::tempdir()?;
         for (movement, says) in [
-            ("failing", "every evaluation failed: the simulation is unstable: on purpose"),
+            ("failing", "every evaluation failed: on purpose"),
             ("counting", "the champion does not repeat itself: Verification"),
             ("nothing", "movement.name: there is no movement or term \"nothing\""),
         ] {

@@ -61,6 +61,20 @@ pub enum EvolutionError {
         /// The generation, from 1.
         generation: u64,
     },
+    /// The strategy tells a number of itself that is none, which no log can hold.
+    #[error(
+        "the strategy \"{strategy}\" tells a \"{statistic}\" of {value} in generation {generation}: it must be finite"
+    )]
+    Statistic {
+        /// The strategy's name.
+        strategy: String,
+        /// What it tells of.
+        statistic: String,
+        /// What it tells.
+        value: f64,
+        /// The generation, from 1.
+        generation: u64,
+    },
     /// The evaluator lost or invented evaluations.
     #[error("the evaluator gave {found} evaluations for {expected} genomes in generation {generation}")]
     EvaluationCount {
@@ -89,6 +103,7 @@ impl EvolutionError {
         match *self {
             Self::Observer(_) => None,
             Self::EmptyPopulation { generation, .. }
+            | Self::Statistic { generation, .. }
             | Self::EvaluationCount { generation, .. }
             | Self::ReEvaluationCount { generation, .. } => Some(generation),
         }
@@ -217,6 +232,11 @@ impl<S: Strategy> Evolution<S> {
                 outcome.map_err(|wrong| wrong.into_error(generation))?
             }
         };
+        let statistics = self.strategy.statistics();
+        if let Some(found) = statistics.iter().find(|statistic| !statistic.value.is_finite()) {
+            let (strategy, statistic) = (self.strategy.name().to_owned(), found.name.clone());
+            return Err(EvolutionError::Statistic { strategy, statistic, value: found.value, generation });
+        }
         let report = GenerationReport {
             generation,
             evaluations: self.progress.evaluations,
@@ -227,7 +247,7 @@ impl<S: Strategy> Evolution<S> {
             failures: evaluations.iter().filter(|evaluation| evaluation.outcome.is_err()).count() as u64,
             failure: commonest_failure(&evaluations),
             population: genomes.len() as u64,
-            strategy: self.strategy.statistics(),
+            strategy: statistics,
             species: self.strategy.species(),
             re_evaluation,
         };

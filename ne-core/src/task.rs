@@ -9,7 +9,7 @@ use std::{
 /// An implementor owes:
 /// - the result is a function of the phenotype's behaviour and the seed: no clock, no shared generator, nothing left
 ///   over from an earlier evaluation; chance comes from [`Seed::stream`];
-/// - the phenotype is [`reset`](Phenotype::reset) between two trials (evaluators reset it before the first);
+/// - the phenotype is [`reset`](Phenotype::reset) before every trial, the first too: it may remember another evaluation;
 /// - whatever goes wrong is an [`Evaluation`] with a [`Failure`], not a panic: a phenotype of another shape, outputs
 ///   that are NaN (clamping one into a number would hide it).
 ///

@@ -36,6 +36,7 @@
 //!     fn inputs(&self) -> usize { 1 }
 //!     fn outputs(&self) -> usize { 1 }
 //!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
+//!         phenotype.reset();
 //!         let mut error = 0.0;
 //!         for step in -10..=10 {
 //!             let (input, mut answer) = (step as f32 * 0.1, [0.0]);

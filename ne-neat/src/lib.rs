@@ -32,6 +32,7 @@
 //!     fn inputs(&self) -> usize { 2 }
 //!     fn outputs(&self) -> usize { 1 }
 //!     fn evaluate(&self, phenotype: &mut dyn Phenotype, _: Seed) -> Evaluation {
+//!         phenotype.reset();
 //!         let (mut error, mut answer) = (0.0, [0.0]);
 //!         for (a, b) in [(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)] {
 //!             phenotype.activate(&[a, b], &mut answer);

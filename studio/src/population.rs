@@ -118,7 +118,7 @@ impl Population {
         let place = *best_first(&told.individuals.fitness).get(place)?;
         let mut family = vec![told.entrant(place, &told.ranks_before())];
         let parent = |place: usize| {
-            let member = Member { fitness: before.fitness[place], ..Member::default() };
+            let member = Member { fitness: *before.fitness.get(place)?, ..Member::default() };
             Some(Entrant { network: before.genomes.get(place)?.express(), member })
         };
         family.extend(told.origins.get(place)?.parents().filter_map(parent));

@@ -166,7 +166,7 @@ impl<E: Environment> EvaluationState<E> {
             match verdict {
                 Verdict::GoOn => {}
                 Verdict::End => return (step, None),
-                Verdict::Fail(reason) => return (step, Some(Failure::Unstable { what: reason.into() })),
+                Verdict::Fail(reason) => return (step, Some(Failure::Other { what: reason.into() })),
             }
         }
         (steps, None)

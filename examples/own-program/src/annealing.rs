@@ -2,7 +2,7 @@
 //!
 //! Source: Kirkpatrick, Gelatt & Vecchi, *Optimization by Simulated Annealing*, Science 220, 1983.
 
-use gambol::strategies::{NetStrategy, Transfer};
+use gambol::strategies::{NetStrategy, Transfer, weights_of};
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Strategy};
 use ne_fixed::WeightVector;
 use ne_net::Topology;
@@ -77,6 +77,15 @@ impl NetStrategy for Annealing {
 
     fn settings(&self) -> &Settings {
         &self.settings
+    }
+
+    /// The champion of another search is a candidate of this one.
+    fn genome(topology: &Topology, weights: &[f32]) -> Option<WeightVector> {
+        WeightVector::new(topology.clone(), weights.to_vec(), 0.0).ok()
+    }
+
+    fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+        weights_of(genome, expressed)
     }
 
     fn begin_at(settings: &Settings, topology: &Topology, weights: &[f32]) -> Result<Self, SettingError> {

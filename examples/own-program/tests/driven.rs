@@ -125,6 +125,13 @@ fn every_command_knows_the_strategy() {
     // Another run goes on from it, and so does a stage.
     let on = ["--from", "whole", "--seed", "2", "--out", "on"];
     said(here, 0, &[&train[..], &on].concat());
+    // What had been found is not lost.
+    let fitness = |run: &str| {
+        let champion: serde_json::Value =
+            serde_json::from_slice(&bytes(&format!("{run}/champion.json"))).expect("JSON");
+        champion["content"]["fitness"].as_f64().expect("a number")
+    };
+    assert!(fitness("on") >= fitness("whole"), "{} after {}", fitness("on"), fitness("whole"));
     let stages = serde_json::json!({ "stages": [
         { "name": "short", "changes": { "movement": { "steps": 100 } }, "promotion": { "generations": 3 } },
         { "name": "long", "changes": { "movement": { "steps": 150 } } },
@@ -186,7 +193,10 @@ fn creatures_sensors_terrains_and_variations_are_known_by_name() {
             r#"{"custom":{"name":"lfit"}}"#,
             "sensors[0].custom.name: there is no custom sensor \"lfit\"; did you mean \"lift\"?",
         ),
-        (r#"{"custom":{"name":"lift","settings":{"mots":3}}}"#, "sensors[0].custom.settings: unknown field `mots`"),
+        (
+            r#"{"custom":{"name":"lift","settings":{"mots":3}}}"#,
+            "sensors[0].custom.settings.mots: unknown field `mots`",
+        ),
     ] {
         let wrong = format!("sensors=[{sensor}]");
         let message = said(here, 1, &[&kicker[..], &["--set", &wrong, "--out", "wrong"]].concat());

@@ -44,7 +44,12 @@ impl StrategySettings {
 
     /// Its settings as what they are.
     pub(crate) fn parse<T: DeserializeOwned>(&self) -> Result<T, FieldError> {
-        field_path::from_value(&Value::Object(self.settings.clone()))
+        let found = field_path::from_value(&Value::Object(self.settings.clone()));
+        // Those of a strategy without any are written as an empty list of fields.
+        match found {
+            Err(_) if self.settings.is_empty() => field_path::from_value(&Value::Null).or(found),
+            found => found,
+        }
     }
 
     /// Changes one setting.
@@ -119,3 +124,17 @@ impl<'de> Deserialize<'de> for StrategySettings {
 }
 
 const EXAMPLE: &str = "{\"cma-es\": {}}";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_strategy_may_have_no_settings() {
+        let none = StrategySettings::new("dice", &());
+        assert_eq!(none.of::<()>("dice"), Some(()));
+        let written = serde_json::to_string(&none).expect("JSON");
+        assert_eq!(written, r#"{"dice":{}}"#);
+        assert_eq!(serde_json::from_str::<StrategySettings>(&written).expect("its own"), none);
+    }
+}

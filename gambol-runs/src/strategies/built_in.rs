@@ -1,13 +1,13 @@
 //! The strategies Gambol brings along, registered as any other.
 
-use super::{NetStrategy, StrategyCatalogue, Transfer, expressed_net};
+use super::{NetStrategy, StrategyCatalogue, Transfer, expressed_net, weights_of};
 use ne_core::SettingError;
 use ne_fixed::{
     Ars, ArsSettings, CmaEs, CmaEsSettings, ConventionalNe, ConventionalNeSettings, Cosyne, CosyneSettings,
     HillClimbing, HillClimbingSettings, Nsga2, Nsga2Settings, OpenEs, OpenEsSettings, RandomSearch,
     RandomSearchSettings, WeightVector,
 };
-use ne_neat::{Neat, NeatSettings};
+use ne_neat::{Neat, NeatGenome, NeatSettings};
 use ne_net::Topology;
 use std::sync::Arc;
 
@@ -39,14 +39,6 @@ macro_rules! derived_schema {
             Some(generator.subschema_for::<Self::Settings>())
         }
     };
-}
-
-/// The net of a weight vector.
-fn weights_of(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
-    match expressed {
-        true => expressed_net(genome),
-        false => (genome.topology().clone(), genome.weights().to_vec()),
-    }
 }
 
 /// A search for the weights of a fixed net: all have the same ways to begin, and to go on.
@@ -166,6 +158,15 @@ impl NetStrategy for Neat {
         Err(SettingError::new("strategy", "neat", "one that searches the weights of a given net"))
     }
 
+    /// It finds its topology itself.
+    fn genome(_: &Topology, _: &[f32]) -> Option<NeatGenome> {
+        None
+    }
+
+    fn net(genome: &NeatGenome, _: bool) -> (Topology, Vec<f32>) {
+        expressed_net(genome)
+    }
+
     derived_schema!();
 }
 
@@ -187,6 +188,11 @@ impl NetStrategy for RandomSearch {
         self.topology() == topology
     }
 
+    /// What others have found it does not go on from.
+    fn genome(_: &Topology, _: &[f32]) -> Option<WeightVector> {
+        None
+    }
+
     fn net(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
         weights_of(genome, expressed)
     }
@@ -199,6 +205,18 @@ mod tests {
     use super::*;
     use ne_core::{Evaluation, Seed, Strategy};
     use ne_net::DenseShape;
+
+    #[test]
+    fn a_strategy_that_takes_a_place_has_its_alias_or_one_of_its_own() {
+        let mut catalogue = StrategyCatalogue::default();
+        catalogue.add::<ConventionalNe>("another of this name");
+        let named =
+            |catalogue: &StrategyCatalogue, alias: &str| catalogue.find(alias).map(|entry| entry.name().to_owned());
+        assert_eq!(named(&catalogue, "ga").as_deref(), Some("conventional"));
+        catalogue.alias("classic");
+        assert_eq!(named(&catalogue, "classic").as_deref(), Some("conventional"));
+        assert_eq!(named(&catalogue, "ga"), None);
+    }
 
     fn of_width(hidden: usize) -> Topology {
         DenseShape::new(3, vec![hidden], 2).into()

@@ -10,6 +10,8 @@ use std::{fmt, marker::PhantomData, path::Path, sync::Arc};
 #[derive(Clone, Debug)]
 pub struct StrategyCatalogue {
     entries: Vec<StrategyEntry>,
+    /// Which was added last.
+    last: usize,
 }
 
 /// A strategy that users can ask for by name.
@@ -47,15 +49,18 @@ pub enum StrategyError {
 impl StrategyCatalogue {
     /// A catalogue without any.
     pub fn empty() -> Self {
-        Self { entries: Vec::new() }
+        Self { entries: Vec::new(), last: 0 }
     }
 
-    /// Adds a strategy, or replaces the one of the same name. `description`: one sentence.
+    /// Adds a strategy, or replaces the one of the same name, whose alias it has then. `description`: one sentence.
     pub fn add<S: NetStrategy>(&mut self, description: &str) -> &mut Self {
         let kind = Arc::new(KindOf::<S>(PhantomData));
-        let entry = StrategyEntry { name: S::NAME, alias: None, description: description.into(), kind };
-        match self.entries.iter_mut().find(|entry| entry.name == S::NAME) {
-            Some(found) => *found = entry,
+        let found = self.entries.iter().position(|entry| entry.name == S::NAME);
+        let alias = found.and_then(|index| self.entries[index].alias.clone());
+        let entry = StrategyEntry { name: S::NAME, alias, description: description.into(), kind };
+        self.last = found.unwrap_or(self.entries.len());
+        match found {
+            Some(index) => self.entries[index] = entry,
             None => self.entries.push(entry),
         }
         self
@@ -63,7 +68,7 @@ impl StrategyCatalogue {
 
     /// Gives the strategy added last a shorter name, for the command line.
     pub fn alias(&mut self, alias: &str) -> &mut Self {
-        if let Some(entry) = self.entries.last_mut() {
+        if let Some(entry) = self.entries.get_mut(self.last) {
             entry.alias = Some(alias.into());
         }
         self
@@ -76,7 +81,8 @@ impl StrategyCatalogue {
 
     /// The strategy of this name or alias.
     pub fn find(&self, name: &str) -> Option<&StrategyEntry> {
-        self.entries.iter().find(|entry| entry.name == name || entry.alias.as_deref() == Some(name))
+        let named = self.entries.iter().find(|entry| entry.name == name);
+        named.or_else(|| self.entries.iter().find(|entry| entry.alias.as_deref() == Some(name)))
     }
 
     /// All names, each with its alias before it.

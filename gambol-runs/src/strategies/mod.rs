@@ -12,6 +12,7 @@ pub use any::{AnyGenome, AnyStrategy};
 pub use catalogue::{StrategyCatalogue, StrategyEntry, StrategyError};
 
 use ne_core::{Genome, SettingError, Strategy};
+use ne_fixed::WeightVector;
 use ne_net::{Network, Topology, TopologyMap};
 use serde::{Serialize, de::DeserializeOwned};
 
@@ -91,11 +92,9 @@ pub trait NetStrategy:
         false
     }
 
-    /// The genome of one net, whose weights these are; `None`, the default: the strategy has none for it.
-    fn genome(topology: &Topology, weights: &[f32]) -> Option<Self::Genome> {
-        let _ = (topology, weights);
-        None
-    }
+    /// The genome of one net, whose weights these are: the champion of another search is the first candidate of this one by it.
+    /// `None`: the strategy has none for it, and begins without that champion.
+    fn genome(topology: &Topology, weights: &[f32]) -> Option<Self::Genome>;
 
     /// The JSON Schema of its settings, which a schema of configurations has in it; `None`, the default: none was written, and
     /// any object will do. Of settings that derive `JsonSchema` it is `Some(generator.subschema_for::<Self::Settings>())`.
@@ -105,11 +104,9 @@ pub trait NetStrategy:
         None
     }
 
-    /// The net of a genome: the topology and its weights, expressed or as they are searched. By default expressed.
-    fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>) {
-        let _ = expressed;
-        expressed_net(genome)
-    }
+    /// The net of a genome: the topology and its weights, expressed or as they are searched. Of weight vectors it is
+    /// [`weights_of`]; where both are the same, [`expressed_net`].
+    fn net(genome: &Self::Genome, expressed: bool) -> (Topology, Vec<f32>);
 }
 
 /// What becomes of the nets of a search that goes on.
@@ -125,7 +122,16 @@ pub struct Transfer<'a> {
     pub outputs: &'a TopologyMap,
 }
 
-fn expressed_net<G: Genome<Phenotype: Into<Network>>>(genome: &G) -> (Topology, Vec<f32>) {
+/// The net that a genome is expressed as.
+pub fn expressed_net<G: Genome<Phenotype: Into<Network>>>(genome: &G) -> (Topology, Vec<f32>) {
     let network: Network = genome.express().into();
     (network.topology(), network.weights().to_vec())
+}
+
+/// The net of a weight vector, expressed or as it is searched: what [`NetStrategy::net`] is of searches for weights.
+pub fn weights_of(genome: &WeightVector, expressed: bool) -> (Topology, Vec<f32>) {
+    match expressed {
+        true => expressed_net(genome),
+        false => (genome.topology().clone(), genome.weights().to_vec()),
+    }
 }

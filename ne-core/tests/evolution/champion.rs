@@ -1,6 +1,7 @@
 use crate::scripted::{Prompter, Script, Unused};
 use ne_core::{
-    Evaluation, Evaluator, EvolutionError, Genome, Phenotype, Seed, Serial, StopConditions, Task, conformance::Puppet,
+    Evaluation, Evaluator, Evolution, EvolutionError, Genome, Phenotype, Seed, Serial, Statistic, StopConditions, Task,
+    conformance::Puppet,
 };
 
 const FAILED: f64 = f64::NAN;
@@ -63,6 +64,17 @@ fn the_report_counts_what_was_done() -> Result<(), EvolutionError> {
     assert_eq!((second.generation, second.evaluations, second.steps, second.population), (2, 4, 40, 1));
     assert_eq!(second.best_so_far.map(|best| best.get()), Some(4.0));
     Ok(())
+}
+
+#[test]
+fn a_statistic_that_is_no_number_is_an_error_with_names() {
+    let mut script = Script::new(&[&[1.0]]);
+    script.statistics = vec![Statistic::new("heat", 1.0), Statistic::new("depth", f64::NAN)];
+    let mut evolution = Evolution::new(script, Seed::of_run(1), StopConditions::default());
+    let prompter = Prompter::of(&evolution);
+    let error = evolution.run(&Unused, &prompter, &mut []).expect_err("no log can hold it");
+    let says = "the strategy \"script\" tells a \"depth\" of NaN in generation 1: it must be finite";
+    assert_eq!((error.to_string(), error.generation()), (says.to_owned(), Some(1)));
 }
 
 #[test]

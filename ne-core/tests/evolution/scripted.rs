@@ -1,7 +1,7 @@
 //! A run whose fitnesses are written down beforehand.
 
 use ne_core::{
-    Evaluation, Evaluator, Evolution, Failure, Genome, Phenotype, Seed, StopConditions, Strategy, Task,
+    Evaluation, Evaluator, Evolution, Failure, Genome, Phenotype, Seed, Statistic, StopConditions, Strategy, Task,
     conformance::Puppet,
 };
 use serde::{Deserialize, Serialize};
@@ -14,6 +14,8 @@ pub(crate) struct Script {
     pub(crate) lines: Vec<Vec<f64>>,
     asked: Vec<Puppet>,
     recommended: Option<Puppet>,
+    /// What it tells of itself.
+    pub(crate) statistics: Vec<Statistic>,
 }
 
 impl Script {
@@ -22,9 +24,13 @@ impl Script {
         &self.lines[last.min(generation as usize - 1)]
     }
 
-    pub(crate) fn evolution(lines: &[&[f64]], stop: StopConditions) -> Evolution<Self> {
+    pub(crate) fn new(lines: &[&[f64]]) -> Self {
         let lines = lines.iter().map(|line| line.to_vec()).collect();
-        Evolution::new(Self { lines, asked: Vec::new(), recommended: None }, Seed::of_run(1), stop)
+        Self { lines, asked: Vec::new(), recommended: None, statistics: Vec::new() }
+    }
+
+    pub(crate) fn evolution(lines: &[&[f64]], stop: StopConditions) -> Evolution<Self> {
+        Evolution::new(Self::new(lines), Seed::of_run(1), stop)
     }
 }
 
@@ -45,6 +51,10 @@ impl Strategy for Script {
     }
 
     fn tell(&mut self, _: &[Evaluation], _: Seed) {}
+
+    fn statistics(&self) -> Vec<Statistic> {
+        self.statistics.clone()
+    }
 
     fn recommendation(&self) -> Option<Puppet> {
         self.recommended.clone()
