@@ -195,7 +195,7 @@ impl Movement for Disqualifies {
 #[test]
 fn a_movement_that_fails_fails_the_evaluation_and_says_why() {
     let three = Trials { count: 3, ..ONE };
-    let too_far = Failure::Unstable { what: "too far".into() };
+    let too_far = Failure::Other { what: "too far".into() };
     let summed = Sum::of(Until(0.1, Running::default())).plus(0.0, Disqualifies(0.1));
     for (movement, what) in
         [(Sum::of(Disqualifies(0.1)), "alone"), (summed, "beside a term that ends the episode in the same step")]

@@ -163,7 +163,7 @@ impl Movement for Disqualifies {
 #[test]
 fn a_movement_that_fails_a_trial_does_so_in_lanes() {
     let trials = Trials { count: 3, combine: Combine::Mean, lessons: false };
-    let ducks = Err(Failure::Unstable { what: "it ducks".into() });
+    let ducks = Err(Failure::Other { what: "it ducks".into() });
     for name in ["biped-1", "tetrapod-2"] {
         for by in [0.0, 0.01, 0.05] {
             let movement = Sum::of(Running::default()).plus(0.5, Disqualifies { by, start: 0.0 });

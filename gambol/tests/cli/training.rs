@@ -174,8 +174,7 @@ fn a_run_in_which_every_evaluation_fails_says_why() -> Outcome {
     let mut train = gambol("train");
     train.arg(&file).args(["running", "--quiet", "--generations", "2", "--population", "4", "--threads", "1", "--out"]);
     let message = fail(train.arg(&path));
-    let says = "run has no champion: in its last generation every evaluation failed, most often for this reason: the simulation is \
-                unstable: ";
+    let says = "run has no champion: in its last generation every evaluation failed, most often for this reason: a joint comes apart";
     assert_says(&message, &["error: ", says]);
     assert!(path.join("report.html").is_file());
     for command in ["gait", "robust", "replay", "verify"] {
