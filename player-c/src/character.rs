@@ -97,7 +97,10 @@ pub unsafe extern "C" fn gambol_character_part_name(
 unsafe fn copy_text(text: &str, to: *mut c_char, size: usize) -> usize {
     if let (false, Some(room)) = (to.is_null(), size.checked_sub(1)) {
         // Not within a character: what is left is text.
-        let count = (0..=text.len().min(room)).rev().find(|&end| text.is_char_boundary(end)).unwrap_or(0);
+        let mut count = text.len().min(room);
+        while !text.is_char_boundary(count) {
+            count -= 1;
+        }
         // SAFETY: `count` + 1 bytes are there.
         unsafe {
             ptr::copy_nonoverlapping(text.as_ptr().cast(), to, count);

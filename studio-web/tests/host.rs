@@ -235,7 +235,7 @@ fn files_have_addresses() -> Outcome {
     let verified = worker.download("runs/biped-1-running/verify")?;
     assert_eq!(serde_json::from_slice::<Value>(&verified.bytes)?["identical"], true);
     let champion = worker.download("runs/biped%2d1-running/champion.json")?;
-    assert_eq!(champion.name.as_deref(), Some("biped-1-running.json"));
+    assert_eq!(champion.name.as_deref(), Some("biped-1-running.champion.json"));
     assert!(champion.bytes == fs::read(folder.path().join("runs/biped-1-running/champion.json"))?);
     let report = worker.download("runs/biped-1-running/report")?;
     assert!(String::from_utf8(report.bytes)?.contains("</html>"));

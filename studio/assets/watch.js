@@ -154,6 +154,8 @@ class Watch {
 
   note(frame) {
     if (this.contacts.length && frame.step <= this.contacts[this.contacts.length - 1].step) this.contacts = [];
+    // From the start on: what was drawn of another says nothing.
+    if (!this.contacts.length) this.footfallsAt = NaN;
     this.contacts.push({ step: frame.step, masks: frame.contacts.slice() });
     if (this.contacts.length > 600) this.contacts.splice(0, 200);
   }
@@ -163,8 +165,11 @@ class Watch {
     const { event, model } = this.arena;
     const last = footfalls[footfalls.length - 1]?.step;
     // Moving by less than a pixel is not seen.
-    if (!stage.visible || !event || !footfalls.length || Math.abs(last - this.footfallsAt) < 4) return;
+    // A canvas of another size is empty.
+    const isDrawn = Math.abs(last - this.footfallsAt) < 4 && !stage.stale;
+    if (!stage.visible || !event || !footfalls.length || isDrawn) return;
     this.footfallsAt = last;
+    stage.stale = false;
     const c = stage.context;
     stage.resetTransform();
     c.clearRect(0, 0, stage.width, stage.height);
