@@ -221,9 +221,7 @@ impl Player {
             return Err(TickError::Seconds);
         }
         let is_finite = |number: &f32| number.is_finite();
-        if !parts.iter().fold(true, |finite, part| finite & part.is_finite())
-            || !outside.iter().chain([&command.speed]).all(is_finite)
-        {
+        if !parts.iter().all(PartState::is_finite) || !outside.iter().chain([&command.speed]).all(is_finite) {
             return Err(TickError::NotFinite);
         }
         self.view.see(parts, &mut self.parts);

@@ -35,9 +35,7 @@ impl PartState {
 
     /// Whether every number of it is finite.
     pub fn is_finite(&self) -> bool {
-        // Without branches: this is asked of every part in every frame.
-        let Self { x, y, cos, sin, vx, vy, spin, touching: _ } = *self;
-        [x, y, cos, sin, vx, vy, spin].iter().fold(true, |finite, number| finite & number.is_finite())
+        [self.x, self.y, self.cos, self.sin, self.vx, self.vy, self.spin].iter().all(|number| number.is_finite())
     }
 }
 
