@@ -1,4 +1,5 @@
-//! What `player` does with a champion's file is what the champion did in training, to the bit.
+//! What `player` does with a champion's file is what the champion did in training, to the bit; and what cannot be exported is refused before
+//! anything is played.
 //!
 //! `player/fixtures` holds two characters with their traces, which the players in other languages are tested with. Where
 //! something of them is to change, write them anew:
@@ -11,9 +12,10 @@ mod common;
 
 use common::{Outcome, all_sensors, champion, dense, recurrent};
 use creatures::{Actuation, Sensor};
-use gambol_exports::{Format, Options, Picture, export};
+use envs_rapier::PhysicsSettings;
+use gambol_exports::{ExportError, Format, Options, Picture, export};
 use gambol_runs::{Registry, champion::Champion};
-use ne_net::Network;
+use ne_net::{DenseNet, DenseShape, Network};
 use player::{Character, Command, Outside, PartState, Player, TickError};
 use std::{env, error::Error, fs, path::Path, sync::Arc};
 
@@ -183,5 +185,35 @@ fn what_a_game_tells_wrongly_leaves_the_motors_still() -> Outcome {
     let mut fresh = player.another();
     player.reset();
     assert_eq!(player.tick(&parts, &outside, run, 0.02)?, fresh.tick(&parts, &outside, run, 0.02)?);
+    Ok(())
+}
+
+/// Of more weights that differ than a player's file lists numbers.
+fn wide(inputs: usize, outputs: usize) -> Network {
+    let shape = DenseShape::new(inputs, vec![260, 260], outputs);
+    let weights: Vec<f32> = (0..shape.weight_count()).map(|index| index as f32 * 1e-6).collect();
+    DenseNet::new(shape, &weights).expect("as many weights as there are").into()
+}
+
+#[test]
+fn a_swimmer_has_no_ground_to_paint() -> Outcome {
+    let mut swimmer = champion("apod", "flat", Actuation::Speed, vec![Sensor::JointAngles], dense)?;
+    swimmer.physics = PhysicsSettings { water: Some(Default::default()), ..swimmer.physics };
+    let picture = Picture { ground: true, ..Picture::default() };
+    let options = Options { name: "it".into(), steps: None, picture };
+    let refused = export(&swimmer, &Registry::default(), Format::Gif, &options).err();
+    assert!(matches!(refused, Some(ExportError::NoGround)), "{refused:?}");
+    Ok(())
+}
+
+#[test]
+fn what_no_file_of_a_player_can_hold_has_no_trace() -> Outcome {
+    let champion = champion("biped-1", "flat", Actuation::Speed, vec![Sensor::JointAngles], wide)?;
+    let options = Options { name: "it".into(), steps: Some(1), picture: Picture::default() };
+    for format in [Format::Player, Format::Trace] {
+        let refused = export(&champion, &Registry::default(), format, &options).err();
+        let says = refused.as_ref().map(ToString::to_string).unwrap_or_default();
+        assert!(says.contains("at most 65535 that differ"), "{says:?}");
+    }
     Ok(())
 }

@@ -19,16 +19,14 @@ class Play {
     get("play-reset").addEventListener("click", () => this.begin());
     get("play-learned").addEventListener("click", () => { this.asLearned(); this.begin(); });
     // The keys are the champion's again, once a control was clicked or let go of.
-    for (const kind of ["click", "pointerup", "change"]) {
-      get("play").addEventListener(kind, event => {
-        if (kind === "pointerup" && !event.target.matches("input")) return;
-        if (kind === "click" && (!event.detail || !event.target.matches("button"))) return;
-        if (kind === "change" && !(this.isByPointer && event.target.matches("select"))) return;
-        get("arena-canvas").focus({ preventScroll: true });
-      });
-    }
-    get("play").addEventListener("pointerdown", () => { this.isByPointer = true; });
-    get("play").addEventListener("keydown", () => { this.isByPointer = false; });
+    const giveBack = () => get("arena-canvas").focus({ preventScroll: true });
+    get("play").addEventListener("click", ({ detail, target }) => { if (detail && target.matches("button")) giveBack(); });
+    get("play").addEventListener("pointerup", ({ target }) => { if (target.matches("input")) giveBack(); });
+    // Who goes through a list by keys is not done with its first change.
+    let isByPointer = false;
+    this.inputs.terrain.addEventListener("pointerdown", () => { isByPointer = true; });
+    this.inputs.terrain.addEventListener("keydown", () => { isByPointer = false; });
+    this.inputs.terrain.addEventListener("change", () => { if (isByPointer) giveBack(); });
     connection.on("opened", () => this.asLearned());
     document.addEventListener("keydown", event => this.key(event, true));
     document.addEventListener("keyup", event => this.key(event, false));
@@ -52,9 +50,8 @@ class Play {
 
   // The world as the champion has learned in it.
   asLearned() {
-    Object.assign(this.inputs.gravity, { value: 1 });
-    Object.assign(this.inputs.tilt, { value: 0 });
-    Object.assign(this.inputs.friction, { value: 1 });
+    const { gravity, tilt, friction } = this.inputs;
+    [gravity.value, tilt.value, friction.value] = [1, 0, 1];
     this.setTerrain("");
     this.tellWorld();
   }
