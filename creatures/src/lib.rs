@@ -142,7 +142,7 @@ pub use sense::Sense;
 #[cfg(feature = "files")]
 pub use senses::{DEFAULT_INPUT_RANGE, Senses};
 #[cfg(feature = "files")]
-pub use sensor::Sensor;
+pub use sensor::{Sensor, SensorKind};
 pub use shape::Shape;
 #[cfg(feature = "files")]
 pub use shipped::{ShippedCreature, UnknownCreature, find, shipped};

@@ -98,50 +98,125 @@ pub enum Sensor {
     Custom(CustomSensor),
 }
 
+/// A kind of sensor, as lists show it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SensorKind {
+    /// Its name in files.
+    pub name: &'static str,
+    /// One as a file writes it, with its settings.
+    pub example: &'static str,
+    /// What its channels tell, in a few words.
+    pub description: &'static str,
+}
+
 impl Sensor {
-    /// Names of all sensors as files write them, in the order of the variants.
-    pub const NAMES: [&'static str; 18] = [
-        "torso-rotation",
-        "joint-angles",
-        "joint-speeds",
-        "torso-velocity",
-        "torso-height",
-        "foot-contacts",
-        "rangefinder",
-        "clock",
-        "torso-spin",
-        "height-above-ground",
-        "foot-slip",
-        "next-gap",
-        "landing-clock",
-        "commanded-speed",
-        "jump-command",
-        "stride-clock",
-        "jump-clock",
-        "custom",
+    /// All kinds of sensors, in the order of the variants.
+    pub const KINDS: [SensorKind; 18] = [
+        SensorKind {
+            name: "torso-rotation",
+            example: r#""torso-rotation""#,
+            description: "rotation of the torso against the start pose",
+        },
+        SensorKind {
+            name: "joint-angles",
+            example: r#""joint-angles""#,
+            description: "angle of each actuated joint against the start pose",
+        },
+        SensorKind { name: "joint-speeds", example: r#""joint-speeds""#, description: "speed of each actuated joint" },
+        SensorKind {
+            name: "torso-velocity",
+            example: r#""torso-velocity""#,
+            description: "velocity of the torso's centre, forwards and upwards",
+        },
+        SensorKind {
+            name: "torso-height",
+            example: r#""torso-height""#,
+            description: "height of the torso's centre above its settled start height",
+        },
+        SensorKind {
+            name: "foot-contacts",
+            example: r#""foot-contacts""#,
+            description: "whether each foot touches the ground",
+        },
+        SensorKind {
+            name: "rangefinder",
+            example: r#"{"rangefinder":{"angles":[-60,-30],"length":3}}"#,
+            description: "distance along each ray from the torso's centre",
+        },
+        SensorKind {
+            name: "clock",
+            example: r#"{"clock":{"period":1}}"#,
+            description: "sine and cosine of a phase that turns once a period",
+        },
+        SensorKind { name: "torso-spin", example: r#""torso-spin""#, description: "angular speed of the torso" },
+        SensorKind {
+            name: "height-above-ground",
+            example: r#""height-above-ground""#,
+            description: "height of the torso's centre above whatever is straight below it",
+        },
+        SensorKind {
+            name: "foot-slip",
+            example: r#""foot-slip""#,
+            description: "how fast each foot slides while it touches the ground",
+        },
+        SensorKind {
+            name: "next-gap",
+            example: r#"{"next-gap":{"length":4}}"#,
+            description: "distance to the next gap, and its width",
+        },
+        SensorKind {
+            name: "landing-clock",
+            example: r#"{"landing-clock":{"period":1}}"#,
+            description: "a clock that begins anew whenever the body lands",
+        },
+        SensorKind {
+            name: "commanded-speed",
+            example: r#"{"commanded-speed":{"top":1.5}}"#,
+            description: "the speed that the body is told",
+        },
+        SensorKind {
+            name: "jump-command",
+            example: r#""jump-command""#,
+            description: "whether the body is told to jump",
+        },
+        SensorKind {
+            name: "stride-clock",
+            example: r#"{"stride-clock":{"period":0.5,"top":1.5}}"#,
+            description: "a clock that swings as far as the body is told to be fast",
+        },
+        SensorKind {
+            name: "jump-clock",
+            example: r#"{"jump-clock":{"period":0.6}}"#,
+            description: "one turn of a clock from the moment the body is told to jump",
+        },
+        SensorKind {
+            name: "custom",
+            example: r#"{"custom":{"name":"whiskers"}}"#,
+            description: "a sensor of another crate",
+        },
     ];
 
     /// The sensor's name as files write it.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::TorsoRotation => Self::NAMES[0],
-            Self::JointAngles => Self::NAMES[1],
-            Self::JointSpeeds => Self::NAMES[2],
-            Self::TorsoVelocity => Self::NAMES[3],
-            Self::TorsoHeight => Self::NAMES[4],
-            Self::FootContacts => Self::NAMES[5],
-            Self::Rangefinder { .. } => Self::NAMES[6],
-            Self::Clock { .. } => Self::NAMES[7],
-            Self::TorsoSpin => Self::NAMES[8],
-            Self::HeightAboveGround => Self::NAMES[9],
-            Self::FootSlip => Self::NAMES[10],
-            Self::NextGap { .. } => Self::NAMES[11],
-            Self::LandingClock { .. } => Self::NAMES[12],
-            Self::CommandedSpeed { .. } => Self::NAMES[13],
-            Self::JumpCommand => Self::NAMES[14],
-            Self::StrideClock { .. } => Self::NAMES[15],
-            Self::JumpClock { .. } => Self::NAMES[16],
-            Self::Custom(_) => Self::NAMES[17],
+            Self::TorsoRotation => Self::KINDS[0].name,
+            Self::JointAngles => Self::KINDS[1].name,
+            Self::JointSpeeds => Self::KINDS[2].name,
+            Self::TorsoVelocity => Self::KINDS[3].name,
+            Self::TorsoHeight => Self::KINDS[4].name,
+            Self::FootContacts => Self::KINDS[5].name,
+            Self::Rangefinder { .. } => Self::KINDS[6].name,
+            Self::Clock { .. } => Self::KINDS[7].name,
+            Self::TorsoSpin => Self::KINDS[8].name,
+            Self::HeightAboveGround => Self::KINDS[9].name,
+            Self::FootSlip => Self::KINDS[10].name,
+            Self::NextGap { .. } => Self::KINDS[11].name,
+            Self::LandingClock { .. } => Self::KINDS[12].name,
+            Self::CommandedSpeed { .. } => Self::KINDS[13].name,
+            Self::JumpCommand => Self::KINDS[14].name,
+            Self::StrideClock { .. } => Self::KINDS[15].name,
+            Self::JumpClock { .. } => Self::KINDS[16].name,
+            Self::Custom(_) => Self::KINDS[17].name,
         }
     }
 
@@ -153,34 +228,13 @@ impl Sensor {
 
 #[cfg(test)]
 mod tests {
-    use super::{CustomSensor, Sensor};
+    use super::{Sensor, SensorKind};
 
     #[test]
-    fn names_are_those_of_the_files() {
-        let sensors = [
-            Sensor::TorsoRotation,
-            Sensor::JointAngles,
-            Sensor::JointSpeeds,
-            Sensor::TorsoVelocity,
-            Sensor::TorsoHeight,
-            Sensor::FootContacts,
-            Sensor::Rangefinder { angles: vec![0.0], length: 1.0 },
-            Sensor::Clock { period: 1.0 },
-            Sensor::TorsoSpin,
-            Sensor::HeightAboveGround,
-            Sensor::FootSlip,
-            Sensor::NextGap { length: 4.0 },
-            Sensor::LandingClock { period: 1.0 },
-            Sensor::CommandedSpeed { top: 3.0 },
-            Sensor::JumpCommand,
-            Sensor::StrideClock { period: 0.5, top: 3.0 },
-            Sensor::JumpClock { period: 0.5 },
-            Sensor::Custom(CustomSensor::new("whiskers")),
-        ];
-        for (sensor, name) in sensors.iter().zip(Sensor::NAMES) {
+    fn the_example_of_each_kind_is_a_sensor_of_its_name() {
+        for SensorKind { name, example, .. } in Sensor::KINDS {
+            let sensor: Sensor = serde_json::from_str(example).expect(example);
             assert_eq!(sensor.name(), name);
-            let json = serde_json::to_string(sensor).expect("sensors can be written");
-            assert!(json.contains(&format!("\"{name}\"")), "{json}");
         }
     }
 }

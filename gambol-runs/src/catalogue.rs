@@ -1,18 +1,22 @@
 //! Creatures, terrains, variations and sensors by their names.
 
 use crate::suggest;
-use creatures::{Blueprint, Creature, CreatureError, Sense, Sensor, Terrain};
+use creatures::{Blueprint, Creature, CreatureError, Sense, Sensor, ShippedCreature, Terrain, TerrainEntry};
 use envs_rapier::Variation;
 use ne_core::field_path::{self, FieldError};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
-use std::{fmt, sync::Arc};
+use std::{
+    fmt,
+    sync::{Arc, OnceLock},
+};
 
-/// Things of one kind that a configuration may name.
+/// Things of one kind that a configuration may name. What is built in is read when something is looked for first.
 #[derive(Clone, Debug)]
 pub struct Catalogue<T> {
     kind: &'static str,
-    entries: Vec<Named<T>>,
+    built_in: fn() -> Vec<Named<T>>,
+    entries: OnceLock<Vec<Named<T>>>,
 }
 
 /// What a name stands for.
@@ -26,25 +30,37 @@ pub struct Named<T> {
     pub value: T,
 }
 
+impl<T> Named<T> {
+    fn new(name: &str, description: &str, value: T) -> Self {
+        Self { name: name.into(), description: description.into(), value }
+    }
+}
+
 impl<T> Catalogue<T> {
+    fn new(kind: &'static str, built_in: fn() -> Vec<Named<T>>) -> Self {
+        Self { kind, built_in, entries: OnceLock::new() }
+    }
+
     /// Adds a thing, or replaces the one of the same name.
     pub fn add(&mut self, name: &str, description: &str, value: T) -> &mut Self {
-        let entry = Named { name: name.into(), description: description.into(), value };
-        match self.entries.iter_mut().find(|entry| entry.name == name) {
+        let entry = Named::new(name, description, value);
+        let mut entries = self.entries.take().unwrap_or_else(self.built_in);
+        match entries.iter_mut().find(|entry| entry.name == name) {
             Some(found) => *found = entry,
-            None => self.entries.push(entry),
+            None => entries.push(entry),
         }
+        self.entries = OnceLock::from(entries);
         self
     }
 
     /// All of them, in the order they were added.
     pub fn entries(&self) -> &[Named<T>] {
-        &self.entries
+        self.entries.get_or_init(self.built_in)
     }
 
     /// The names, in the order they were added.
     pub fn names(&self) -> Vec<&str> {
-        self.entries.iter().map(|entry| &*entry.name).collect()
+        self.entries().iter().map(|entry| &*entry.name).collect()
     }
 
     /// What this name stands for.
@@ -52,7 +68,7 @@ impl<T> Catalogue<T> {
     /// # Errors
     /// Says which names there are, and the nearest.
     pub fn find(&self, name: &str) -> Result<&T, UnknownName> {
-        let found = self.entries.iter().find(|entry| entry.name == name);
+        let found = self.entries().iter().find(|entry| entry.name == name);
         found.map(|entry| &entry.value).ok_or_else(|| UnknownName(suggest::unknown(self.kind, name, &self.names())))
     }
 }
@@ -65,11 +81,13 @@ pub struct UnknownName(String);
 impl Default for Catalogue<Creature> {
     /// The shipped creatures.
     fn default() -> Self {
-        let mut catalogue = Self { kind: "creature", entries: Vec::new() };
-        for shipped in creatures::shipped() {
-            catalogue.add_file(shipped.json).expect("a test reads every shipped file");
-        }
-        catalogue
+        Self::new("creature", || {
+            let read = |shipped: &ShippedCreature| {
+                let creature = Creature::from_json(shipped.json).expect("a test reads every shipped file");
+                Named::new(shipped.name, &creature.title.clone(), creature)
+            };
+            creatures::shipped().iter().map(read).collect()
+        })
     }
 }
 
@@ -87,11 +105,10 @@ impl Catalogue<Creature> {
 impl Default for Catalogue<Terrain> {
     /// Those of the crate `creatures`. The first is the default of a configuration.
     fn default() -> Self {
-        let mut catalogue = Self { kind: "terrain", entries: Vec::new() };
-        for entry in creatures::TERRAINS {
-            catalogue.add(entry.name, entry.description, entry.terrain());
-        }
-        catalogue
+        Self::new("terrain", || {
+            let named = |entry: &TerrainEntry| Named::new(entry.name, entry.description, entry.terrain());
+            creatures::TERRAINS.iter().map(named).collect()
+        })
     }
 }
 
@@ -117,24 +134,33 @@ impl Catalogue<Terrain> {
 
 impl Default for Catalogue<Variation> {
     fn default() -> Self {
-        let mut catalogue = Self { kind: "variation", entries: Vec::new() };
-        catalogue
-            .add("none", "every trial has the world of the settings", Variation::default())
-            .add("near", "worlds about one per cent away", Variation::near())
-            .add("pushed", "pushes of up to 0.3 m/s", Variation::pushed())
-            .add("shoved", "pushes of 0.27 to 0.53 m/s", Variation::shoved())
-            .add("light", "friction, mass, start pose, pushes, and the hard half of other engines", Variation::light())
-            .add("bumpy", "as light, with bumps of up to 2 cm and up to 8 solver iterations", Variation::bumpy())
-            .add("strong", "more than bumpy, in everything", Variation::strong())
-            .add("physics", "what physics engines differ in, and nothing of the body", Variation::physics());
-        catalogue
+        Self::new("variation", || {
+            vec![
+                Named::new("none", "every trial has the world of the settings", Variation::default()),
+                Named::new("near", "worlds about one per cent away", Variation::near()),
+                Named::new("pushed", "pushes of up to 0.3 m/s", Variation::pushed()),
+                Named::new("shoved", "pushes of 0.27 to 0.53 m/s", Variation::shoved()),
+                Named::new(
+                    "light",
+                    "friction, mass, start pose, pushes, and the hard half of other engines",
+                    Variation::light(),
+                ),
+                Named::new(
+                    "bumpy",
+                    "as light, with bumps of up to 2 cm and up to 8 solver iterations",
+                    Variation::bumpy(),
+                ),
+                Named::new("strong", "more than bumpy, in everything", Variation::strong()),
+                Named::new("physics", "what physics engines differ in, and nothing of the body", Variation::physics()),
+            ]
+        })
     }
 }
 
 impl Catalogue<Variation> {
     /// The name of a variation, if it has one.
     pub fn name_of(&self, variation: &Variation) -> Option<&str> {
-        self.entries.iter().find(|entry| entry.value == *variation).map(|entry| &*entry.name)
+        self.entries().iter().find(|entry| entry.value == *variation).map(|entry| &*entry.name)
     }
 }
 
@@ -153,7 +179,7 @@ impl fmt::Debug for MakeSense {
 impl Default for Catalogue<MakeSense> {
     /// None: those of the crate `creatures` belong to the format of its files.
     fn default() -> Self {
-        Self { kind: "custom sensor", entries: Vec::new() }
+        Self::new("custom sensor", Vec::new)
     }
 }
 

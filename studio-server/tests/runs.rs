@@ -268,6 +268,44 @@ fn a_drawn_terrain_is_kept_and_trained_on() -> Outcome {
     Ok(())
 }
 
+#[test]
+fn a_page_begins_with_the_latest_run_or_with_a_biped_that_learns_to_run() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let library = library(folder.path());
+    let runs = folder.path().join("runs");
+    let opened = |page: &Page| {
+        page.events.iter().rev().find_map(|event| match event {
+            Event::Opened(opened) => Some(opened.run.clone()),
+            _ => None,
+        })
+    };
+    let mut page = Page::new(&library);
+    page.ask(json!({ "do": "open-latest" }));
+    assert_eq!(opened(&page).as_deref(), Some("biped-1-running"));
+    page.ask(json!({ "do": "stop" }));
+    page.wait_for("ended");
+    let mut later = choice(2);
+    later["creature"] = "tetrapod-1".into();
+    page.events.clear();
+    page.ask(json!({ "do": "train", "choice": later }));
+    page.wait_for("ended");
+    let is_latest = |path: &str, seconds: u64| {
+        let file = fs::File::options().append(true).open(runs.join(path).join("config.json"))?;
+        file.set_modified(std::time::SystemTime::now() + std::time::Duration::from_secs(seconds))
+    };
+    // What is no run is passed over, though it is the latest.
+    fs::create_dir(runs.join("broken"))?;
+    fs::write(runs.join("broken/config.json"), "{}")?;
+    is_latest("broken", 60)?;
+    for (run, seconds) in [("tetrapod-1-running", 20), ("biped-1-running", 40)] {
+        is_latest(run, seconds)?;
+        let mut page = Page::new(&library);
+        page.ask(json!({ "do": "open-latest" }));
+        assert_eq!((opened(&page).as_deref(), page.refusals()), (Some(run), vec![]));
+    }
+    Ok(())
+}
+
 /// Another process shares nothing but the folder.
 #[test]
 fn a_run_that_another_process_trains_is_followed() -> Outcome {

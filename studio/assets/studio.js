@@ -29,14 +29,11 @@ class Studio {
     this.who = "population";
     this.listen();
     this.buildControls();
-    this.connection.ask({ do: "look" });
-    this.connection.ask({ do: "schema" });
     // Before the address is that of a chapter.
-    this.linked = linkedIn(location.hash);
-    // What is wrong is said once there is a place for it.
-    this.linked.catch(() => {});
+    const linked = linkedIn(location.hash);
     const chapter = location.hash.slice(2);
     this.go(CHAPTERS.includes(chapter) ? chapter : "watch");
+    this.begin(linked);
   }
 
   listen() {
@@ -45,8 +42,9 @@ class Studio {
       if (request === "show" || request === "enter") this.isShowAsked = false;
       // Before there is anything to show, nothing is wrong.
       if (request !== "show" && request !== "advance") this.refuse(reason);
+      if (!this.isKnown && request.startsWith("open")) connection.ask({ do: "look" });
     });
-    connection.on("catalogue", catalogue => this.begin(catalogue));
+    connection.on("catalogue", () => this.know());
     connection.on("opened", event => {
       this.opened = event;
       this.shown = null;
@@ -100,24 +98,30 @@ class Studio {
     return this.watch.close();
   }
 
-  // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to run.
-  async begin({ runs, creatures }) {
-    if (this.begun) return;
-    this.begun = true;
-    if (this.chapter === "draw") this.buildEditor();
-    try {
-      const text = await this.linked;
-      if (text) return void this.connection.ask({ do: "open-champion", name: "the link", text });
-    } catch (error) { this.refuse(`The link is damaged: ${error.message}`); }
+  // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to
+  // run. What there is to choose from is long, and comes after what there is to see.
+  async begin(linked) {
     const asked = new URLSearchParams(location.search);
-    if (asked.get("creature")) {
-      this.choose.choice.creature = asked.get("creature");
-      // Unless somebody has been faster.
-      if (this.chapter === "watch") this.go("choose");
-      this.choose.fill(this.choose.catalogue);
-    } else if (asked.get("run")) this.connection.ask({ do: "open", run: asked.get("run") });
-    else if (runs.length) this.connection.ask({ do: "open", run: runs[0].run });
-    else if (creatures.length) this.connection.ask({ do: "train", choice: { creature: "biped-1", movement: "running" } });
+    let text = null;
+    try { text = await linked; } catch (error) { this.refuse(`The link is damaged: ${error.message}`); }
+    if (text) this.connection.ask({ do: "open-champion", name: "the link", text });
+    else if (asked.get("run")) this.connection.ask({ do: "open", run: asked.get("run") });
+    else if (!asked.get("creature")) this.connection.ask({ do: "open-latest" });
+    else this.connection.ask({ do: "look" });
+    this.connection.ask({ do: "schema" });
+  }
+
+  // Once it is known what there is to choose from.
+  know() {
+    if (this.isKnown) return;
+    this.isKnown = true;
+    if (this.chapter === "draw") this.buildEditor();
+    const creature = new URLSearchParams(location.search).get("creature");
+    if (!creature || this.opened) return;
+    this.choose.choice.creature = creature;
+    // Unless somebody has been faster.
+    if (this.chapter === "watch") this.go("choose");
+    this.choose.fill(this.choose.catalogue);
   }
 
   go(chapter) {

@@ -45,6 +45,11 @@ impl From<RequestError> for ChoiceError {
 }
 
 impl Choice {
+    /// What is trained before anything was chosen: a biped that learns to run.
+    pub(crate) fn first() -> Self {
+        Self { creature: Some("biped-1".into()), movement: "running".into(), ..Self::default() }
+    }
+
     /// The configuration, checked as the program checks it before it trains. A choice names things of the registry alone: no path from a
     /// page is ever opened. `from`: the folder of the run that is gone on from.
     ///

@@ -118,13 +118,7 @@ impl Library {
 
     /// The runs, the latest first, and how many more there are.
     fn gallery(&self) -> (Vec<RunEntry>, usize) {
-        let Ok(entries) = fs::read_dir(&self.runs) else { return (Vec::new(), 0) };
-        let changed = |path: &Path| fs::metadata(path.join("config.json")).and_then(|file| file.modified()).ok();
-        let mut runs: Vec<(SystemTime, String, PathBuf)> = entries
-            .flatten()
-            .filter_map(|entry| Some((changed(&entry.path())?, entry.file_name().into_string().ok()?, entry.path())))
-            .collect();
-        runs.sort_by(|one, other| other.cmp(one));
+        let runs = self.latest_first();
         let sessions = self.sessions();
         let entry = |(_, run, path): (_, String, PathBuf)| {
             let folder = RunFolder::at(&path);
@@ -135,6 +129,18 @@ impl Library {
         };
         let more = runs.len().saturating_sub(MOST_RUNS);
         (runs.into_iter().take(MOST_RUNS).filter_map(entry).collect(), more)
+    }
+
+    /// When each run was configured, its name and its folder, the latest first.
+    fn latest_first(&self) -> Vec<(SystemTime, String, PathBuf)> {
+        let Ok(entries) = fs::read_dir(&self.runs) else { return Vec::new() };
+        let changed = |path: &Path| fs::metadata(path.join("config.json")).and_then(|file| file.modified()).ok();
+        let mut runs: Vec<_> = entries
+            .flatten()
+            .filter_map(|entry| Some((changed(&entry.path())?, entry.file_name().into_string().ok()?, entry.path())))
+            .collect();
+        runs.sort_by(|one, other| other.cmp(one));
+        runs
     }
 
     fn terrain_choices(&self) -> Vec<TerrainChoice> {
@@ -221,6 +227,11 @@ impl Library {
         let session = Session::open(run.to_owned(), folder, self.registry.clone(), self.means.clone())?;
         sessions.insert(run.to_owned(), Arc::clone(&session));
         Ok(session)
+    }
+
+    /// The latest run that can be opened.
+    pub fn latest(&self) -> Option<Arc<Session>> {
+        self.latest_first().iter().find_map(|(_, run, _)| self.open(run).ok())
     }
 
     /// The folder of a run: one in the folder of all runs, whatever its name says.

@@ -5,7 +5,7 @@ use crate::{
     judging::judge_champions,
     library::Library,
     population::Population,
-    protocol::{Event, Opened, Request, RobustnessState, RunState, Verdict, Who},
+    protocol::{Choice, Event, Opened, Request, RobustnessState, RunState, Verdict, Who},
     robustness,
     session::Session,
     training,
@@ -172,6 +172,10 @@ impl Viewer {
             }
             Request::Train { choice } => return Ok(self.open(library.train(&choice)?)),
             Request::Open { run } => return Ok(self.open(library.open(&run)?)),
+            Request::OpenLatest => {
+                let session = library.latest().map_or_else(|| library.train(&Choice::first()), Ok)?;
+                return Ok(self.open(session));
+            }
             Request::OpenChampion { name, text } => {
                 return self.open_champion(Champion::from_text(Path::new(&name), &text)?);
             }

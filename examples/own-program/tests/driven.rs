@@ -151,7 +151,14 @@ fn every_command_knows_the_strategy() {
 fn creatures_sensors_terrains_and_variations_are_known_by_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let here = folder.path();
-    for (list, name) in [("creatures", "kicker"), ("terrains", "kerbs"), ("variations", "icy"), ("creatures", "apod")] {
+    for (list, name) in [
+        ("creatures", "kicker"),
+        ("terrains", "kerbs"),
+        ("variations", "icy"),
+        ("creatures", "apod"),
+        ("presets", "thesis"),
+        ("sensors", r#"{"custom":{"name":"lift"}}"#),
+    ] {
         assert!(said(here, 0, &[list]).contains(name), "{list} has {name}");
     }
     let variations: serde_json::Value = serde_json::from_str(&said(here, 0, &["variations", "--json"])).expect("JSON");

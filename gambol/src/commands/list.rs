@@ -2,12 +2,13 @@ use super::Outcome;
 use crate::{
     Registry,
     catalogue::{Catalogue, Named},
+    presets::Preset,
     strategies::StrategyEntry,
 };
 use clap::Args;
-use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses};
+use creatures::{Blueprint, DEFAULT_INPUT_RANGE, Motors, Senses, Sensor};
 use serde::Serialize;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::process::ExitCode;
 
 #[derive(Args)]
@@ -37,7 +38,7 @@ impl Creatures {
         }
         if self.json {
             let row = |(name, title, [parts, joints, inputs, outputs]): &(_, _, [usize; 4])| json!({ "name": name, "title": title, "parts": parts, "joints": joints, "inputs": inputs, "outputs": outputs });
-            say!("{}", rows.iter().map(row).collect::<serde_json::Value>())?;
+            say!("{}", rows.iter().map(row).collect::<Value>())?;
         } else {
             say!("{:<12} {:<20} {:>5} {:>6} {:>6} {:>7}", "name", "", "parts", "joints", "inputs", "outputs")?;
             for (name, title, [parts, joints, inputs, outputs]) in rows {
@@ -63,7 +64,7 @@ impl Movements {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         if self.json {
             let row = |entry: &tasks::MovementEntry| json!({ "name": entry.name, "unit": entry.unit, "steps": entry.steps, "description": entry.description });
-            say!("{}", registry.movements.entries().iter().map(row).collect::<serde_json::Value>())?;
+            say!("{}", registry.movements.entries().iter().map(row).collect::<Value>())?;
             return Ok(ExitCode::SUCCESS);
         }
         let line = |entry: &tasks::MovementEntry, steps: String| {
@@ -98,12 +99,72 @@ impl Strategies {
     pub(crate) fn run(self, registry: &Registry) -> Outcome {
         if self.json {
             let row = |entry: &StrategyEntry| json!({ "name": entry.name(), "alias": entry.alias(), "description": entry.description(), "settings": entry.settings() });
-            say!("{}", registry.strategies.entries().iter().map(row).collect::<serde_json::Value>())?;
+            say!("{}", registry.strategies.entries().iter().map(row).collect::<Value>())?;
             return Ok(ExitCode::SUCCESS);
         }
         for entry in registry.strategies.entries() {
             let alias = entry.alias().map_or_else(String::new, |alias| format!(" (or {alias})"));
             say!("{:<20} {}", format!("{}{alias}", entry.name()), entry.description())?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol presets
+  gambol train biped-1 running --preset thesis")]
+pub(crate) struct Presets {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Presets {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        if self.json {
+            let row = |preset: &Preset| json!({ "name": preset.name, "description": preset.description });
+            say!("{}", registry.presets.entries().map(row).collect::<Value>())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        say!("presets, as in --preset NAME; the first is the default")?;
+        for preset in registry.presets.entries() {
+            say!("  {:<12} {}", preset.name, preset.description)?;
+        }
+        Ok(ExitCode::SUCCESS)
+    }
+}
+
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  gambol sensors
+  gambol train biped-1 running --set 'sensors=[\"torso-rotation\",\"joint-angles\",{\"clock\":{\"period\":0.5}}]'")]
+pub(crate) struct Sensors {
+    /// Print as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Sensors {
+    pub(crate) fn run(self, registry: &Registry) -> Outcome {
+        // Those of other crates are listed by their own names.
+        let mut sensors = Vec::new();
+        for kind in Sensor::KINDS.iter().filter(|kind| kind.name != "custom") {
+            sensors.push((kind.name, serde_json::from_str(kind.example)?, kind.description));
+        }
+        for entry in registry.sensors.entries() {
+            sensors.push((&entry.name, json!({ "custom": { "name": entry.name } }), &entry.description));
+        }
+        if self.json {
+            let row = |(name, example, description): (&str, Value, &str)| json!({ "name": name, "example": example, "description": description });
+            say!("{}", sensors.into_iter().map(row).collect::<Value>())?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        say!("sensors, as in the list `sensors` of a creature's file, or --set 'sensors=[...]'")?;
+        for (_, example, description) in sensors {
+            say!("  {:<48} {description}", example.to_string())?;
         }
         Ok(ExitCode::SUCCESS)
     }
@@ -152,7 +213,7 @@ fn named<T: Serialize>(catalogue: &Catalogue<T>, heading: Option<&str>, field: &
     match heading {
         None => {
             let row = |it: &Named<T>| json!({ "name": it.name, "description": it.description, field: it.value });
-            say!("{}", catalogue.entries().iter().map(row).collect::<serde_json::Value>())?;
+            say!("{}", catalogue.entries().iter().map(row).collect::<Value>())?;
         }
         Some(heading) => {
             say!("{heading}")?;

@@ -218,6 +218,10 @@ enum Command {
     Variations(list::Variations),
     /// Lists the strategies: ways to search
     Strategies(list::Strategies),
+    /// Lists the presets: named starting points of a configuration
+    Presets(list::Presets),
+    /// Lists the sensors: what a net can be told
+    Sensors(list::Sensors),
 }
 
 impl Command {
@@ -244,6 +248,8 @@ impl Command {
             Self::Terrains(terrains) => terrains.run(registry),
             Self::Variations(variations) => variations.run(registry),
             Self::Strategies(strategies) => strategies.run(registry),
+            Self::Presets(presets) => presets.run(registry),
+            Self::Sensors(sensors) => sensors.run(registry),
         }
     }
 }

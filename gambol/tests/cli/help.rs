@@ -1,24 +1,29 @@
 use crate::program::{assert_says, gambol, run, succeed};
 
-const COMMANDS: [&str; 18] = [
+const COMMANDS: [&str; 23] = [
     "train",
     "resume",
     "report",
     "verify",
     "replay",
+    "export",
     "film",
     "gait",
     "robust",
     "check",
     "compare",
+    "tune",
     "reproduce",
     "merge",
     "bench",
+    "studio",
     "creatures",
     "movements",
     "terrains",
     "variations",
     "strategies",
+    "presets",
+    "sensors",
 ];
 
 #[test]

@@ -52,6 +52,8 @@ pub enum Request {
         /// The name of its folder.
         run: String,
     },
+    /// From now on the latest run is what the page sees. Where there is none, one begins: a biped that learns to run.
+    OpenLatest,
     /// Remove a run with all that is in its folder.
     Remove {
         /// The name of its folder.
