@@ -99,6 +99,17 @@ pub enum Failure {
     },
 }
 
+impl Failure {
+    /// What is not finite in a decision of a phenotype: the first output, or the first input if one was not finite before. `None`
+    /// if all outputs are finite.
+    pub fn of_decision(inputs: &[f32], outputs: &[f32]) -> Option<Self> {
+        let not_finite = |numbers: &[f32]| numbers.iter().position(|number| !number.is_finite());
+        let output = not_finite(outputs)?;
+        let what = not_finite(inputs).map_or_else(|| format!("output {output}"), |input| format!("input {input}"));
+        Some(Self::NonFinite { what })
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -119,6 +130,15 @@ mod tests {
         assert_eq!(values(with(vec![2.0, -3.0])), Some(vec![2.0, -3.0]));
         assert_eq!(values(with(vec![2.0, f64::NAN])), None);
         assert_eq!(values(Evaluation { objectives: vec![2.0], ..Evaluation::new(f64::NAN) }), None);
+    }
+
+    #[test]
+    fn what_is_not_finite_in_a_decision_is_its_input_before_its_output() {
+        let what = |inputs: &[f32], outputs: &[f32]| Failure::of_decision(inputs, outputs).map(|it| it.to_string());
+        assert_eq!(what(&[0.0, f32::NAN], &[1.0, f32::NAN]).as_deref(), Some("input 1 is not finite"));
+        assert_eq!(what(&[0.0, 1.0], &[1.0, f32::INFINITY]).as_deref(), Some("output 1 is not finite"));
+        // A net that does not hear the input goes on.
+        assert_eq!(what(&[f32::NAN], &[1.0]), None);
     }
 
     #[test]

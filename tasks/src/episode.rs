@@ -154,8 +154,8 @@ impl<E: Environment> EvaluationState<E> {
             environment.sense(inputs);
             phenotype.activate(inputs, outputs);
             // A body would clamp a NaN into some number, and the fault would stay hidden.
-            if let Some(index) = outputs.iter().position(|output| !output.is_finite()) {
-                return (step - 1, Some(Failure::NonFinite { what: format!("output {index}") }));
+            if let Some(failure) = Failure::of_decision(inputs, outputs) {
+                return (step - 1, Some(failure));
             }
             environment.act(outputs);
             if let Err(failure) = environment.step() {

@@ -222,6 +222,13 @@ fn a_controller_without_numbers_fails() {
     }
 }
 
+#[test]
+fn a_sensor_without_numbers_is_named_before_the_output_that_it_spoils() {
+    let nowhere = episode(PointMass::varied(f32::NAN, f32::INFINITY), Running::default(), 10, ONE);
+    let evaluation = nowhere.evaluate(&mut Constant(f32::NAN), SEED);
+    assert_eq!(evaluation.outcome, Err(Failure::NonFinite { what: "input 0".into() }));
+}
+
 /// A movement that divides by zero.
 #[derive(Clone)]
 struct Nonsense;

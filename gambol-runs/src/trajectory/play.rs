@@ -29,8 +29,8 @@ impl Recording {
         for _ in 0..steps {
             world.sense(&mut sensed);
             network.activate(&sensed, &mut wanted);
-            if let Some(index) = wanted.iter().position(|output| !output.is_finite()) {
-                return Err(Failure::NonFinite { what: format!("output {index}") });
+            if let Some(failure) = Failure::of_decision(&sensed, &wanted) {
+                return Err(failure);
             }
             world.act(&wanted);
             world.step()?;
