@@ -42,6 +42,16 @@ class Editor extends EditorHistory {
     this.checkSoon();
   }
 
+  // Draws another in its place, which is a step back as any other.
+  become(creature) {
+    this.edit(drawn => {
+      for (const key of Object.keys(drawn)) delete drawn[key];
+      Object.assign(drawn, readableCreature(creature));
+      this.selection = null;
+    });
+    this.canvas.fit();
+  }
+
   // Parts from the torso outwards, and on the ground; what is selected stays so, wherever it is listed now.
   tidy() {
     const { present, selection } = this;

@@ -23,7 +23,11 @@ class Studio {
     this.choose = new Choose(this.connection, () => this.go("watch"));
     this.keep = new Keep(this.connection, this.watch, {
       open: run => { this.connection.ask({ do: "open", run }); this.go("watch"); },
-      draw: creature => { this.go("draw"); this.draw(creature); },
+      draw: creature => {
+        this.go("draw");
+        this.draw(creature);
+        drafts.set("creature", this.editor.creature);
+      },
       close: runs => this.close(runs),
     });
     this.who = "population";
@@ -153,6 +157,7 @@ class Studio {
     this.editor = new Editor(document.getElementById("draw-editor"), {
       check: creature => this.check({ do: "check", creature }),
       freeName: name => this.freeName(name),
+      changed: creature => drafts.set("creature", creature),
       play: creature => {
         this.choose.setDrawn(creature);
         this.choose.train();
@@ -160,6 +165,8 @@ class Studio {
     });
     const chosen = creatures.find(({ name }) => name === this.choose.choice.creature);
     this.draw(this.watch.config?.creature || chosen || creatures[0]);
+    const draft = drafts.get("creature");
+    if (draft) this.editor.become(draft);
   }
 
   // Asks what is wrong with what is drawn.
@@ -184,6 +191,7 @@ class Studio {
     this.terrainEditor = new TerrainEditor(document.getElementById("draw-ground"), {
       creature: () => this.choose.creature,
       check: terrain => this.check({ do: "check-terrain", terrain }),
+      changed: terrain => drafts.set("ground", terrain),
       keep: (name, terrain) => new Promise((resolve, reject) => {
         this.keeping = { name, resolve, reject };
         this.connection.ask({ do: "keep-terrain", name, terrain });
@@ -199,6 +207,8 @@ class Studio {
       },
     });
     this.terrainEditor.setKept(this.choose.catalogue.terrains);
+    const draft = drafts.get("ground");
+    if (draft) this.terrainEditor.become(draft);
     this.connection.on("catalogue", ({ terrains }) => {
       this.terrainEditor.setKept(terrains);
       if (terrains.some(({ name }) => name === this.keeping?.name)) this.keeping.resolve();

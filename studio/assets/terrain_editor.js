@@ -37,6 +37,7 @@ class TerrainEditor extends EditorHistory {
   changed() {
     this.checkSoon();
     this.tell();
+    this.hooks.changed?.(structuredClone(this.present));
   }
 
   found({ drawn }) {
@@ -50,10 +51,12 @@ class TerrainEditor extends EditorHistory {
     this.refresh();
   }
 
+  open(index) { this.become(this.kept[index]); }
+
   // What was there before is a step back.
-  open(index) {
+  become({ name, drawn }) {
     this.edit(terrain => {
-      Object.assign(terrain, structuredClone(this.kept[index]));
+      Object.assign(terrain, { name, drawn: readableObstacles(drawn) });
       this.selected = -1;
     });
     this.setTool("select");

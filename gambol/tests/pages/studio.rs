@@ -185,6 +185,11 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
         "document.activeElement.dispatchEvent(new KeyboardEvent('keydown', { key: 'z', ctrlKey: true, bubbles: true }))",
     );
     wait(browser, "what was drawn before", &format!("{name}.value === 'my-creature 2'"));
+    // The page is loaded anew: what was being drawn is still there.
+    browser.evaluate(&rename.replace("my piano", "half a piano"));
+    browser.visit(&studio.url, 1280);
+    click(browser, "[data-chapter=draw]");
+    wait(browser, "the draft", &format!("{name}?.value === 'half a piano'"));
     assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
     is_clean(browser, &studio);
 }

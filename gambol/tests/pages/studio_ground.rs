@@ -78,10 +78,12 @@ pub(crate) fn draws(browser: &mut Browser, folder: &Path, home: &Home) {
     wait(browser, "its end", "document.getElementById('run-state').textContent.includes('done · generation 6 ')");
     is_what_its_command_trains(browser, folder, &studio);
 
-    // The page is loaded anew: the ground is there, and is opened again.
+    // The page is loaded anew: the ground is still drawn, and is opened again after another was begun.
     browser.visit(&studio.url, 1280);
     open_editor(browser);
     wait(browser, "what is kept", &format!("{EDITOR}.textContent.includes('my hurdles')"));
+    assert_eq!(obstacles(browser), ["Box", "Gap", "Slope"]);
+    press(browser, "New");
     assert_eq!(obstacles(browser), [""; 0]);
     click(browser, "#draw-ground button[aria-label='Open my hurdles']");
     assert_eq!(obstacles(browser), ["Box", "Gap", "Slope"]);
