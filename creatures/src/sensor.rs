@@ -109,91 +109,47 @@ pub struct SensorKind {
     pub description: &'static str,
 }
 
+const fn kind(name: &'static str, example: &'static str, description: &'static str) -> SensorKind {
+    SensorKind { name, example, description }
+}
+
 impl Sensor {
     /// All kinds of sensors, in the order of the variants.
     pub const KINDS: [SensorKind; 18] = [
-        SensorKind {
-            name: "torso-rotation",
-            example: r#""torso-rotation""#,
-            description: "rotation of the torso against the start pose",
-        },
-        SensorKind {
-            name: "joint-angles",
-            example: r#""joint-angles""#,
-            description: "angle of each actuated joint against the start pose",
-        },
-        SensorKind { name: "joint-speeds", example: r#""joint-speeds""#, description: "speed of each actuated joint" },
-        SensorKind {
-            name: "torso-velocity",
-            example: r#""torso-velocity""#,
-            description: "velocity of the torso's centre, forwards and upwards",
-        },
-        SensorKind {
-            name: "torso-height",
-            example: r#""torso-height""#,
-            description: "height of the torso's centre above its settled start height",
-        },
-        SensorKind {
-            name: "foot-contacts",
-            example: r#""foot-contacts""#,
-            description: "whether each foot touches the ground",
-        },
-        SensorKind {
-            name: "rangefinder",
-            example: r#"{"rangefinder":{"angles":[-60,-30],"length":3}}"#,
-            description: "distance along each ray from the torso's centre",
-        },
-        SensorKind {
-            name: "clock",
-            example: r#"{"clock":{"period":1}}"#,
-            description: "sine and cosine of a phase that turns once a period",
-        },
-        SensorKind { name: "torso-spin", example: r#""torso-spin""#, description: "angular speed of the torso" },
-        SensorKind {
-            name: "height-above-ground",
-            example: r#""height-above-ground""#,
-            description: "height of the torso's centre above whatever is straight below it",
-        },
-        SensorKind {
-            name: "foot-slip",
-            example: r#""foot-slip""#,
-            description: "how fast each foot slides while it touches the ground",
-        },
-        SensorKind {
-            name: "next-gap",
-            example: r#"{"next-gap":{"length":4}}"#,
-            description: "distance to the next gap, and its width",
-        },
-        SensorKind {
-            name: "landing-clock",
-            example: r#"{"landing-clock":{"period":1}}"#,
-            description: "a clock that begins anew whenever the body lands",
-        },
-        SensorKind {
-            name: "commanded-speed",
-            example: r#"{"commanded-speed":{"top":1.5}}"#,
-            description: "the speed that the body is told",
-        },
-        SensorKind {
-            name: "jump-command",
-            example: r#""jump-command""#,
-            description: "whether the body is told to jump",
-        },
-        SensorKind {
-            name: "stride-clock",
-            example: r#"{"stride-clock":{"period":0.5,"top":1.5}}"#,
-            description: "a clock that swings as far as the body is told to be fast",
-        },
-        SensorKind {
-            name: "jump-clock",
-            example: r#"{"jump-clock":{"period":0.6}}"#,
-            description: "one turn of a clock from the moment the body is told to jump",
-        },
-        SensorKind {
-            name: "custom",
-            example: r#"{"custom":{"name":"whiskers"}}"#,
-            description: "a sensor of another crate",
-        },
+        kind("torso-rotation", r#""torso-rotation""#, "rotation of the torso against the start pose"),
+        kind("joint-angles", r#""joint-angles""#, "angle of each actuated joint against the start pose"),
+        kind("joint-speeds", r#""joint-speeds""#, "speed of each actuated joint"),
+        kind("torso-velocity", r#""torso-velocity""#, "velocity of the torso's centre, forwards and upwards"),
+        kind("torso-height", r#""torso-height""#, "height of the torso's centre above its settled start height"),
+        kind("foot-contacts", r#""foot-contacts""#, "whether each foot touches the ground"),
+        kind(
+            "rangefinder",
+            r#"{"rangefinder":{"angles":[-60,-30],"length":3}}"#,
+            "distance along each ray from the torso's centre",
+        ),
+        kind("clock", r#"{"clock":{"period":1}}"#, "sine and cosine of a phase that turns once a period"),
+        kind("torso-spin", r#""torso-spin""#, "angular speed of the torso"),
+        kind(
+            "height-above-ground",
+            r#""height-above-ground""#,
+            "height of the torso's centre above whatever is straight below it",
+        ),
+        kind("foot-slip", r#""foot-slip""#, "how fast each foot slides while it touches the ground"),
+        kind("next-gap", r#"{"next-gap":{"length":4}}"#, "distance to the next gap, and its width"),
+        kind("landing-clock", r#"{"landing-clock":{"period":1}}"#, "a clock that begins anew whenever the body lands"),
+        kind("commanded-speed", r#"{"commanded-speed":{"top":1.5}}"#, "the speed that the body is told"),
+        kind("jump-command", r#""jump-command""#, "whether the body is told to jump"),
+        kind(
+            "stride-clock",
+            r#"{"stride-clock":{"period":0.5,"top":1.5}}"#,
+            "a clock that swings as far as the body is told to be fast",
+        ),
+        kind(
+            "jump-clock",
+            r#"{"jump-clock":{"period":0.6}}"#,
+            "one turn of a clock from the moment the body is told to jump",
+        ),
+        kind("custom", r#"{"custom":{"name":"whiskers"}}"#, "a sensor of another crate"),
     ];
 
     /// The sensor's name as files write it.
