@@ -212,6 +212,17 @@ pub enum Problem {
         /// Index of the first.
         first: usize,
     },
+    /// Two channels of one name, by which a net's inputs are known.
+    #[error(
+        "{path}: its channel \"{channel}\" has the name of one of sensors[{first}]; no two channels of a creature may have one name"
+    )]
+    DuplicateChannel {
+        path: String,
+        /// The name.
+        channel: String,
+        /// Index of the sensor that tells the first.
+        first: usize,
+    },
     /// A sensor of feet asked of a creature without feet.
     #[error(
         "{path}: `{sensor}` needs feet: a part with an actuated tag on which no other part hangs, in a chain whose parts do \

@@ -4,6 +4,8 @@ use crate::{Blueprint, BodyView, Channel, CustomSensor};
 use std::sync::Arc;
 
 /// What a sensor of another crate tells, and how. It knows a body as [`BodyView`] shows it, and remembers nothing.
+///
+/// Check yours with `envs_core::conformance::check_sense`.
 pub trait Sense: Send + Sync {
     /// Its channels in a body, at least one; each with a range of two finite numbers, the smaller first. Names say what is
     /// sensed of which part, and no two of a creature are alike.

@@ -1,6 +1,9 @@
 //! From a body to the inputs of a net.
 
-use std::f32::consts::{FRAC_PI_2, PI};
+use std::{
+    collections::BTreeMap,
+    f32::consts::{FRAC_PI_2, PI},
+};
 
 use crate::bounds::INPUT_RANGE;
 use crate::{Blueprint, BodyView, Channel, CreatureError, CustomSensor, Probe, Problem, Sensor, Source, check};
@@ -38,8 +41,8 @@ impl Senses {
     ///
     /// # Errors
     /// [`CreatureError::InputRange`] if `input_range` is not within 0.001 to 1000, [`CreatureError::Invalid`] if a
-    /// sensor's settings are out of range, a sensor is listed twice, none is listed, or feet are to be sensed that the
-    /// creature does not have, or nothing is known of a [`CustomSensor`].
+    /// sensor's settings are out of range, a sensor is listed twice, none is listed, feet are to be sensed that the
+    /// creature does not have, nothing is known of a [`CustomSensor`], or two channels have one name.
     pub fn new(blueprint: &Blueprint, sensors: &[Sensor], input_range: f32) -> Result<Self, CreatureError> {
         if !INPUT_RANGE.contains(input_range) {
             return Err(CreatureError::InputRange { found: input_range });
@@ -50,11 +53,17 @@ impl Senses {
             return Err(CreatureError::Invalid(problems));
         }
         let mut senses = Self { channels: Vec::new(), probes: Vec::new(), custom: Vec::new(), input_range };
+        let mut names = BTreeMap::new();
         for (index, sensor) in sensors.iter().enumerate() {
+            let told = senses.len();
             match sensor {
                 Sensor::Custom(sensor) => problems.extend(senses.add_custom(index, sensor).err()),
                 _ => senses.add(blueprint, sensor),
             }
+            problems.extend(senses.channels[told..].iter().find_map(|Channel { name, .. }| {
+                let first = names.insert(name.clone(), index)?;
+                Some(Problem::DuplicateChannel { path: format!("sensors[{index}]"), channel: name.clone(), first })
+            }));
         }
         if problems.is_empty() { Ok(senses) } else { Err(CreatureError::Invalid(problems)) }
     }

@@ -351,6 +351,17 @@ fn bad_ranges_and_sensors_are_errors() {
 }
 
 #[test]
+fn no_two_channels_have_one_name() {
+    let rays = |angles: &[f32], length| Sensor::Rangefinder { angles: angles.to_vec(), length };
+    let sensors = [rays(&[0.0, 30.0], 2.0), Sensor::TorsoHeight, rays(&[-30.0, 30.0], 5.0)];
+    let error = Senses::new(&blueprint(), &sensors, 3.0).expect_err("one name twice").to_string();
+    let expected = "sensors[2]: its channel \"distance at 30°\" has the name of one of sensors[0]; no two channels of a \
+                    creature may have one name";
+    assert!(error.contains(expected), "{error}");
+    assert!(Senses::new(&blueprint(), &[rays(&[0.0, 30.0], 2.0), rays(&[-30.0], 5.0)], 3.0).is_ok());
+}
+
+#[test]
 fn anchors_follow_turned_parts() {
     let mut file = small();
     // The leg lies on its side, its hip at the torso's lower edge.

@@ -23,7 +23,7 @@
 //! - **A trial's world is drawn before it is built.** [`Variation::draw`] turns a seed into [`Conditions`], numbers that
 //!   can be shown and compared; engines draw nothing. [`CreatureEnvironment::under`] builds a world of given conditions.
 //!
-//! [`body_of`] gives what the judges of movements may know of a creature.
+//! [`conformance::check_sense`] checks a sensor of one's own. [`body_of`] gives what the judges of movements may know of a creature.
 //!
 //! ```
 //! use envs_core::{Conditions, Ground, GroundShape, Variation};
@@ -46,6 +46,7 @@ mod anatomy;
 mod body;
 mod bumps;
 mod conditions;
+pub mod conformance;
 mod engine;
 mod environment;
 mod error;

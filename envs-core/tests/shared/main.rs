@@ -1,5 +1,6 @@
 //! What all engines share, tried on a toy engine whose motion can be worked out by hand.
 
+mod conformance;
 mod environment;
 mod ground;
 mod puppet;

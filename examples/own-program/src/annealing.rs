@@ -101,3 +101,14 @@ impl NetStrategy for Annealing {
         Self::begin_at(settings, to.topology, &to.genes.transfer(self.current.weights(), 0.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use gambol::strategies::conformance::check_net_strategy;
+
+    #[test]
+    fn annealing_keeps_its_promises() -> Result<(), ne_core::conformance::Violation> {
+        check_net_strategy::<Annealing>(&Settings { population: 5, ..Settings::default() }, &Default::default())
+    }
+}

@@ -101,3 +101,18 @@ impl Sense for Lift {
         body.joint_angle(channel).to_degrees() / self.most
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use envs_core::conformance::check_sense;
+    use ne_core::conformance::Violation;
+    use tasks::conformance::{check_movement, check_rules};
+
+    #[test]
+    fn movement_rules_and_sensor_keep_their_promises() -> Result<(), Violation> {
+        check_movement(&HighKick::default())?;
+        check_rules(&CleanKick)?;
+        check_sense(&Lift::default())
+    }
+}

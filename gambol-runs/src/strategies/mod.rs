@@ -7,6 +7,7 @@
 mod any;
 mod built_in;
 mod catalogue;
+pub mod conformance;
 
 pub use any::{AnyGenome, AnyStrategy};
 pub use catalogue::{StrategyCatalogue, StrategyEntry, StrategyError};
@@ -23,6 +24,8 @@ use serde::{Serialize, de::DeserializeOwned};
 /// - [`build`](Self::build) checks every setting; what it accepts runs;
 /// - `Settings` are plain data that derive `Deserialize` with `#[serde(deny_unknown_fields)]`, so that a misspelt one is an
 ///   error. A field named `population` is what `--population` sets.
+///
+/// Check yours with [`check_net_strategy`](conformance::check_net_strategy).
 pub trait NetStrategy:
     Strategy<Genome: Genome<Phenotype: Into<Network>> + DeserializeOwned> + DeserializeOwned + 'static
 {

@@ -1,5 +1,5 @@
-//! Checks that plug-in authors run in their own tests, for the contracts of this crate: [`check_environment`] and
-//! [`check_movement`]. What they have in common with all checks is said in [`ne_core::conformance`].
+//! Checks that plug-in authors run in their own tests, for the contracts of this crate: [`check_environment`],
+//! [`check_movement`] and [`check_rules`]. What they have in common with all checks is said in [`ne_core::conformance`].
 //!
 //! ```
 //! use tasks::{Energy, Running, Sum, conformance::check_movement};
@@ -11,7 +11,9 @@
 pub mod environment;
 pub mod movement;
 mod playing;
+pub mod rules;
 mod stories;
 
 pub use environment::check_environment;
 pub use movement::check_movement;
+pub use rules::check_rules;

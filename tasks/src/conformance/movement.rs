@@ -5,6 +5,8 @@ use crate::{Body, Movement, Verdict};
 use ne_core::conformance::{Promise, Violation};
 use std::collections::BTreeSet;
 
+/// It can be shown anything.
+pub const WATCHES: Promise = Promise::new("movement", "it observes any episode, of a body it has met or not");
 /// A name that can be typed, and a unit.
 pub const LABELS: Promise = Promise::new(
     "movement",
@@ -33,7 +35,7 @@ pub const BINDS: Promise = Promise::new(
 );
 
 /// All of them.
-pub const PROMISES: &[Promise] = &[LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES, BINDS];
+pub const PROMISES: &[Promise] = &[WATCHES, LABELS, FINITE, DETERMINISTIC, PURE, FORGETS, CLONES, MEASURES, BINDS];
 
 /// Checks a movement by showing it bodies that stand, walk, jump, spin, rock and fall: first without telling it whose
 /// movement it watches, then having had it meet bodies with legs, without, and without any limbs.
@@ -52,6 +54,12 @@ pub fn check_movement(movement: &dyn Movement) -> Result<(), Violation> {
 
 /// Every promise but [`BINDS`].
 fn check_watching(movement: &dyn Movement, stories: &[Story]) -> Result<(), Violation> {
+    WATCHES.check(|| {
+        for story in stories {
+            watch(&mut *movement.boxed_clone(), story, Asked::EachStep);
+        }
+        Ok(())
+    })?;
     LABELS.check(|| labels(movement, stories))?;
     let alone = DETERMINISTIC.check(|| {
         let watch =

@@ -1,9 +1,9 @@
 //! Small trajectories, as no engine would make them, that movements are shown.
 
-use crate::{Body, BodyHinge, BodyMotor, BodyPart, PartState, Snapshot};
+use crate::{Body, BodyHinge, BodyMotor, BodyPart, Command, PartState, Snapshot};
 
 const STEPS: usize = 150;
-const TIME_STEP: f32 = 1.0 / 60.0;
+pub(super) const TIME_STEP: f32 = 1.0 / 60.0;
 
 /// Snapshots of one episode; the first is the start.
 pub(super) struct Story {
@@ -23,16 +23,33 @@ struct Path {
 
 /// Standing, moving, jumping, spinning and falling bodies, of one to four parts.
 pub(super) fn stories() -> Vec<Story> {
-    paths().iter().map(Path::story).collect()
+    paths().iter().map(|path| path.story(STEPS)).collect()
 }
 
 /// The same, all of one body, with a name for it.
 pub(super) fn stories_of(body: &Body, name: &str) -> Vec<Story> {
-    let with_body = |path: Path| {
-        let Story { name: path, snapshots } = Path { parts: body.parts.len(), ..path }.story();
+    longer_stories_of(body, name, STEPS).collect()
+}
+
+/// The same, of so many steps.
+pub(super) fn longer_stories_of(body: &Body, name: &str, steps: usize) -> impl Iterator<Item = Story> {
+    let parts = body.parts.len();
+    paths().into_iter().map(move |path| {
+        let Story { name: path, snapshots } = Path { parts, ..path }.story(steps);
         Story { name: format!("{path}, having met {name}"), snapshots }
-    };
-    paths().into_iter().map(with_body).collect()
+    })
+}
+
+/// The same story, of a body that is told to stand, to move and to jump by turns, for a second each.
+pub(super) fn told(mut story: Story) -> Story {
+    let mut command = Command::default();
+    for (step, snapshot) in story.snapshots.iter_mut().enumerate() {
+        let second = step / 60;
+        let speed = if second % 3 == 0 { 0.0 } else { 1.0 };
+        command = command.then(speed, second % 3 == 2, snapshot.time, TIME_STEP);
+        snapshot.command = command;
+    }
+    Story { name: format!("{}, told what to do", story.name), ..story }
 }
 
 /// Bodies to meet: a lonely torso, one that crawls, and one on a leg with a knee and a leg without, with names.
@@ -91,10 +108,10 @@ fn paths() -> [Path; 9] {
 }
 
 impl Path {
-    fn story(&self) -> Story {
+    fn story(&self, steps: usize) -> Story {
         Story {
             name: self.name.into(),
-            snapshots: (0..=STEPS).map(|step| self.snapshot(step as f32 * TIME_STEP)).collect(),
+            snapshots: (0..=steps).map(|step| self.snapshot(step as f32 * TIME_STEP)).collect(),
         }
     }
 

@@ -10,6 +10,8 @@ use std::fmt;
 /// [`MovementCatalogue::judged_by`](crate::MovementCatalogue::judged_by). Whatever judges gaits then judges its gaits: the
 /// choice of champions, `gambol gait` and `robust`, `--until usable`, reports.
 ///
+/// Check yours with [`check_rules`](crate::conformance::check_rules).
+///
 /// ```
 /// use tasks::gait::{Findings, GaitReport, Reason, Rules, Trajectory};
 ///
@@ -35,7 +37,7 @@ pub trait Rules: fmt::Debug + Send + Sync {
     /// `swimming`, `playing`.
     fn name(&self) -> &str;
 
-    /// How long the episode to judge must last, s. All of a longer one is judged. A shorter one is not usable, which need
+    /// How long the episode to judge must last, s, from 0.1 to 600. All of a longer one is judged. A shorter one is not usable, which need
     /// not be found again.
     fn seconds(&self) -> f64;
 

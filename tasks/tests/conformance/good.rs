@@ -2,7 +2,7 @@ use crate::common::PointMass;
 use ne_core::{Seed, conformance::Violation};
 use tasks::{
     Energy, FallEnds, MovementCatalogue, Running, Sum,
-    conformance::{check_environment, check_movement, environment, movement},
+    conformance::{check_environment, check_movement, environment, movement, rules},
 };
 
 #[test]
@@ -31,7 +31,7 @@ fn the_toy_environment_passes() -> Result<(), Violation> {
 
 #[test]
 fn no_promise_is_made_twice() {
-    let all = [environment::PROMISES, movement::PROMISES].concat();
+    let all = [environment::PROMISES, movement::PROMISES, rules::PROMISES].concat();
     for (index, promise) in all.iter().enumerate() {
         assert!(!all[..index].contains(promise), "{promise:?}");
     }

@@ -5,6 +5,7 @@ mod common;
 mod environments;
 mod good;
 mod movements;
+mod rules;
 
 use ne_core::conformance::{Promise, Violation};
 

@@ -152,7 +152,7 @@ fn broken_movements_are_caught() {
         (LABELS, "name with a space", check(Flaw::NameWithSpace)),
         (LABELS, "name counts", check(Flaw::NameCounts)),
         (LABELS, "no unit", check(Flaw::NoUnit)),
-        (LABELS, "panics", check(Flaw::Panics)),
+        (WATCHES, "panics", check(Flaw::Panics)),
         (FINITE, "divides by zero at first", check(Flaw::DividesByZeroAtFirst)),
         (DETERMINISTIC, "counts all clones", check(Flaw::CountsAllClones)),
         (PURE, "asking counts", check(Flaw::AskingCounts)),
