@@ -176,8 +176,7 @@ pub fn robustness(
     perturbations: &Perturbations,
 ) -> Result<Robustness, RobustnessError> {
     let mut replays = PerturbedReplays::new(champion, registry, perturbations)?;
-    let indices: Vec<u32> = (0..perturbations.count).collect();
-    replays.trials = indices.par_chunks(LANES).flat_map_iter(|indices| replays.replay(indices)).collect();
+    replays.go_on(perturbations.count as usize);
     Ok(replays.robustness())
 }
 
@@ -195,6 +194,9 @@ pub struct PerturbedReplays {
 }
 
 impl PerturbedReplays {
+    /// The worlds that are replayed at once, on one thread.
+    pub const FEW: usize = LANES;
+
     /// Replays the champion in the world where it learned, and in none that is perturbed yet.
     ///
     /// # Errors
@@ -230,11 +232,15 @@ impl PerturbedReplays {
         [self.trials.len(), self.perturbations.count as usize]
     }
 
-    /// Replays it in a few more; nothing happens where it was replayed in all.
-    pub fn go_on(&mut self) {
+    /// Replays it in so many more worlds, or as many as are left. More than a [`FEW`](Self::FEW) are shared among the threads
+    /// of the current pool.
+    pub fn go_on(&mut self, worlds: usize) {
         let from = self.trials.len() as u32;
-        let indices: Vec<u32> = (from..self.perturbations.count).take(LANES).collect();
-        let trials = self.replay(&indices);
+        let indices: Vec<u32> = (from..self.perturbations.count).take(worlds).collect();
+        let trials: Vec<_> = match indices.len() {
+            0..=Self::FEW => self.replay(&indices),
+            _ => indices.par_chunks(Self::FEW).flat_map_iter(|indices| self.replay(indices)).collect(),
+        };
         self.trials.extend(trials);
     }
 
@@ -380,7 +386,8 @@ mod tests {
         let perturbations = Perturbations { count: 40, seed: 1, variation: Some(Variation::default()) };
         let mut replays = PerturbedReplays::new(&champion, &registry, &perturbations).expect("it is judged");
         while replays.progress()[0] < 40 {
-            replays.go_on();
+            let few = if replays.progress()[0] == 0 { PerturbedReplays::FEW } else { 20 };
+            replays.go_on(few);
         }
         let in_steps = replays.robustness().trials;
         assert_eq!(in_steps.iter().map(|trial| trial.progress.to_bits()).collect::<Vec<_>>(), all, "a few at a time");

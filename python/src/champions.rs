@@ -10,7 +10,7 @@ use gambol_reports::report;
 use gambol_runs::{
     champion::Champion,
     gait,
-    robust::{Perturbations, robustness},
+    robust::{PerturbedReplays, Perturbations},
 };
 use ne_core::Phenotype as _;
 use ne_net::Network;
@@ -32,7 +32,7 @@ pub(crate) fn read_champion(py: Python<'_>, path: PathBuf) -> PyResult<String> {
 pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f64>, Option<u32>)> {
     py.detach(|| {
         let champion = champion(&path)?;
-        let verification = believed(&champion, || champion.verify(registry()).map_err(wrong))?;
+        let verification = believed(&champion, || champion.verify(&registry()).map_err(wrong))?;
         let fitness = verification.evaluation.fitness().map(ne_core::Fitness::get);
         Ok((verification.is_identical(), fitness, verification.diverges_at))
     })
@@ -43,7 +43,7 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f6
 pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
         let champion = champion(&path)?;
-        let judge = || on_own_threads(|| gait::judge(&champion, registry()).map_err(wrong));
+        let judge = || on_own_threads()?.install(|| gait::judge(&champion, &registry()).map_err(wrong));
         let report = believed(&champion, judge)?;
         serde_json::to_string(&report).map_err(wrong)
     })
@@ -62,7 +62,16 @@ pub(crate) fn champion_robustness(
         let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
         let perturbations = Perturbations { count: worlds, seed, variation };
         let champion = champion(&path)?;
-        let replay = || on_own_threads(|| robustness(&champion, registry(), &perturbations).map_err(wrong));
+        let threads = on_own_threads()?;
+        let replay = || {
+            let mut replays = threads.install(|| PerturbedReplays::new(&champion, &registry(), &perturbations)).map_err(wrong)?;
+            while replays.progress()[0] < worlds as usize {
+                threads.install(|| replays.go_on(threads.current_num_threads() * PerturbedReplays::FEW));
+                // Here and not among the replays: signals reach the thread that called alone.
+                Python::attach(|py| py.check_signals())?;
+            }
+            Ok(replays.robustness())
+        };
         let robustness = believed(&champion, replay)?;
         serde_json::to_string(&robustness).map_err(wrong)
     })
@@ -89,8 +98,8 @@ fn is_another(file: &Path, champion: &Path) -> PyResult<()> {
 }
 
 /// Threads that all share are gone in a process that was forked.
-fn on_own_threads<T: Send>(what: impl FnOnce() -> PyResult<T> + Send) -> PyResult<T> {
-    rayon::ThreadPoolBuilder::new().build().map_err(wrong)?.install(what)
+fn on_own_threads() -> PyResult<rayon::ThreadPool> {
+    rayon::ThreadPoolBuilder::new().build().map_err(wrong)
 }
 
 /// Writes a champion in another format. Returns the files; `out` is the first of them.
@@ -125,7 +134,7 @@ pub(crate) fn export_champion(
         let usual = Picture::default();
         let picture = Picture { size: size.unwrap_or(usual.size), rate: rate.unwrap_or(usual.rate), ground };
         let options = Options { name: destination.name.clone(), steps, picture };
-        let files = believed(&champion, || export(&champion, registry(), format, &options).map_err(wrong))?;
+        let files = believed(&champion, || export(&champion, &registry(), format, &options).map_err(wrong))?;
         // What has come there since is not overwritten unasked either.
         check()?;
         destination.write(&files).map_err(|error| PyOSError::new_err(error.to_string()))?;
@@ -140,7 +149,7 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
         let champion = champion(&path)?;
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         is_another(&page, &path)?;
-        let write = || report::write_replay(&champion, registry(), steps, &page);
+        let write = || report::write_replay(&champion, &registry(), steps, &page);
         let write = || on_own_threads(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
         believed(&champion, write)
     })

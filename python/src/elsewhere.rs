@@ -40,7 +40,7 @@ impl BatchEvaluator {
     #[new]
     fn new(config: &str) -> PyResult<Self> {
         let config = serde_json::from_str(config).map_err(wrong)?;
-        Ok(Self(training::BatchEvaluator::new(&config, registry()).map_err(wrong)?))
+        Ok(Self(training::BatchEvaluator::new(&config, &registry()).map_err(wrong)?))
     }
 
     /// The evaluations of a piece, in its order, as bytes.

@@ -10,19 +10,18 @@ use std::{
     borrow::Cow,
     collections::BTreeSet,
     error::Error,
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 use tasks::{Environment, Episode, MovementSpec};
 
 /// Everything that can be named. Built when it is first asked for.
-pub(crate) fn registry() -> &'static Registry {
-    let mut registry = lock();
-    registry.get_or_insert_with(|| Box::leak(Box::default()))
+pub(crate) fn registry() -> Arc<Registry> {
+    lock().get_or_insert_default().clone()
 }
 
 /// The same, if it was asked for before.
-pub(crate) fn built() -> Option<&'static Registry> {
-    *lock()
+pub(crate) fn built() -> Option<Arc<Registry>> {
+    lock().clone()
 }
 
 /// Adds something of a name of its own; what was added under that name before is replaced. `add` must not call Python, which
@@ -33,19 +32,22 @@ pub(crate) fn built() -> Option<&'static Registry> {
 pub(crate) fn register(name: String, add: impl FnOnce(&mut Registry)) -> Result<(), String> {
     static ADDED: Mutex<BTreeSet<String>> = Mutex::new(BTreeSet::new());
     let mut added = ADDED.lock().unwrap_or_else(PoisonError::into_inner);
-    let mut changed = registry().clone();
+    let mut changed = Registry::clone(&registry());
     if !added.contains(&name) && changed.movements.find(&name).is_some() {
         return Err(format!("name = \"{name}\": the library has a movement of that name"));
     }
     add(&mut changed);
     added.insert(name);
-    // What was built before keeps the registry that it was built with: one for each registration stays.
-    *lock() = Some(Box::leak(Box::new(changed)));
+    // What is being built with the one before goes on with it.
+    let before = lock().replace(Arc::new(changed));
+    // Its movements may be dropped with it, which may call Python.
+    drop(added);
+    drop(before);
     Ok(())
 }
 
-fn lock() -> MutexGuard<'static, Option<&'static Registry>> {
-    static REGISTRY: Mutex<Option<&'static Registry>> = Mutex::new(None);
+fn lock() -> MutexGuard<'static, Option<Arc<Registry>>> {
+    static REGISTRY: Mutex<Option<Arc<Registry>>> = Mutex::new(None);
     REGISTRY.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -79,7 +81,7 @@ pub(crate) fn names_in(movement: &MovementSpec) -> Vec<String> {
 impl Described {
     /// What a request asks for. The engine is that of the request, or that of training.
     pub(crate) fn build(request: &Request) -> Result<Self, Box<dyn Error>> {
-        let registry = registry();
+        let registry = &registry();
         let config = request.resolve(registry)?;
         let parts = config.episode_parts();
         let episodes = match config.engine {

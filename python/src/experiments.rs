@@ -36,7 +36,7 @@ impl Experiment {
         variation: Option<String>,
         settings: Vec<String>,
     ) -> PyResult<Self> {
-        let methods = strategies.iter().map(|text| Method::parse(text, registry())).collect::<Result<_, _>>();
+        let methods = strategies.iter().map(|text| Method::parse(text, &registry())).collect::<Result<_, _>>();
         let request = PlanRequest {
             methods: methods.map_err(wrong)?,
             creatures,
@@ -48,7 +48,7 @@ impl Experiment {
             engine,
             variation,
         };
-        Ok(Self { experiment: Box::new(request.plan(registry()).map_err(wrong)?) })
+        Ok(Self { experiment: Box::new(request.plan(&registry()).map_err(wrong)?) })
     }
 
     /// A strategy's settings, as `gambol tune`.
@@ -84,7 +84,7 @@ impl Experiment {
             ..PlanRequest::default()
         };
         let request = TuneRequest { strategy, trials, draw_seed, spread, plan };
-        let tuning = py.detach(|| request.tuning(registry())).map_err(wrong)?;
+        let tuning = py.detach(|| request.tuning(&registry())).map_err(wrong)?;
         Ok(Self { experiment: Box::new(tuning) })
     }
 
@@ -98,7 +98,7 @@ impl Experiment {
         generations: u64,
     ) -> PyResult<Self> {
         let request = reproduce::Request { creatures, movements, presets, runs, generations, clock_minutes: None };
-        Ok(Self { experiment: Box::new(request.plan(registry()).map_err(wrong)?) })
+        Ok(Self { experiment: Box::new(request.plan(&registry()).map_err(wrong)?) })
     }
 
     /// How many gaits are usable, as `gambol bench gaits --steps`.
@@ -132,8 +132,8 @@ impl Experiment {
             }
         }
         let stop = StopConditions { steps: Some(steps), ..StopConditions::default() };
-        let study = GaitStudy::new(&requests, seeds, stop, robust, registry()).map_err(wrong)?;
-        let study = if whole { study } else { study.until_usable(registry()).map_err(wrong)? };
+        let study = GaitStudy::new(&requests, seeds, stop, robust, &registry()).map_err(wrong)?;
+        let study = if whole { study } else { study.until_usable(&registry()).map_err(wrong)? };
         Ok(Self { experiment: Box::new(study) })
     }
 
@@ -174,7 +174,7 @@ impl Experiment {
 
     /// Does a run, and gives the text of its result.
     fn carry_out(&self, py: Python<'_>, run: usize) -> PyResult<String> {
-        py.detach(|| self.experiment.carry_out(run, registry())).map_err(failed)
+        py.detach(|| self.experiment.carry_out(run, &registry())).map_err(failed)
     }
 
     /// Writes the result of a run into the folder, and says where.
@@ -189,7 +189,7 @@ impl Experiment {
 
     /// Writes what came of it, and names the files.
     fn conclude(&self, py: Python<'_>, folder: PathBuf) -> PyResult<Vec<PathBuf>> {
-        py.detach(|| self.experiment.conclude(&folder, registry())).map_err(failed)
+        py.detach(|| self.experiment.conclude(&folder, &registry())).map_err(failed)
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) type Length = (String, u32, f32);
 /// preset `plain`, and how many seconds a step lasts. `creature`: the name of a shipped one, or the path of a file.
 #[pyfunction]
 pub(crate) fn episode_facts(creature: &str) -> PyResult<(f32, Vec<Length>)> {
-    let creature = gambol_runs::source::creature(creature, registry()).map_err(wrong)?;
+    let creature = gambol_runs::source::creature(creature, &registry()).map_err(wrong)?;
     let facts = |movement: String| {
         let config = registry().config("plain", creature.clone(), &movement).map_err(wrong)?;
         let steps = registry().movements.steps(&config.movement).map_err(wrong)?;
@@ -41,7 +41,8 @@ pub(crate) fn default_time_step() -> f32 {
 pub(crate) fn movement_names() -> Vec<String> {
     // Whether or not there is a registry yet.
     let usual = tasks::MovementCatalogue::default();
-    let movements = built().map_or(&usual, |registry| &registry.movements);
+    let built = built();
+    let movements = built.as_ref().map_or(&usual, |registry| &registry.movements);
     movements.entries().iter().filter(|entry| entry.steps.is_some()).map(|entry| entry.name.clone()).collect()
 }
 

@@ -7,6 +7,7 @@ use crate::{
     movements,
 };
 use gambol_runs::{
+    Registry,
     request::Request,
     run::Run,
     run_folder::{FolderError, RunFolder},
@@ -65,7 +66,7 @@ pub(crate) fn train(
         ..Request::default()
     };
     py.detach(|| {
-        let config = request.resolve(registry()).map_err(wrong)?;
+        let config = request.resolve(&registry()).map_err(wrong)?;
         let run = Run::begin(&config, &folder, resources(threads)?).map_err(broken)?;
         until_it_ends(run, callback.as_ref(), elsewhere.as_ref())
     })
@@ -97,7 +98,7 @@ pub(crate) fn resume(
 
 fn resources(threads: usize) -> PyResult<Resources> {
     check_threads(threads)?;
-    Ok(Resources { threads, registry: registry().clone(), signal: ne_core::StopSignal::default() })
+    Ok(Resources { threads, registry: Registry::clone(&registry()), signal: ne_core::StopSignal::default() })
 }
 
 /// One generation after the other. Between two of them Python is asked whether Ctrl-C was pressed; whatever ends the run, what it has

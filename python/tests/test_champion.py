@@ -2,8 +2,11 @@
 
 import html
 import json
+import os
 import pickle
 import re
+import signal
+import threading
 
 import numpy as np
 import pytest
@@ -22,6 +25,13 @@ def run(tmp_path_factory):
 def champion(run):
     """Its champion."""
     return run.champion
+
+
+def test_robustness_can_be_interrupted(champion):
+    """As Ctrl-C does it, while worlds are replayed that would take minutes."""
+    threading.Timer(0.5, os.kill, [os.getpid(), signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt):
+        champion.robustness(100_000)
 
 
 def test_robustness_tells_of_every_world(champion):

@@ -2,6 +2,8 @@
 
 // No message to the studio may be longer, bytes.
 const LARGEST_FILE = 15e6;
+// So many runs are seen at a glance.
+const FEW_RUNS = 4;
 
 class Keep {
   constructor(connection, watch, { open, draw, close }) {
@@ -10,7 +12,8 @@ class Keep {
     connection.on("robustness", state => this.showRobustness(state));
     connection.on("catalogue", catalogue => this.fill(catalogue));
     connection.on("opened", event => this.show(event));
-    connection.on("refused", ({ request }) => { if (request === "remove") this.removed = null; });
+    // It may be gone already.
+    connection.on("refused", ({ request }) => { if (request === "remove") connection.ask({ do: "look" }); });
     connection.on("saved", ({ name }) => this.say(`${name} is saved.`));
     const get = name => document.getElementById(name);
     get("keep-verify").addEventListener("click", () => this.verify());
@@ -26,6 +29,7 @@ class Keep {
     for (const id of ["keep-pack", "keep-link"]) get(id).hidden = !connection.isAlone;
     get("keep-pack").addEventListener("click", () => this.pack());
     get("keep-draw").addEventListener("click", () => draw(this.watch.config.creature));
+    get("keep-search").addEventListener("input", () => this.sift());
     get("keep-file").addEventListener("change", event => {
       this.read(event.target.files[0]);
       // The same file may be chosen again.
@@ -41,13 +45,15 @@ class Keep {
   }
 
   fill({ runs, more_runs: more, formats, creatures, terrains, drawn }) {
-    this.formats = formats;
+    if (!document.querySelector("#keep-exports button")) this.offerExports(formats);
     const bodies = creatures.filter(({ name }) => drawn.includes(name));
     const grounds = terrains.filter(terrain => terrain.drawn);
     document.getElementById("keep-drawn").hidden = bodies.length + grounds.length === 0;
     document.querySelector("#keep-drawn ul").replaceChildren(...bodies.map(body => this.bodyLine(body)), ...grounds.map(({ name }) => this.groundLine(name)));
     document.getElementById("keep-empty").hidden = runs.length > 0;
     document.getElementById("keep-runs").replaceChildren(...runs.map(run => this.card(run)));
+    document.getElementById("keep-search").closest("label").hidden = runs.length <= FEW_RUNS;
+    this.sift();
     document.getElementById("keep-more").hidden = !more;
     document.getElementById("keep-more").textContent = `${count(more, "older run is", "older runs are")} not shown.`;
     if (this.removed && !runs.some(({ run }) => run === this.removed)) {
@@ -55,6 +61,14 @@ class Keep {
       this.removed = null;
     }
     if (this.watch.run) this.show(this.watch);
+  }
+
+  // Shows the runs that have each word that is looked for in their name, creature or movement.
+  sift() {
+    const words = document.getElementById("keep-search").value.toLowerCase().split(/\s+/).filter(Boolean);
+    const items = [...document.querySelectorAll("#keep-runs > li")];
+    for (const item of items) item.hidden = !words.every(word => item.dataset.words.includes(word));
+    document.getElementById("keep-none").hidden = !items.length || items.some(item => !item.hidden);
   }
 
   card({ run, creature, movement, fitness, is_running: running }) {
@@ -67,6 +81,7 @@ class Keep {
     const worth = running ? "training" : fitness === null ? "" : tidy(fitness);
     line.append(element("b", run), element("span", worth));
     line.title = `${run}: ${creature.title || creature.name}, ${movement}`;
+    item.dataset.words = `${line.title} ${creature.name}`.toLowerCase();
     button.append(canvas, line);
     button.addEventListener("click", () => this.open(run));
     item.append(button);
@@ -100,17 +115,21 @@ class Keep {
     const address = `runs/${encodeURIComponent(run)}`;
     this.connection.link(document.getElementById("keep-report"), `${address}/report`, `${run}.html`);
     this.connection.link(document.getElementById("keep-champion"), `${address}/champion.json`, `${run}.champion.json`);
-    const links = (this.formats || []).flatMap(({ name, endings }) => endings.map((ending, file) => {
-      const link = element("button", endings.length > 1 ? `${name} ${ending}` : name, "small");
-      link.type = "button";
-      link.addEventListener("click", async () => {
-        link.disabled = true;
-        await this.export(run, name, file);
-        link.disabled = false;
+  }
+
+  // The open run can be had in each format there is.
+  offerExports(formats) {
+    const buttons = formats.flatMap(({ name, endings }) => endings.map((ending, file) => {
+      const button = element("button", endings.length > 1 ? `${name} ${ending}` : name, "small");
+      button.type = "button";
+      button.addEventListener("click", async () => {
+        button.disabled = true;
+        await this.export(this.watch.run, name, file);
+        button.disabled = false;
       });
-      return link;
+      return button;
     }));
-    document.getElementById("keep-exports").replaceChildren("Export:", ...links);
+    document.getElementById("keep-exports").replaceChildren("Export:", ...buttons);
   }
 
   say(text) { document.getElementById("keep-result").textContent = text; }

@@ -46,12 +46,14 @@ class Studio {
       if (request === "show" || request === "enter") this.isShowAsked = false;
       // Before there is anything to show, nothing is wrong.
       if (request !== "show" && request !== "advance") this.refuse(reason);
-      if (!this.isKnown && request.startsWith("open")) connection.ask({ do: "look" });
+      // What the address has is not there: what else there is takes its place.
+      if (!this.isKnown && !this.opened && request.startsWith("open")) connection.ask({ do: request === "open-latest" ? "look" : "open-latest" });
     });
     connection.on("catalogue", () => this.know());
     connection.on("opened", event => {
       this.opened = event;
       this.shown = null;
+      this.setAddress(event.run);
       this.showAgain();
       this.connection.ask({ do: "look" });
     });
@@ -92,6 +94,7 @@ class Studio {
   // The open run was removed: the latest that there is takes its place.
   close(runs) {
     this.opened = this.shown = null;
+    this.setAddress(null);
     if (runs.length) return this.connection.ask({ do: "open", run: runs[0].run });
     const { stage } = this.arena;
     this.arena.leave();
@@ -100,6 +103,14 @@ class Studio {
     this.members.leave();
     document.getElementById("arena-caption").textContent = "";
     return this.watch.close();
+  }
+
+  // The page opens the same run when it is loaded anew.
+  setAddress(run) {
+    const address = new URL(location.href);
+    address.searchParams.delete("creature");
+    if (run) address.searchParams.set("run", run); else address.searchParams.delete("run");
+    history.replaceState(null, "", address);
   }
 
   // The first time: the champion in the address, what was asked for on the command line, else the latest run, else a biped that learns to

@@ -19,7 +19,7 @@ class Watch {
     const get = name => document.getElementById(name);
     const press = (name, act) => get(name).addEventListener("click", act);
     press("run-pause", () => {
-      get("run-pace").value = "free";
+      this.setPace("free");
       const waits = this.state === "paused";
       connection.ask({ do: waits ? "go-on" : "pause" });
       if (!waits) this.expect("training, waits after this generation", ["run-pause"]);
@@ -29,7 +29,10 @@ class Watch {
       connection.ask({ do: "stop" });
       this.expect("training, stops after this generation", ["run-stop", "run-pause", "run-step"]);
     });
-    get("run-pace").addEventListener("change", event => connection.ask({ do: event.target.value === "shown" ? "step" : "go-on" }));
+    get("run-pace").addEventListener("change", event => {
+      this.setPace(event.target.value);
+      connection.ask({ do: event.target.value === "shown" ? "step" : "go-on" });
+    });
     press("run-go-on", () => connection.ask({ do: "go-on", generations: Number(document.getElementById("run-more").value) }));
     arena.onStep = frame => this.note(frame);
     // What is out of sight is not drawn.
@@ -43,10 +46,17 @@ class Watch {
     const name = config.creature.title || config.creature.name;
     document.getElementById("arena-title").textContent = `${name} · ${config.movement.name}`;
     document.getElementById("run-command").textContent = command;
-    document.getElementById("run-pace").value = "free";
     document.title = `${name} · Gambol studio`;
     this.clear();
+    const isPaced = Boolean(run) && drafts.get("pace") === run;
     this.setState(state);
+    this.setPace(isPaced ? "shown" : "free");
+  }
+
+  // Training waits for what is shown, or does not. It is so again when this tab is loaded anew.
+  setPace(pace) {
+    document.getElementById("run-pace").value = pace;
+    drafts.set("pace", pace === "shown" ? this.run : null);
   }
 
   // Nothing is known of a run yet.
@@ -77,7 +87,7 @@ class Watch {
     const get = name => document.getElementById(name);
     const trains = this.state === "running" || this.state === "paused";
     // A training begins without a pause between its generations.
-    if (trains && !trained) get("run-pace").value = "free";
+    if (trains && !trained) this.setPace("free");
     get("run-pause").textContent = this.state === "paused" ? "Train on" : "Pause training";
     for (const name of ["run-pause", "run-step", "run-stop", "run-pace"]) get(name).disabled = !trains;
     for (const name of ["run-go-on", "run-more"]) get(name).disabled = trains || !this.run;

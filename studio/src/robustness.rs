@@ -52,7 +52,7 @@ impl Job for Replaying {
                 Next::Done
             }),
             Some(mut replays) => {
-                replays.go_on();
+                replays.go_on(PerturbedReplays::FEW);
                 self.state.worlds = replays.progress();
                 let [done, of] = self.state.worlds;
                 if done < of {

@@ -87,7 +87,7 @@ type Chapter = (&'static str, fn(&mut Browser, &Path, &Home), Person);
 
 const ANYBODY: Person = Person { wants_rest: false, likes_dark: false, touches: false };
 
-const EVERYWHERE: [Chapter; 20] = [
+const EVERYWHERE: [Chapter; 21] = [
     ("begins with a biped that learns to run", studio::begins, ANYBODY),
     ("trains what is chosen", studio::chooses, ANYBODY),
     ("lets a champion be played with", studio::plays, ANYBODY),
@@ -106,6 +106,7 @@ const EVERYWHERE: [Chapter; 20] = [
         Person { wants_rest: true, ..ANYBODY },
     ),
     ("removes runs for good", studio_runs::removes, ANYBODY),
+    ("finds a run by its words, and the open one in its address", studio_runs::finds, ANYBODY),
     ("trains on a ground that is drawn", studio_ground::draws, ANYBODY),
     ("gives a tour by keyboard", studio_people::tours, ANYBODY),
     ("is played with by touch", studio_people::touches, Person { touches: true, ..ANYBODY }),

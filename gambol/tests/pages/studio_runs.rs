@@ -7,6 +7,7 @@ use crate::{
     home::{Home, Studio},
 };
 use std::{
+    fs,
     path::Path,
     process::{Child, Command},
     thread,
@@ -252,7 +253,16 @@ pub(crate) fn removes(browser: &mut Browser, folder: &Path, home: &Home) {
     wait(browser, "its name", "document.getElementById('arena-title').textContent.startsWith('The Gentleman')");
     wait(browser, "its generation", "document.getElementById('arena-caption').textContent.startsWith('generation 3,')");
     click(browser, "[data-chapter=keep]");
+    if *home == Home::Served {
+        // Somebody has been faster.
+        fs::remove_dir_all(folder.join("runs/biped-1-running")).expect("it is there");
+    }
     remove(browser, "biped-1-running");
+    if *home == Home::Served {
+        let notice = "document.querySelector('#notice p').textContent";
+        wait(browser, "a notice", &format!("{notice} === 'there is no run \"biped-1-running\"'"));
+        click(browser, "#notice button");
+    }
     wait(browser, "that nothing is there", "document.getElementById('keep-empty').checkVisibility()");
     assert!(!is_true(browser, "document.getElementById('keep-open').checkVisibility()"), "nothing is open");
     browser.press(ONE);
@@ -261,6 +271,82 @@ pub(crate) fn removes(browser: &mut Browser, folder: &Path, home: &Home) {
     // And a new one begins.
     train(browser, "biped-1", "running", 2);
     assert_eq!(browser.evaluate("document.getElementById('notice').hidden"), true);
+    is_clean(browser, &studio);
+}
+
+/// The names of the runs that the gallery shows.
+const SHOWN: &str =
+    "[...document.querySelectorAll('#keep-runs > li:not([hidden]) b')].map(name => name.textContent).join()";
+
+pub(crate) fn finds(browser: &mut Browser, folder: &Path, home: &Home) {
+    let studio = Studio::start(home, folder, &["biped-1"]);
+    browser.visit(&studio.url, 1280);
+    let gallery = |browser: &mut Browser, runs: u32| {
+        click(browser, "[data-chapter=keep]");
+        wait(browser, "the gallery", &format!("document.querySelectorAll('#keep-runs button').length === {runs}"));
+    };
+    for creature in ["biped-1", "tetrapod-1", "biped-2", "decapod-1"] {
+        train(browser, creature, "running", 1);
+    }
+    gallery(browser, 4);
+    let is_searched = "document.getElementById('keep-search').checkVisibility()";
+    assert!(!is_true(browser, is_searched), "four are seen at a glance");
+    train(browser, "tetrapod-2", "jumping", 1);
+    gallery(browser, 5);
+    assert!(is_true(browser, is_searched));
+    for (words, shown) in [
+        ("tetrapod", "tetrapod-2-jumping,tetrapod-1-running"),
+        (" JUMP tetra", "tetrapod-2-jumping"),
+        ("gallop", ""),
+        ("decapod-1", "decapod-1-running"),
+    ] {
+        set(browser, "#keep-search", words);
+        assert_eq!(browser.evaluate(SHOWN), shown, "{words}");
+        assert_eq!(is_true(browser, "document.getElementById('keep-none').checkVisibility()"), shown.is_empty());
+    }
+    set(browser, "#keep-search", "");
+    assert!(browser.evaluate(SHOWN).as_str().is_some_and(|shown| shown.split(',').count() == 5));
+
+    // The page is loaded anew: what was open is, though others are later.
+    let load_anew = |browser: &mut Browser, run: &str| {
+        let address = browser.evaluate("location.href.split('#')[0]");
+        let address = address.as_str().expect("an address").replace("tetrapod-1-running", run);
+        browser.visit(&address, 1280);
+    };
+    open(browser, "tetrapod-1-running");
+    load_anew(browser, "tetrapod-1-running");
+    let is_open = |command: &str| format!("document.getElementById('run-command').textContent.includes('{command}')");
+    wait(browser, "the run", &is_open("tetrapod-1 running"));
+    wait(browser, "its generation", "document.getElementById('arena-caption').textContent.startsWith('generation 1,')");
+    gallery(browser, 5);
+    wait(browser, "its exports", "document.querySelectorAll('#keep-exports button').length > 5");
+    click(browser, "[data-chapter=watch]");
+    let mut latest = "tetrapod-2 jumping";
+    // In a browser, training ends with the page.
+    if *home == Home::Served {
+        latest = "tetrapod-1 running";
+        set(browser, "#run-more", "5000");
+        click(browser, "#run-go-on");
+        wait(browser, "more", "/generation \\d\\d/.test(document.getElementById('run-state').textContent)");
+        set(browser, "#run-pace", "shown");
+        wait(browser, "the pause", "document.getElementById('run-state').textContent.includes('training waits')");
+        load_anew(browser, "tetrapod-1-running");
+        wait(browser, "the run", &is_open("tetrapod-1 running"));
+        assert_eq!(browser.evaluate("document.getElementById('run-pace').value"), "shown");
+        let before = generation(browser);
+        wait(
+            browser,
+            "the next",
+            &format!("document.getElementById('run-state').textContent.includes('generation {}')", before + 1),
+        );
+        click(browser, "#run-stop");
+        wait(browser, "the end", "document.getElementById('run-state').textContent.includes('interrupted')");
+    }
+    // What the address names is not there: the latest is, and the page says so.
+    load_anew(browser, "nothing");
+    wait(browser, "the latest", &is_open(latest));
+    assert_eq!(browser.evaluate("document.querySelector('#notice p').textContent"), "there is no run \"nothing\"");
+    wait(browser, "the gallery", "document.querySelectorAll('#keep-runs button').length === 5");
     is_clean(browser, &studio);
 }
 
