@@ -66,6 +66,10 @@ impl Comparison {
         &self.y
     }
 
+    pub(crate) fn is_paired(&self) -> bool {
+        self.is_paired
+    }
+
     /// Fills `resample`, of the same shape, with runs drawn with replacement: pairs together, others independently.
     pub(crate) fn resample(&self, resample: &mut Self, stream: &mut RandomStream) {
         if self.is_paired {

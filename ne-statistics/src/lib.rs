@@ -12,7 +12,7 @@
 //! | which share of runs is good enough? | [`performance_profile`], [`performance_profile_band`] |
 //! | by how much is x better than y? | [`Bootstrap::comparison`] of a difference; [`hodges_lehmann`] for pairs, [`shift_between`] otherwise |
 //! | how often is x better than y? | [`probability_of_improvement`]; on one task [`vargha_delaney`] |
-//! | could it be chance? | [`wilcoxon_signed_rank`] for pairs, [`rank_sum`] otherwise; for several tests [`holm`] |
+//! | could it be chance? | on one task [`wilcoxon_signed_rank`] for pairs, [`rank_sum`] otherwise; over all tasks [`improvement_test`]; for several tests [`holm`] |
 //! | how long does it take? | [`Curve::first_reaching`], [`median_to_threshold`] |
 //! | what does progress look like? | [`pointwise_quartiles`] |
 //! | how to average metres and seconds? | [`normalize`] |
@@ -63,6 +63,7 @@ mod hodges_lehmann;
 mod holm;
 mod improvement;
 mod normalization;
+mod permutation;
 mod pointwise;
 mod profile;
 mod quantile;
@@ -81,6 +82,7 @@ pub use hodges_lehmann::hodges_lehmann;
 pub use holm::holm;
 pub use improvement::probability_of_improvement;
 pub use normalization::{NormalizationError, Reference, normalize};
+pub use permutation::improvement_test;
 pub use pointwise::{Quartiles, pointwise_quartiles};
 pub use profile::{performance_profile, performance_profile_band};
 pub use quantile::quantile;

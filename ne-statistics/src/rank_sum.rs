@@ -68,7 +68,7 @@ pub fn shift_between(x: &[f64], y: &[f64]) -> Result<f64, SampleError> {
 }
 
 /// Twice the rank of each of sorted values, so that the mean of tied ranks is a whole number.
-fn doubled_ranks(values: &[f64]) -> Vec<usize> {
+pub(crate) fn doubled_ranks(values: &[f64]) -> Vec<usize> {
     let mut ranks = Vec::with_capacity(values.len());
     for tied in values.chunk_by(|one, other| one == other) {
         let lower = ranks.len();

@@ -146,6 +146,12 @@ pub enum PlanError {
         /// Creature and movement.
         scenario: String,
     },
+    /// Two budgets where runs are compared by their ends.
+    #[error(
+        "give --evaluations or --steps, not both: on {0} the fitness has terms, scores are those of the ends of runs, and runs \
+         that end at one budget or the other have nothing equal"
+    )]
+    TwoBudgets(String),
     /// A configuration cannot run.
     #[error("{method} on {scenario}: {message}")]
     Setup {
@@ -206,6 +212,11 @@ impl PlanRequest {
                 plan.scenarios.extend(cells.first().map(|cell| cell.scenario.clone()));
                 plan.cells.extend(cells);
             }
+        }
+        if let (Some(_), Some(_), Some(cell)) =
+            (self.budget.evaluations, self.budget.steps, plan.cells.iter().find(|cell| cell.is_shaped()))
+        {
+            return Err(PlanError::TwoBudgets(cell.scenario.clone()));
         }
         // Names are also folders, on systems too that do not tell capitals from small letters.
         unique("the scenario", plan.scenarios.iter().cloned())?;

@@ -50,7 +50,8 @@ fn heading(analysis: &Analysis) -> String {
 
 fn scenario_tables(analysis: &Analysis, facts: &ScenarioFacts, scenario: &ScenarioStandings, axis: Axis) -> String {
     let limit = scenario.limit.map_or_else(|| "–".into(), count);
-    let mut text = format!("\n{}, {}, at {limit} {}\n", facts.name, facts.unit, axis.name());
+    let at = if facts.shaped { "at the end of runs of" } else { "at" };
+    let mut text = format!("\n{}, {}, {at} {limit} {}\n", facts.name, facts.unit, axis.name());
     let places = decimals(scenario.worst.into_iter().chain(scenario.best));
     let show = |value: f64| number(value, places);
     let mut header = ["method", "median", "quartiles", "mean", "best", "worst"].map(String::from).to_vec();
@@ -111,10 +112,16 @@ fn time(threshold: &Threshold, method: usize, axis: Axis, seeds: usize) -> Strin
 fn overall_tables(analysis: &Analysis) -> String {
     let Some(overall) = &analysis.primary_standings().overall else { return String::new() };
     let mut text = means(analysis, overall);
-    let mut rows = vec![["pair", "first better, probability", "95 %"].map(String::from).to_vec()];
+    let mut rows = vec![["pair", "first better, probability", "95 %", "p", "p (Holm)", ""].map(String::from).to_vec()];
     let name = |place: usize| &analysis.methods[place].name;
-    let pairs = overall.pairs.iter();
-    rows.extend(pairs.map(|pair| row(format!("{} – {}", name(pair.first), name(pair.second)), &pair.probability)));
+    let claimed = |better: Option<usize>| {
+        better.map_or_else(|| "no difference claimed".into(), |better| format!("{} does better", name(better)))
+    };
+    rows.extend(overall.pairs.iter().map(|pair| {
+        let mut row = row(format!("{} – {}", name(pair.first), name(pair.second)), &pair.probability);
+        row.extend([p_value(pair.p), p_value(pair.p_corrected), claimed(pair.better)]);
+        row
+    }));
     if rows.len() > 1 {
         text += &aligned(&rows);
     }
@@ -175,7 +182,7 @@ biped running, m, at 1,000 evaluations
   method  median     quartiles  mean  best  worst  reaches 8.4  reaches 15.1
   strong    16.8  14.1 to 19.4  16.8  22.0   11.5          100  500 (5 of 8)
   weak      13.5  11.8 to 15.2  13.5  17.0   10.0          500    – (2 of 8)
-  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds.
+  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds in the same generations.
   pair           shift       p  p (Holm)   A12  effect
   strong – weak    3.2  0.0078    0.0156  0.77   large  strong scores more
 
@@ -183,7 +190,7 @@ apod running, m, at 1,000 evaluations
   method  median     quartiles  mean  best  worst  reaches 2.56  reaches 4.61
   strong    5.12  4.69 to 5.56  5.12  6.00   4.25           100  500 (6 of 8)
   weak      5.12  4.69 to 5.56  5.12  6.00   4.25           100  500 (6 of 8)
-  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds.
+  Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same seed meet the same worlds in the same generations.
   pair           shift     p  p (Holm)   A12      effect
   strong – weak   0.00  1.00      1.00  0.50  negligible  no difference claimed
 
@@ -191,8 +198,8 @@ Over 2 scenarios, scores from 0 (worst run) to 1 (best run)
   method  interquartile mean          95 %
   strong                0.53  0.33 to 0.74
   weak                  0.37  0.21 to 0.53
-  pair           first better, probability          95 %
-  strong – weak                       0.63  0.45 to 0.85
+  pair           first better, probability          95 %     p  p (Holm)
+  strong – weak                       0.63  0.45 to 0.85  0.25      0.25  no difference claimed
 
 Mind
   Bootstrap intervals of so few seeds are too narrow: with 5 seeds an interval of 95 % holds the truth in about 84 % (one scenario) to 91 % (ten scenarios) of cases.

@@ -46,9 +46,9 @@ pub struct GaitRun {
     /// Physics steps; those of the champion selection are not counted.
     pub steps: u64,
     /// Body lengths a second in the second half of the judged episode (running), or the torso's rise in its best flight
-    /// over its start height (jumping).
+    /// over its start height (jumping); 0 without a champion.
     pub quality: Option<f64>,
-    /// Share of perturbed worlds in which it is usable, 0 to 1; `None` if it was not asked for.
+    /// Share of perturbed worlds in which it is usable, 0 to 1; 0 without a champion; `None` if it was not asked for.
     pub robust: Option<f64>,
 }
 
@@ -81,8 +81,12 @@ impl GaitRun {
             quality: None,
             robust: None,
         };
-        if let Some(champion) = &outcome.champion {
-            run.judge(champion, &outcome.folder, registry, robust)?;
+        match &outcome.champion {
+            Some(champion) => run.judge(champion, &outcome.folder, registry, robust)?,
+            None if registry.movements.rules(&run.movement).is_some() => {
+                (run.quality, run.robust) = (Some(0.0), robust.then_some(0.0));
+            }
+            None => {}
         }
         // At the last re-evaluation, after the last generation. The verdict at the end is of one episode: it says nothing of a higher tier.
         if run.usable && first.is_none() && (tier == USABLE || tier_of_stages(&outcome.folder)? >= Some(tier)) {

@@ -124,7 +124,11 @@ impl Judged {
 
     /// What the plain movement is measured by, m: the distance of a run, the rise of a jump.
     pub fn measure(&self, movement: &str) -> Option<f64> {
-        if movement == "jumping" { self.rise_m } else { self.distance_m }
+        match movement {
+            // What never leaves the ground does not rise.
+            "jumping" => self.rise_m.or(self.distance_m.map(|_| 0.0)),
+            _ => self.distance_m,
+        }
     }
 }
 

@@ -245,6 +245,10 @@ fn requests_that_make_no_sense_are_refused() -> Outcome {
         (&["--strategies", "ga", "--engine", "rapeir"], "there is no engine \"rapeir\"; did you mean \"rapier\"?"),
         (&["--strategies", "ga", "--variation", "non"], "there is no variation \"non\"; did you mean \"none\"?"),
         (&["--strategies", "ga", "--set", "movement.steps=0"], "ga on biped-1 running: movement.steps = 0"),
+        (
+            &["--strategies", "ga", "--steps", "900"],
+            "give --evaluations or --steps, not both: on biped-1 running the fitness",
+        ),
     ] {
         assert_says(&fail(&mut compare(arguments)), &[says]);
     }

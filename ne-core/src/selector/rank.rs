@@ -42,9 +42,10 @@ impl Selector for RankSelector {
         }
         let order = ascending(scores);
         let failed = scores.iter().filter(|score| score.is_none()).count();
-        let survivors = if failed == scores.len() { &order[..] } else { &order[failed..] };
+        let (survivors, pressure) =
+            if failed == scores.len() { (&order[..], 1.0) } else { (&order[failed..], self.pressure) };
         let last = (survivors.len() - 1).max(1) as f64;
-        let weight = |rank| (2.0 - self.pressure) + 2.0 * (self.pressure - 1.0) * rank as f64 / last;
+        let weight = |rank| (2.0 - pressure) + 2.0 * (pressure - 1.0) * rank as f64 / last;
         let wheel = Wheel::new((0..survivors.len()).map(weight));
         chosen.extend((0..count).map(|_| survivors[wheel.slot(stream.random::<f64>() * wheel.circumference())]));
     }

@@ -120,3 +120,10 @@ fn truncation_counts_parents_as_people_do() {
         assert_eq!(tally.iter().filter(|&&times| times > 0).count(), percent, "share {share}");
     }
 }
+
+#[test]
+fn ranks_of_failures_alone_are_none() {
+    for pressure in [1.0, 1.8, 2.0] {
+        assert_frequencies(&RankSelector { pressure }, &[FAILED; 5], &[0.2; 5]);
+    }
+}

@@ -142,6 +142,12 @@ impl Covariance {
         self.variances().into_iter().fold(0.0, f64::max).sqrt()
     }
 
+    /// The greatest deviation of a weight that goes on; `None` if none does.
+    pub(super) fn greatest_deviation_kept(&self, growth: &TopologyMap) -> Option<f64> {
+        let variances = self.variances();
+        growth.origins().iter().flatten().map(|&old| variances[old]).reduce(f64::max).map(f64::sqrt)
+    }
+
     /// The condition number of C; of a full one a lower bound, since its eigenvalues are not known: the greatest
     /// eigenvalue is at least as great as any element of the diagonal, the least at most as great as any pivot.
     pub(super) fn condition(&self) -> f64 {

@@ -30,8 +30,18 @@ impl Distribution {
         Self { step_size, covariance, step_size_path: path.clone(), covariance_path: path, updates: 0, mean }
     }
 
-    /// The distribution over the weights of a grown net; new ones have a mean of 0 and this deviation.
-    pub(super) fn remapped(&self, growth: &TopologyMap, model: CovarianceModel, deviation: f64) -> Self {
+    /// The distribution over the weights of a grown net; new ones have a mean of 0 and this deviation. The greatest of the others
+    /// is kept within these limits.
+    pub(super) fn remapped(
+        mut self,
+        growth: &TopologyMap,
+        model: CovarianceModel,
+        deviation: f64,
+        limits: [f64; 2],
+    ) -> Self {
+        if let Some(greatest) = self.covariance.greatest_deviation_kept(growth) {
+            self.limit(greatest, limits);
+        }
         let relative = deviation / self.step_size;
         Self {
             mean: growth.transfer(&self.mean, 0.0),
@@ -116,9 +126,23 @@ impl Distribution {
     }
 
     /// Keeps the greatest deviation of a weight within these limits.
-    pub(super) fn limit_deviation(&mut self, [least, greatest]: [f64; 2]) {
-        let deviation = self.covariance.greatest_deviation();
+    pub(super) fn limit_deviation(&mut self, limits: [f64; 2]) {
+        self.limit(self.covariance.greatest_deviation(), limits);
+    }
+
+    /// Changes the step size so that a deviation, in units of it, is within these limits.
+    fn limit(&mut self, deviation: f64, [least, greatest]: [f64; 2]) {
         self.step_size = self.step_size.max(least / deviation).min(greatest / deviation);
+    }
+
+    /// The same without a direction that it prefers, if its covariance has lost its small axes.
+    pub(super) fn unless_degenerate(self, model: CovarianceModel) -> Self {
+        if !self.covariance.is_degenerate() {
+            return self;
+        }
+        let variance = self.covariance.mean_variance().clamp(1e-100, 1e100);
+        let covariance = Covariance::identity(model, self.mean.len(), variance);
+        Self { updates: self.updates, ..Self::new(self.mean, self.step_size, covariance) }
     }
 }
 

@@ -147,8 +147,8 @@ impl CmaEs {
     }
 
     /// Goes on with other settings, on another task, or with nets that have grown: with mean, step size, covariance and
-    /// paths. A new weight has a mean of 0, the first step size as its deviation, and varies with no other. If no weight
-    /// deviates by 0.3 of the first step size any more, the step size grows until one does. Restarts are counted anew, and
+    /// paths. A new weight has a mean of 0, the first step size as its deviation, and varies with no other. If no weight that
+    /// goes on deviates by 0.3 of the first step size any more, the step size grows until one does. Restarts are counted anew, and
     /// begin elsewhere: at the mean that was carried they found less.
     ///
     /// # Errors
@@ -168,10 +168,9 @@ impl CmaEs {
         let left = self.kept.filter(is_better).map(|kept| kept.distribution);
         let start = self.start.map(|start| growth.transfer(&start, 0.0));
         let (model, first) = (next.settings.covariance, next.settings.step_size);
-        let distribution = left.or(self.distribution).map(|mut distribution| {
-            distribution.limit_deviation([REVIVED * first, next.settings.greatest_deviation()]);
-            distribution.remapped(growth, model, first)
-        });
+        let limits = [REVIVED * first, next.settings.greatest_deviation()];
+        let remapped = |old: Distribution| old.remapped(growth, model, first, limits).unless_degenerate(model);
+        let distribution = left.or(self.distribution).map(remapped);
         let mut restarts = next.restarts.clone();
         if distribution.is_some() {
             // It has begun: there is nothing to choose from.
@@ -297,15 +296,10 @@ impl CmaEs {
     }
 
     /// Keeps a search alive that would have ended.
-    fn revive(&self, distribution: &mut Distribution) {
-        if distribution.covariance.is_degenerate() {
-            let variance = distribution.covariance.mean_variance().clamp(1e-100, 1e100);
-            let covariance = Covariance::identity(self.settings.covariance, distribution.mean.len(), variance);
-            let updates = distribution.updates;
-            let mean = std::mem::take(&mut distribution.mean);
-            *distribution = Distribution { updates, ..Distribution::new(mean, distribution.step_size, covariance) };
-        }
+    fn revive(&self, distribution: Distribution) -> Distribution {
+        let mut distribution = distribution.unless_degenerate(self.settings.covariance);
         distribution.limit_deviation([self.settings.least_deviation, self.settings.greatest_deviation()]);
+        distribution
     }
 }
 
@@ -374,8 +368,7 @@ impl Strategy for CmaEs {
         } else if self.restart() != Restart::None && !self.is_starting() && self.has_ended(&distribution) {
             self.end_search(distribution, seed);
         } else {
-            self.revive(&mut distribution);
-            self.distribution = Some(distribution);
+            self.distribution = Some(self.revive(distribution));
         }
     }
 

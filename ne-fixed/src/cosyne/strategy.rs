@@ -33,8 +33,8 @@ const PERMUTATION: Purpose = Purpose::new("cosyne permutation");
 ///
 /// # Statistics
 /// - `diversity`: the standard deviation of a gene over the population, mean of all genes, in units of the weights;
-/// - `marked_share`: the expected share of the weights that are marked after the generation last told, children not
-///   counted.
+/// - `marked_share`: the expected share of the weights that are marked after the generation last told, of the nets that are
+///   kept.
 ///
 /// Source: Gomez, Schmidhuber & Miikkulainen, *Accelerated Neural Evolution through Cooperatively Coevolved Synapses*,
 /// JMLR 9, 2008, algorithm 1.
@@ -181,7 +181,10 @@ impl Strategy for Cosyne {
     }
 
     fn statistics(&self) -> Vec<Statistic> {
-        let marked = self.settings.permutation.probabilities(&self.parents.scores, self.nets.topology.weight_count());
+        let scores: Vec<_> = best_first(&self.parents.scores).iter().map(|&index| self.parents.scores[index]).collect();
+        let mut marked = self.settings.permutation.probabilities(&scores, self.nets.topology.weight_count());
+        // The others are replaced by children.
+        marked.truncate(self.settings.population - self.settings.offspring_count());
         vec![
             Statistic::new("diversity", diversity(&self.parents.nets)),
             Statistic::new("marked_share", marked.iter().sum::<f64>() / marked.len().max(1) as f64),

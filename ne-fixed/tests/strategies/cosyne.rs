@@ -128,6 +128,21 @@ proptest! {
     }
 }
 
+/// The nets that children replace are marked most, and are not there any more.
+#[test]
+fn the_share_of_marked_weights_is_that_of_the_nets_that_are_kept() {
+    let mut strategy = new(CosyneSettings { population: 40, offspring: 0.75, ..Default::default() });
+    let seed = Seed::of_run(1).generation(1);
+    strategy.ask(seed);
+    // The best are never marked.
+    let evaluations: Vec<Evaluation> =
+        (0..40).map(|index| Evaluation::new(f64::from(u8::from(index % 4 == 0)))).collect();
+    strategy.tell(&evaluations, seed);
+    let statistics = strategy.statistics();
+    let marked = statistics.iter().find(|statistic| statistic.name == "marked_share").expect("it is told");
+    assert_eq!(marked.value, 0.0);
+}
+
 #[test]
 fn the_best_net_stays_whole_and_children_replace_the_worst() {
     let mut strategy = new(CosyneSettings { population: 40, offspring: 0.25, ..Default::default() });

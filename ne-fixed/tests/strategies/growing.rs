@@ -153,6 +153,47 @@ fn what_has_settled_can_leave_again() {
     assert!((deviation(&new) / (0.3 * settings.step_size) - 1.0).abs() < 1e-9);
 }
 
+/// A search for three weights that has come to this step size and these variances, in units of it.
+fn narrowed(covariance: CovarianceModel, step_size: f64, [one, two, three]: [f64; 3]) -> CmaEs {
+    let settings = CmaEsSettings { covariance, ..CmaEsSettings::default() };
+    let mut strategy = CmaEs::new(settings, DenseShape::new(2, vec![], 1)).expect("valid");
+    generation(&mut strategy, 1);
+    let mut state = serde_json::to_value(&strategy).expect("serialises");
+    state["distribution"]["step_size"] = step_size.into();
+    state["distribution"]["covariance"] = match covariance {
+        CovarianceModel::Separable => [one, two, three].to_vec(),
+        CovarianceModel::Full => vec![one, 0.0, 0.0, two, 0.0, three],
+    }
+    .into();
+    serde_json::from_value(state).expect("deserialises")
+}
+
+/// The widest weight may be one that is lost.
+#[test]
+fn what_goes_on_can_move_when_other_weights_are_lost() {
+    for covariance in [CovarianceModel::Separable, CovarianceModel::Full] {
+        let strategy = narrowed(covariance, 0.01, [1.0, 1e-4, 1e-4]);
+        let settings = CmaEsSettings { covariance, ..CmaEsSettings::default() };
+        let without_first = TopologyMap::new(vec![Some(1), Some(2)], 3).expect("two of three");
+        let new = strategy.remapped(settings.clone(), DenseShape::new(1, vec![], 1), &without_first).expect("goes on");
+        let deviation = new.statistics()[1].value;
+        assert!((deviation / (0.3 * settings.step_size) - 1.0).abs() < 1e-9, "{deviation}");
+        assert_resumes(new, 3);
+    }
+}
+
+/// A new weight, next to others that hardly vary any more, makes a matrix that no file may hold.
+#[test]
+fn a_narrow_search_that_grows_can_be_saved() {
+    for covariance in [CovarianceModel::Separable, CovarianceModel::Full] {
+        let strategy = narrowed(covariance, 0.01, [1.0, 1.0, 2e-14]);
+        let settings = CmaEsSettings { covariance, ..CmaEsSettings::default() };
+        let with_another = TopologyMap::new(vec![Some(0), Some(1), None, Some(2)], 3).expect("three of three");
+        let new = strategy.remapped(settings, DenseShape::new(3, vec![], 1), &with_another).expect("grows");
+        assert_resumes(reload(&new), 3);
+    }
+}
+
 #[test]
 fn a_centre_goes_on_in_grown_nets() {
     let (topology, growth) = grown();

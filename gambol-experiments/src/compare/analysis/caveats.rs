@@ -89,12 +89,16 @@ fn unscored(analysis: &Analysis, standings: &Standings) -> Vec<String> {
             .collect();
         let (Some(worst), Some(limit), false) = (scenario.worst, scenario.limit, failing.is_empty()) else { continue };
         let worst = number(worst, decimals(scenario.worst.into_iter().chain(scenario.best)));
+        let (at, lacks) = match facts.shaped {
+            true => (String::new(), "had no score (no champion, or one that fails without the terms)"),
+            false => (
+                format!(" at {} {}", count(limit), standings.axis.name()),
+                "had no score yet (every evaluation had failed, or the first generation was not over)",
+            ),
+        };
         sentences.push(format!(
-            "On {} at {} {}, {} had no score yet (every evaluation had failed, or the first generation was not over): \
-             counted with the worst score of all runs there, {worst} {}.",
+            "On {}{at}, {} {lacks}: counted with the worst score of all runs there, {worst} {}.",
             facts.name,
-            count(limit),
-            standings.axis.name(),
             listed(&failing),
             facts.unit,
         ));
@@ -106,7 +110,8 @@ fn unscored(analysis: &Analysis, standings: &Standings) -> Vec<String> {
 fn ended_early(analysis: &Analysis, standings: &Standings, budget: Option<u64>) -> Vec<String> {
     let Some(budget) = budget else { return Vec::new() };
     let scenarios = analysis.scenarios.iter().zip(&standings.scenarios);
-    let early = scenarios.filter_map(|(facts, scenario)| {
+    // Where the fitness has terms, runs are compared by their ends.
+    let early = scenarios.filter(|(facts, _)| !facts.shaped).filter_map(|(facts, scenario)| {
         let limit = scenario.limit.filter(|&limit| limit < budget as f64)?;
         Some(format!(
             "On {} a run ended after {} {}, before the budget of {}: scores are compared there.",

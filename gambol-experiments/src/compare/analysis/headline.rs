@@ -50,7 +50,12 @@ fn overall(analysis: &Analysis, names: &[&str]) -> Vec<String> {
             ));
         }
     }
+    let others = sentences.len().saturating_sub(MOST_WINNERS);
     sentences.truncate(MOST_WINNERS);
+    if others > 0 {
+        let others = counted(others, "other method does", "other methods do");
+        sentences.push(format!("{others} better than some; the tables say than which."));
+    }
     let open: Vec<String> = overall
         .pairs
         .iter()

@@ -3,7 +3,7 @@
 //!
 //! Its one decision: **what is compared is fixed by the plan, not by the outcome.** The plan's budget says which score
 //! the headline speaks of ([`Analysis::primary`]), every pair of methods is tested on every scenario, and all those
-//! tests are corrected together. What the data cannot say is said as well ([`Analysis::caveats`]).
+//! tests are corrected together, as are those over all scenarios. What the data cannot say is said as well ([`Analysis::caveats`]).
 
 mod caveats;
 mod curves;
@@ -53,7 +53,8 @@ pub struct Analysis {
     pub caveats: Vec<String>,
     /// Scores when all runs of a scenario have used up equally many evaluations.
     pub at_equal_evaluations: Standings,
-    /// Scores when all runs of a scenario have used up equally many physics steps.
+    /// Scores when all runs of a scenario have used up equally many physics steps. Here as there, scenarios whose fitness has
+    /// terms have scores only where the plan's budget is of this kind.
     pub at_equal_steps: Standings,
     /// All runs: scenario by scenario, there method by method, there seed by seed.
     pub runs: Vec<RunFacts>,
@@ -166,7 +167,7 @@ pub fn analyse(plan: &Plan, results: &[RunResult]) -> Analysis {
 }
 
 const PAIRED: &str = "Signed-rank tests of pairs: worlds vary, drawn from seed and generation, so that runs with the same \
-                      seed meet the same worlds.";
+                      seed meet the same worlds in the same generations.";
 const UNPAIRED: &str = "Rank-sum tests of independent runs: worlds do not vary, so that runs with the same seed share \
                         nothing but its number.";
 

@@ -1,8 +1,8 @@
-use super::{FEWEST_SEEDS, standings::ScenarioStandings};
+use super::{FEWEST_SEEDS, SIGNIFICANCE, standings::ScenarioStandings};
 use ne_core::Seed;
 use ne_statistics::{
-    Bootstrap, Comparison, Interval, Reference, Scores, interquartile_mean, normalize, performance_profile_band,
-    probability_of_improvement,
+    Bootstrap, Comparison, Interval, Reference, Scores, holm, improvement_test, interquartile_mean, normalize,
+    performance_profile_band, probability_of_improvement,
 };
 use serde::Serialize;
 
@@ -48,8 +48,12 @@ pub struct Improvement {
     pub second: usize,
     /// The probability that a run of the first scores more than a run of the second on a scenario drawn at random.
     pub probability: Estimate,
-    /// The method that does better, if that can be claimed: with at least 6 seeds, if the interval of the probability
-    /// does not hold ½ and the intervals of the two interquartile means do not overlap.
+    /// How likely a probability at least as far from ½ is if the two do not differ: by a permutation test.
+    pub p: f64,
+    /// The same after Holm's correction for all pairs of methods.
+    pub p_corrected: f64,
+    /// The method that does better, if that can be claimed: with at least 6 seeds, if the corrected p value is at most 0.05 and
+    /// the interquartile mean is higher too.
     pub better: Option<usize>,
 }
 
@@ -57,10 +61,6 @@ impl Estimate {
     fn new(interval: Interval, seeds: usize) -> Self {
         let Interval { estimate, low, high } = interval;
         Self { value: estimate, interval: (seeds > 1).then_some([low, high]) }
-    }
-
-    fn is_above(&self, other: &Self) -> bool {
-        self.interval.zip(other.interval).is_some_and(|([low, _], [_, high])| low > high)
     }
 }
 
@@ -95,27 +95,36 @@ impl Overall {
             let (x, y) = (methods[first].clone(), methods[second].clone());
             let pair = if paired { Comparison::paired(x, y) } else { Comparison::unpaired(x, y) }.ok()?;
             let interval = bootstrap.comparison(&pair, probability_of_improvement, seed);
-            let probability = Estimate::new(interval, seeds);
-            let [low, high] = probability.interval.unwrap_or([0.0, 1.0]);
-            let better = if seeds < FEWEST_SEEDS {
-                None
-            } else if low > 0.5 && means[first].is_above(&means[second]) {
-                Some(first)
-            } else if high < 0.5 && means[second].is_above(&means[first]) {
-                Some(second)
-            } else {
-                None
-            };
-            Some(Improvement { first, second, probability, better })
+            let (probability, p) = (Estimate::new(interval, seeds), improvement_test(&pair, seed));
+            Some(Improvement { first, second, probability, p, p_corrected: p, better: None })
         };
         let seconds = |first| (first + 1..count).map(move |second| (first, second));
         let pairs = (0..count).flat_map(seconds).filter_map(|(first, second)| improvement(first, second));
-        Some(Self {
-            pairs: pairs.collect(),
-            profiles: methods.iter().map(profile).collect(),
-            methods: means,
-            scenarios,
-            thresholds,
-        })
+        let mut pairs: Vec<Improvement> = pairs.collect();
+        correct(&mut pairs);
+        if seeds >= FEWEST_SEEDS {
+            pairs.iter_mut().for_each(|pair| pair.claim(&means));
+        }
+        Some(Self { pairs, profiles: methods.iter().map(profile).collect(), methods: means, scenarios, thresholds })
+    }
+}
+
+impl Improvement {
+    /// Says which method does better, if that can be claimed.
+    fn claim(&mut self, means: &[Estimate]) {
+        let (better, worse) =
+            if self.probability.value > 0.5 { (self.first, self.second) } else { (self.second, self.first) };
+        let is_claimed = self.p_corrected <= SIGNIFICANCE && means[better].value > means[worse].value;
+        self.better = is_claimed.then_some(better);
+    }
+}
+
+/// Corrects the tests of all pairs together.
+fn correct(pairs: &mut [Improvement]) {
+    let p_values: Vec<f64> = pairs.iter().map(|pair| pair.p).collect();
+    // p values of tests are from 0 to 1, so this cannot fail; without a correction nothing would be claimed.
+    let corrected = holm(&p_values).unwrap_or_else(|_| vec![1.0; p_values.len()]);
+    for (pair, p_corrected) in pairs.iter_mut().zip(corrected) {
+        pair.p_corrected = p_corrected;
     }
 }

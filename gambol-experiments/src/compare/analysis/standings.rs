@@ -24,7 +24,8 @@ pub struct Standings {
 /// The scores on a scenario.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ScenarioStandings {
-    /// How much every run may have spent: the plan's budget, or less if a run ended earlier. `None` without runs.
+    /// How much every run may have spent: the plan's budget, or less if a run ended earlier. `None` without runs, and of a
+    /// fitness with terms where the plan has no budget of this kind: scores are those of the ends of runs, equal in nothing else.
     pub limit: Option<f64>,
     /// The worst score of all runs, which those without a score count with; `None` if no run has one.
     pub worst: Option<f64>,
@@ -44,7 +45,7 @@ pub struct MethodScores {
     /// A score for each seed; empty if no run of any method has one.
     pub scores: Vec<f64>,
     /// The places of the seeds without a score, whose runs count with the worst of the scenario: every evaluation had
-    /// failed by then, or the first generation was not over.
+    /// failed by then, or the first generation was not over; where the fitness has terms, the champion fails without them.
     pub unscored: Vec<usize>,
     /// The scores in short.
     pub summary: Option<Summary>,
@@ -146,7 +147,9 @@ impl Standings {
 impl ScenarioStandings {
     fn new(methods: &[Vec<Trace>], axis: Axis, budget: Option<u64>, paired: bool) -> Self {
         let ends = methods.iter().flatten().filter_map(|run| Some(run.curve(axis)?.end()));
-        let limit = ends.reduce(f64::min).map(|least| budget.map_or(least, |budget| least.min(budget as f64)));
+        let has_limit = budget.is_some() || !methods.iter().flatten().any(Trace::is_shaped);
+        let least = ends.reduce(f64::min).filter(|_| has_limit);
+        let limit = least.map(|least| budget.map_or(least, |budget| least.min(budget as f64)));
         let score = |run: &Trace| run.score(axis, limit?);
         let found: Vec<f64> = methods.iter().flatten().filter_map(score).collect();
         let (worst, best) = (found.iter().copied().reduce(f64::min), found.iter().copied().reduce(f64::max));

@@ -296,8 +296,42 @@ fn scores_of_a_shaped_fitness_are_those_of_the_movement_alone() {
     assert_eq!(scenario.pairs[0].better, Some(0));
     assert_eq!(analysis.runs[1].fitness, Some(1.0));
     assert_eq!(analysis.runs[1].score_at_equal_evaluations, Some(22.0));
-    let says = |caveat: &String| caveat.starts_with("On s the fitness has terms. Scores are what the champion");
-    assert!(analysis.caveats.iter().any(says), "{:?}", analysis.caveats);
+    let says = |text: &str| analysis.caveats.iter().any(|caveat| caveat.starts_with(text));
+    assert!(says("On s the fitness has terms. Scores are what the champion"), "{:?}", analysis.caveats);
+    assert!(says("On s, 1 run of a had no score (no champion, or one that fails"), "{:?}", analysis.caveats);
+    // The ends of runs are equal in what the plan has a budget of, and in nothing else.
+    let other = &analysis.at_equal_steps;
+    assert_eq!((other.scenarios[0].limit, other.tests, &other.overall), (None, 0, &None));
+    assert_eq!(other.scenarios[0].methods[0].scores, [0.0; 0]);
+    assert_eq!(analysis.runs[1].score_at_equal_steps, None);
+}
+
+/// What is claimed over all scenarios is corrected for the number of pairs.
+#[test]
+fn many_equal_methods_are_not_told_apart_over_all_scenarios() {
+    // Scores that have nothing to do with the method, as a hash would deal them.
+    let score = |method: usize, scenario: usize, seed: u64| {
+        let mut bits = method as u64 * 0x1_0000 + scenario as u64 * 0x100 + seed;
+        for factor in [0x9e37_79b9_7f4a_7c15_u64, 0xbf58_476d_1ce4_e5b9, 0x94d0_49bb_1331_11eb] {
+            bits = (bits ^ (bits >> 29)).wrapping_mul(factor);
+        }
+        (bits >> 40) as f64
+    };
+    let names = ["a", "b", "c", "d", "e", "f", "g", "h"];
+    let (plan, results) = comparison(&names, &["r", "s", "t", "u"], 6, score);
+    let overall = analyse(&plan, &results).at_equal_evaluations.overall.expect("scores differ");
+    assert_eq!(overall.pairs.len(), 28);
+    assert!(overall.pairs.iter().all(|pair| pair.better.is_none() && pair.p <= pair.p_corrected));
+    // So that it is the correction that keeps them from being told apart.
+    assert!(overall.pairs.iter().any(|pair| pair.p <= 0.05), "{:?}", overall.pairs);
+}
+
+#[test]
+fn methods_that_are_not_named_are_counted() {
+    let score = |method, _, seed| 9.0 - method as f64 + 0.01 * seed as f64;
+    let (plan, results) = comparison(&["a", "b", "c", "d", "e", "f"], &["r", "s", "t", "u"], 10, score);
+    let headline = analyse(&plan, &results).headline;
+    assert_eq!(headline[3], "2 other methods do better than some; the tables say than which.");
 }
 
 #[test]

@@ -46,9 +46,9 @@ function overallFigures(run, overall) {
       + `on a scenario drawn at random.${bars} In a method's colour where a difference is claimed.`,
       new RowChart(pairs, { label: "Probability of improvement of each pair; the numbers are in the table", low: 0, high: 1,
         reference: 0.5, ends: ["second better", "first better"], axis: "probability" }).root,
-      folded("Numbers of this figure", table("", ["Pair", "Probability", "95 % interval", "Claimed"],
-        pairs.map(({ pair, name, value, interval }) => [name, fixed(value, 3), intervalText(interval, 3),
-          pair.better === null ? "no difference" : { strong: `${run.methods[pair.better].name} better` }]), [3]))));
+      folded("Numbers of this figure", table("", ["Pair", "Probability", "95 % interval", "p", `p corrected (${overall.pairs.length})`, "Claimed"],
+        pairs.map(({ pair, name, value, interval }) => [name, fixed(value, 3), intervalText(interval, 3), pValue(pair.p), pValue(pair.p_corrected),
+          pair.better === null ? "no difference" : { strong: `${run.methods[pair.better].name} better` }]), [5]))));
   }
   made.push(profileFigure(run, overall));
   return made;
@@ -90,7 +90,7 @@ function buildOverall(run) {
 function scoreFigures(run, facts, place, axis) {
   const standings = standingsOf(run, axis);
   const scenario = standings.scenarios[place];
-  const at = scenario.limit === null ? "" : ` at ${fixed(scenario.limit, 0)} ${AXES[axis]}`;
+  const at = scenario.limit === null ? "" : ` at ${facts.shaped ? "the end of runs of " : ""}${fixed(scenario.limit, 0)} ${AXES[axis]}`;
   if (scenario.worst === null) return [element("p", `No run has a score${at}.`, "quiet")];
   const decimals = decimalsOf([scenario.worst, scenario.best]);
   const show = value => fixed(value, decimals);
@@ -167,11 +167,15 @@ function buildScenarios(run) {
   const curves = run.scenarios.map((facts, place) => {
     const article = element("article", undefined, "scenario");
     const { show, made } = curveFigure(run, facts);
-    const details = element("details", undefined, "other");
-    const inner = element("div");
-    inner.append(...scoreFigures(run, facts, place, other));
-    details.append(element("summary", `The same at equal ${AXES[other]}`), inner);
-    article.append(element("h3", facts.name), made, ...scoreFigures(run, facts, place, run.primary), ...thresholdTable(run, facts), details);
+    article.append(element("h3", facts.name), made, ...scoreFigures(run, facts, place, run.primary), ...thresholdTable(run, facts));
+    // Ends of runs are equal in the budget alone.
+    if (standingsOf(run, other).scenarios[place].limit !== null) {
+      const details = element("details", undefined, "other");
+      const inner = element("div");
+      inner.append(...scoreFigures(run, facts, place, other));
+      details.append(element("summary", `The same at equal ${AXES[other]}`), inner);
+      article.append(details);
+    }
     list.append(article);
     return show;
   });
