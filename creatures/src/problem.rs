@@ -212,10 +212,8 @@ pub enum Problem {
         /// Index of the first.
         first: usize,
     },
-    /// Two channels of one name, by which a net's inputs are known.
-    #[error(
-        "{path}: its channel \"{channel}\" has the name of one of sensors[{first}]; no two channels of a creature may have one name"
-    )]
+    /// Two channels of one name, by which a net's inputs are known, of which one is of a sensor of another crate.
+    #[error("{path}: its channel \"{channel}\" has the name of one of sensors[{first}]; give each a name of its own")]
     DuplicateChannel {
         path: String,
         /// The name.
@@ -236,11 +234,25 @@ pub enum Problem {
         /// Its name.
         name: String,
     },
-    /// A sensor of another crate without channels, or with one that cannot be scaled.
-    #[error("{path}: `{name}` must have channels, each with a range of two finite numbers, the smaller first")]
-    BadChannels {
+    /// A sensor of another crate without channels.
+    #[error("{path}: `{name}` must have channels")]
+    NoChannels {
         path: String,
         /// Its name.
         name: String,
+    },
+    /// A sensor of another crate with a channel that cannot be scaled.
+    #[error(
+        "{path}: channel \"{channel}\" of `{name}` has the range {} to {}: must be two finite numbers, the smaller first",
+        range[0], range[1]
+    )]
+    BadChannel {
+        path: String,
+        /// Its name.
+        name: String,
+        /// Of the channel.
+        channel: String,
+        /// The same.
+        range: [f32; 2],
     },
 }

@@ -42,7 +42,7 @@ impl Senses {
     /// # Errors
     /// [`CreatureError::InputRange`] if `input_range` is not within 0.001 to 1000, [`CreatureError::Invalid`] if a
     /// sensor's settings are out of range, a sensor is listed twice, none is listed, feet are to be sensed that the
-    /// creature does not have, nothing is known of a [`CustomSensor`], or two channels have one name.
+    /// creature does not have, nothing is known of a [`CustomSensor`], or a channel of one has the name of another.
     pub fn new(blueprint: &Blueprint, sensors: &[Sensor], input_range: f32) -> Result<Self, CreatureError> {
         if !INPUT_RANGE.contains(input_range) {
             return Err(CreatureError::InputRange { found: input_range });
@@ -60,9 +60,15 @@ impl Senses {
                 Sensor::Custom(sensor) => problems.extend(senses.add_custom(index, sensor).err()),
                 _ => senses.add(blueprint, sensor),
             }
+            let is_custom = |index: usize| matches!(sensors[index], Sensor::Custom(_));
             problems.extend(senses.channels[told..].iter().find_map(|Channel { name, .. }| {
                 let first = names.insert(name.clone(), index)?;
-                Some(Problem::DuplicateChannel { path: format!("sensors[{index}]"), channel: name.clone(), first })
+                // Sensors of the format may look for one thing at two lengths.
+                (is_custom(index) || is_custom(first)).then(|| Problem::DuplicateChannel {
+                    path: format!("sensors[{index}]"),
+                    channel: name.clone(),
+                    first,
+                })
             }));
         }
         if problems.is_empty() { Ok(senses) } else { Err(CreatureError::Invalid(problems)) }
@@ -73,8 +79,11 @@ impl Senses {
         let Some(told) = custom.told() else { return Err(Problem::UnknownSensor { path, name }) };
         let channels = &told.channels;
         let is_sound = |range: [f32; 2]| range.iter().all(|bound| bound.is_finite()) && range[0] < range[1];
-        if channels.is_empty() || !channels.iter().all(|channel| is_sound(channel.range)) {
-            return Err(Problem::BadChannels { path, name });
+        if channels.is_empty() {
+            return Err(Problem::NoChannels { path, name });
+        }
+        if let Some(Channel { name: channel, range, .. }) = channels.iter().find(|channel| !is_sound(channel.range)) {
+            return Err(Problem::BadChannel { path, name, channel: channel.clone(), range: *range });
         }
         for (channel, Channel { name, unit, range }) in channels.iter().enumerate() {
             self.push(name.clone(), unit, *range, Source::Custom { sensor: self.custom.len(), channel });

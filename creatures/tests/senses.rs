@@ -351,14 +351,31 @@ fn bad_ranges_and_sensors_are_errors() {
 }
 
 #[test]
-fn no_two_channels_have_one_name() {
-    let rays = |angles: &[f32], length| Sensor::Rangefinder { angles: angles.to_vec(), length };
-    let sensors = [rays(&[0.0, 30.0], 2.0), Sensor::TorsoHeight, rays(&[-30.0, 30.0], 5.0)];
-    let error = Senses::new(&blueprint(), &sensors, 3.0).expect_err("one name twice").to_string();
-    let expected = "sensors[2]: its channel \"distance at 30°\" has the name of one of sensors[0]; no two channels of a \
-                    creature may have one name";
-    assert!(error.contains(expected), "{error}");
-    assert!(Senses::new(&blueprint(), &[rays(&[0.0, 30.0], 2.0), rays(&[-30.0], 5.0)], 3.0).is_ok());
+fn no_channel_of_another_crate_has_the_name_of_another() {
+    let telling = |names: &[&str]| {
+        let channel = |name: &&str| Channel { name: (*name).into(), unit: "", range: [0.0, 1.0] };
+        Sensor::Custom(CustomSensor::new("off").telling(names.iter().map(channel).collect(), |_, _| 0.0))
+    };
+    let refused = |sensors: &[Sensor]| Senses::new(&blueprint(), sensors, 3.0).err().map(|error| error.to_string());
+    let height = "height of torso above start";
+    for (sensors, says) in [
+        (
+            [Sensor::TorsoHeight, telling(&["a", height])],
+            "sensors[1]: its channel \"height of torso above start\" has the name of one of sensors[0]",
+        ),
+        (
+            [telling(&[height]), Sensor::TorsoHeight],
+            "sensors[1]: its channel \"height of torso above start\" has the name of one of sensors[0]",
+        ),
+        (
+            [Sensor::TorsoHeight, telling(&["a", "b", "a"])],
+            "sensors[1]: its channel \"a\" has the name of one of sensors[1]",
+        ),
+    ] {
+        let error = refused(&sensors).expect("one name twice");
+        assert!(error.contains(says), "{error}");
+    }
+    assert_eq!(refused(&[Sensor::TorsoHeight, telling(&["a", "b"])]), None);
 }
 
 #[test]
@@ -406,9 +423,12 @@ fn sensors_of_other_crates_are_read_by_name() {
     let refused = |custom| Senses::new(&blueprint(), &sensors(custom), 3.0).expect_err("refused").to_string();
     assert!(refused(custom.clone()).contains("sensors[1]: this program has no sensor `off`"));
     let telling = |range| custom.clone().sensing(Arc::new(Off { by: 0.5, range }), &blueprint());
-    for range in [[1.0, 1.0], [0.0, f32::INFINITY]] {
-        assert!(refused(telling(range)).contains("sensors[1]: `off` must have channels"));
+    for (range, told) in [([1.0, 1.0], "1 to 1"), ([0.0, f32::INFINITY], "0 to inf")] {
+        let says = format!("sensors[1]: channel \"hinge 0, off\" of `off` has the range {told}: must be two finite");
+        assert!(refused(telling(range)).contains(&says), "{}", refused(telling(range)));
     }
+    let silent = custom.clone().telling(Vec::new(), |_, _| 0.0);
+    assert!(refused(silent).contains("sensors[1]: `off` must have channels"));
 
     let senses = senses(&sensors(telling([-1.0, 1.0])), 3.0);
     assert_eq!(senses.channels()[2].name, "hinge 1, off");

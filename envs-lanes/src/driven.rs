@@ -7,7 +7,7 @@ use crate::{
 };
 use envs_core::Settled;
 use ne_core::Failure;
-use tasks::{Environment, Movement, Snapshot, Verdict};
+use tasks::{Environment, Movement, Snapshot, Verdict, failure_of_value};
 
 /// [`LANES`] creatures whose actions come from outside, one step at a time, each in an episode of its own: for callers whose
 /// controllers are no nets of `ne-net`, such as reinforcement learning.
@@ -198,7 +198,7 @@ impl DrivenStep {
         };
         let now = movement.value();
         if !now.is_finite() {
-            return Self::failed(Failure::NonFinite { what: "fitness".into() });
+            return Self::failed(failure_of_value(movement));
         }
         let reward = now - std::mem::replace(value, now);
         Self { reward, end }

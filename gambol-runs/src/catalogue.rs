@@ -3,7 +3,10 @@
 use crate::suggest;
 use creatures::{Blueprint, Creature, CreatureError, Sense, Sensor, ShippedCreature, Terrain, TerrainEntry};
 use envs_rapier::Variation;
-use ne_core::field_path::{self, FieldError};
+use ne_core::{
+    SettingError,
+    field_path::{self, FieldError},
+};
 use serde::de::DeserializeOwned;
 use serde_json::{Map, Value};
 use std::{
@@ -168,7 +171,15 @@ impl Catalogue<Variation> {
 #[derive(Clone)]
 pub struct MakeSense(Arc<Make>);
 
-type Make = dyn Fn(&Map<String, Value>) -> Result<Arc<dyn Sense>, FieldError> + Send + Sync;
+type Make = dyn Fn(&Map<String, Value>) -> Result<Arc<dyn Sense>, BadSettings> + Send + Sync;
+
+/// Why no sense is made of some settings.
+enum BadSettings {
+    /// They are not those of the sensor.
+    Unread(FieldError),
+    /// One is out of range.
+    OutOfRange(SettingError),
+}
 
 impl fmt::Debug for MakeSense {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -187,8 +198,20 @@ impl Catalogue<MakeSense> {
     /// Adds a sensor, which creature files and configurations name as `{"custom": {"name": NAME, "settings": {}}}`. The
     /// sense is read from its settings: it derives `Deserialize` with `#[serde(default, deny_unknown_fields)]`.
     pub fn add_sense<S: Sense + DeserializeOwned + 'static>(&mut self, name: &str, description: &str) -> &mut Self {
-        let make = |settings: &Map<String, Value>| -> Result<Arc<dyn Sense>, _> {
-            Ok(Arc::new(field_path::from_value::<S>(&Value::Object(settings.clone()))?))
+        self.add_sense_with_settings(name, description, Ok::<S, _>)
+    }
+
+    /// As [`add_sense`](Self::add_sense), where the sense is made of its settings, which may be out of range: the error names the
+    /// field, seen from the settings.
+    pub fn add_sense_with_settings<T: DeserializeOwned, S: Sense + 'static>(
+        &mut self,
+        name: &str,
+        description: &str,
+        make: impl Fn(T) -> Result<S, SettingError> + Send + Sync + 'static,
+    ) -> &mut Self {
+        let make = move |settings: &Map<String, Value>| -> Result<Arc<dyn Sense>, BadSettings> {
+            let settings = field_path::from_value(&Value::Object(settings.clone())).map_err(BadSettings::Unread)?;
+            Ok(Arc::new(make(settings).map_err(BadSettings::OutOfRange)?))
         };
         self.add(name, description, MakeSense(Arc::new(make)))
     }
@@ -202,9 +225,12 @@ impl Catalogue<MakeSense> {
             let Sensor::Custom(custom) = sensor else { return Ok(sensor.clone()) };
             let place = format!("sensors[{index}].custom");
             let make = self.find(&custom.name).map_err(|error| UnknownName(format!("{place}.name: {error}")))?;
-            let sense = (make.0)(&custom.settings).map_err(|FieldError { path, message, .. }| {
-                let field = if path == "." { String::new() } else { format!(".{path}") };
-                UnknownName(format!("{place}.settings{field}: {}", suggest::explain(&message)))
+            let sense = (make.0)(&custom.settings).map_err(|error| match error {
+                BadSettings::Unread(FieldError { path, message, .. }) => {
+                    let field = if path == "." { String::new() } else { format!(".{path}") };
+                    UnknownName(format!("{place}.settings{field}: {}", suggest::explain(&message)))
+                }
+                BadSettings::OutOfRange(error) => UnknownName(error.within(&format!("{place}.settings")).to_string()),
             })?;
             Ok(Sensor::Custom(custom.clone().sensing(sense, blueprint)))
         };
@@ -215,6 +241,7 @@ impl Catalogue<MakeSense> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use creatures::{BodyView, Channel};
 
     #[test]
     fn terrains_are_named_with_their_difficulty() {
@@ -233,6 +260,50 @@ mod tests {
         ] {
             let error = terrains.terrain(text).expect_err(says).to_string();
             assert!(error.starts_with(says), "{error}");
+        }
+    }
+
+    /// How far the torso leans, as a share of `most`.
+    struct Lean {
+        most: f32,
+    }
+
+    impl Sense for Lean {
+        fn channels(&self, _: &Blueprint) -> Vec<Channel> {
+            vec![Channel { name: "lean".into(), unit: "", range: [0.0, 1.0] }]
+        }
+        fn read(&self, body: &dyn BodyView, _: usize) -> f32 {
+            body.torso_rotation().abs() / self.most
+        }
+    }
+
+    #[derive(serde::Deserialize)]
+    #[serde(deny_unknown_fields)]
+    struct LeanSettings {
+        most: f32,
+    }
+
+    #[test]
+    fn settings_of_a_sensor_are_checked_by_it() {
+        let mut sensors = Catalogue::<MakeSense>::default();
+        sensors.add_sense_with_settings("lean", "how far the torso leans", |LeanSettings { most }| {
+            SettingError::check_range("most", f64::from(most), 0.1, 3.0).map(|()| Lean { most })
+        });
+        let blueprint = Blueprint::new(creatures::find("biped-1").expect("it is shipped")).expect("valid");
+        let told = |settings: &str| {
+            let sensor = format!(r#"{{"custom": {{"name": "lean", "settings": {settings}}}}}"#);
+            let sensor = serde_json::from_str(&sensor).expect("a sensor");
+            sensors.telling(&[sensor], &blueprint).map(|_| ()).map_err(|error| error.to_string())
+        };
+        assert_eq!(told(r#"{"most": 0.5}"#), Ok(()));
+        for (settings, says) in [
+            (r#"{"most": -1}"#, "sensors[0].custom.settings.most = -1: must be from 0.1 to 3"),
+            (
+                r#"{"mots": 1}"#,
+                "sensors[0].custom.settings.mots: unknown field `mots`, expected `most`; did you mean `most`?",
+            ),
+        ] {
+            assert_eq!(told(settings), Err(says.into()));
         }
     }
 

@@ -83,5 +83,5 @@ pub mod trajectory;
 mod unique_keys;
 
 pub use program_name::{program_name, set_program_name};
-pub use registry::{Registry, UnknownPreset};
+pub use registry::{Registry, RegistryError, UnknownPreset};
 pub use setup::Setup;

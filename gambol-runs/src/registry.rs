@@ -55,7 +55,56 @@ pub struct Registry {
 #[error("{0}")]
 pub struct UnknownPreset(String);
 
+/// A name that a command line and a folder cannot have, or rules by which nothing can be judged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RegistryError {
+    /// A name.
+    #[error("the {kind} \"{name}\": a name is of lower-case letters, digits and hyphens")]
+    Name {
+        /// What has it.
+        kind: &'static str,
+        /// The name.
+        name: String,
+    },
+    /// How long an episode is judged.
+    #[error("the rules of the movement \"{movement}\": seconds() = {seconds}: must be from 0.1 to 600")]
+    Seconds {
+        /// The movement.
+        movement: String,
+        /// What its rules say.
+        seconds: f64,
+    },
+}
+
 impl Registry {
+    /// Checks what was added by other crates: names, and how long rules want to judge. `gambol::program` does so before anything else.
+    ///
+    /// # Errors
+    /// The first that is not as it must be.
+    pub fn check(&self) -> Result<(), RegistryError> {
+        let movements = self.movements.entries().iter().map(|entry| ("movement", &*entry.name));
+        let strategies = self.strategies.entries().iter().map(|entry| ("strategy", entry.name()));
+        let variations = self.variations.names().into_iter().map(|name| ("variation", name));
+        let terrains = self.terrains.names().into_iter().map(|name| ("terrain", name));
+        let sensors = self.sensors.names().into_iter().map(|name| ("custom sensor", name));
+        let all = movements.chain(strategies).chain(variations).chain(terrains).chain(sensors);
+        let fits = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
+        for (kind, name) in all {
+            if name.is_empty() || !name.chars().all(fits) {
+                return Err(RegistryError::Name { kind, name: name.into() });
+            }
+        }
+        for entry in self.movements.entries() {
+            if let Some(seconds) = entry.rules.as_ref().map(|rules| rules.seconds())
+                && !(0.1..=600.0).contains(&seconds)
+            {
+                return Err(RegistryError::Seconds { movement: entry.name.clone(), seconds });
+            }
+        }
+        Ok(())
+    }
+
     /// The configuration a preset gives for a creature and a movement, with seed 1 and 300 generations: see
     /// [`Preset::config`].
     ///
@@ -68,5 +117,51 @@ impl Registry {
     /// As [`config`](Self::config), of a preset at hand.
     pub fn configure(&self, preset: &Preset, creature: Creature, movement: &str) -> RunConfig {
         preset.config(creature, movement, &self.movements, &self.defaults)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use tasks::{
+        Running,
+        gait::{Findings, GaitReport, Rules, Trajectory},
+    };
+
+    #[derive(Debug)]
+    struct Endless;
+
+    impl Rules for Endless {
+        fn name(&self) -> &str {
+            "endless"
+        }
+        fn seconds(&self) -> f64 {
+            f64::NAN
+        }
+        fn judge(&self, _: &GaitReport, _: &Trajectory<'_>) -> Findings {
+            Findings::default()
+        }
+    }
+
+    #[test]
+    fn what_is_built_in_can_be_named_and_what_is_added_must() {
+        let check = |add: &dyn Fn(&mut Registry)| {
+            let mut registry = Registry::default();
+            add(&mut registry);
+            registry.check().map_err(|error| error.to_string())
+        };
+        assert_eq!(check(&|_| {}), Ok(()));
+        let rule = "a name is of lower-case letters, digits and hyphens";
+        for name in ["High Kick", "a/b", ""] {
+            let variation = |registry: &mut Registry| {
+                registry.variations.add(name, "", Variation::default());
+            };
+            assert_eq!(check(&variation), Err(format!("the variation \"{name}\": {rule}")));
+        }
+        let rules = |registry: &mut Registry| {
+            registry.movements.add::<Running>(Some(100), "").judged_by(Endless);
+        };
+        let expected = "the rules of the movement \"running\": seconds() = NaN: must be from 0.1 to 600";
+        assert_eq!(check(&rules), Err(expected.into()));
     }
 }

@@ -32,6 +32,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! With the feature `champion`, which needs `std`, a character is read from a *champion.json* too (`Character::read_champion`), or made of
+//! a creature and a net.
+//!
 //! # Units
 //! Metres, kilograms, seconds, radians; x points forward, y up; angles count counter-clockwise. The specification of the
 //! file, and of everything that is computed, is `docs/player.md`.

@@ -10,7 +10,7 @@ use gambol_reports::report;
 use gambol_runs::{
     champion::Champion,
     gait,
-    robust::{PerturbedReplays, Perturbations},
+    robust::{Perturbations, PerturbedReplays},
 };
 use ne_core::Phenotype as _;
 use ne_net::Network;
@@ -64,7 +64,8 @@ pub(crate) fn champion_robustness(
         let champion = champion(&path)?;
         let threads = on_own_threads()?;
         let replay = || {
-            let mut replays = threads.install(|| PerturbedReplays::new(&champion, &registry(), &perturbations)).map_err(wrong)?;
+            let mut replays =
+                threads.install(|| PerturbedReplays::new(&champion, &registry(), &perturbations)).map_err(wrong)?;
             while replays.progress()[0] < worlds as usize {
                 threads.install(|| replays.go_on(threads.current_num_threads() * PerturbedReplays::FEW));
                 // Here and not among the replays: signals reach the thread that called alone.
@@ -150,7 +151,7 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         is_another(&page, &path)?;
         let write = || report::write_replay(&champion, &registry(), steps, &page);
-        let write = || on_own_threads(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
+        let write = || on_own_threads()?.install(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
         believed(&champion, write)
     })
 }

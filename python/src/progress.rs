@@ -88,10 +88,11 @@ impl<G> Progress<G> {
 /// The settings of a strategy: a JSON object laid over its defaults, checked so that a message names the setting as a
 /// configuration file has it.
 pub(crate) fn settings(name: &str, over: &str, topology: &Topology) -> PyResult<StrategySettings> {
-    let entry = registry().strategies.find(name).ok_or_else(|| wrong(format!("{name} is not registered")))?;
+    let registry = registry();
+    let entry = registry.strategies.find(name).ok_or_else(|| wrong(format!("{name} is not registered")))?;
     let mut settings = entry.settings();
     settings.lay_over(serde_json::from_str(over).map_err(wrong)?);
-    registry().strategies.validate(&settings, topology).map_err(wrong)?;
+    registry.strategies.validate(&settings, topology).map_err(wrong)?;
     Ok(settings)
 }
 

@@ -65,4 +65,4 @@ pub use movement::{
     TimeAloft, Upright, Verdict, Vibration, Walking, WalkingSettings,
 };
 pub use snapshot::{PartState, Snapshot};
-pub use trials::{Combine, Outcome, Tally, Trial, Trials};
+pub use trials::{Combine, Outcome, Tally, Trial, Trials, failure_of_value};

@@ -61,6 +61,18 @@ pub struct Outcome {
     pub failure: Option<Failure>,
 }
 
+/// The failure of a movement whose value is not finite: which of its [measurements](Movement::measurements) is not, or that the
+/// fitness is not.
+pub fn failure_of_value(movement: &dyn Movement) -> Failure {
+    let mut found = None;
+    movement.measurements(&mut |name, value| {
+        if !value.is_finite() && found.is_none() {
+            found = Some(format!("the value of \"{name}\""));
+        }
+    });
+    Failure::NonFinite { what: found.unwrap_or_else(|| "fitness".into()) }
+}
+
 /// A trial that has been played: how it ended, and what its movement then had to say.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
@@ -87,6 +99,9 @@ impl Trial {
 
     fn note(&mut self, movement: &dyn Movement) {
         self.value = if self.failed() { f64::NAN } else { movement.value() };
+        if !self.value.is_finite() {
+            self.outcome.failure.get_or_insert_with(|| failure_of_value(movement));
+        }
         self.objectives.clear();
         if self.value.is_finite() {
             let Self { outcome, objectives, measurements, .. } = self;
@@ -144,9 +159,6 @@ impl Tally {
             return Some(Evaluation::failed(failure.clone()).with_steps(self.steps));
         }
         let value = *value;
-        if !value.is_finite() {
-            return Some(Evaluation::new(value).with_steps(self.steps));
-        }
         let (sum, trials) = &mut self.lessons[(self.done as usize - 1) % LESSONS];
         (*sum, *trials) = (*sum + value, *trials + 1.0);
         self.sum += value;

@@ -252,8 +252,12 @@ impl Movement for Nonsense {
 #[test]
 fn a_movement_without_a_number_fails() {
     let evaluation = episode(PointMass::new(), Nonsense, 10, ONE).evaluate(&mut Constant(0.0), SEED);
-    assert_eq!(evaluation.outcome, Err(Failure::NonFinite { what: "fitness".into() }));
+    let expected = Failure::NonFinite { what: "the value of \"nonsense\"".into() };
+    assert_eq!(evaluation.outcome, Err(expected.clone()));
     assert_eq!(evaluation.steps, 10);
+    // Among others it is named.
+    let sum = Sum::of(Running::default()).plus(1.0, Nonsense).plus(1.0, Energy::default());
+    assert_eq!(episode(PointMass::new(), sum, 10, ONE).evaluate(&mut Constant(0.0), SEED).outcome, Err(expected));
 }
 
 #[test]

@@ -59,6 +59,10 @@ pub fn program(registry: &Registry) -> ExitCode {
     let command = named(Program::command(), program_name()).name(program_name());
     // clap has checked the command line; what it gives it can read.
     let program = Program::from_arg_matches(&command.get_matches());
+    if let Err(error) = registry.check() {
+        tell!("error: {error}");
+        return ExitCode::FAILURE;
+    }
     match program.unwrap_or_else(|error| error.exit()).command.run(registry) {
         Ok(code) => code,
         // What reads our output has seen enough.

@@ -22,7 +22,7 @@ pub struct Promise {
 
 /// A promise that was not kept.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a {} owes: {}. Found: {found}", promise.contract, promise.text)]
+#[error("{} {} owes: {}. Found: {found}", article(promise.contract), promise.contract, promise.text)]
 pub struct Violation {
     /// Which promise.
     pub promise: Promise,
@@ -62,6 +62,10 @@ impl Promise {
             Err(panic) => Err(self.broken(format!("it panicked: {}", panic_message(&*panic)))),
         }
     }
+}
+
+fn article(word: &str) -> &'static str {
+    if word.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" }
 }
 
 fn panic_message(panic: &(dyn Any + Send)) -> &str {
