@@ -83,7 +83,7 @@ impl Nets {
 /// Checks the weights of nets that a search is to begin with.
 pub(crate) fn check_start(start: &[Vec<f32>], topology: &Topology) -> Result<(), SettingError> {
     start.iter().enumerate().try_for_each(|(index, weights)| {
-        let wrong = |error| SettingError::new(format!("start[{index}]"), error, "as many as the net has");
+        let wrong = |error| SettingError::new(format!("start[{index}]"), error, "weights of the net");
         topology.check_weights(weights).map_err(wrong)
     })
 }
