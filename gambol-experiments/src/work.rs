@@ -50,6 +50,8 @@ pub struct Progress<R> {
     pub run: String,
     /// What it found; `None` if every evaluation failed.
     pub best: Option<R>,
+    /// Why most evaluations of its last generation failed, where all did and it is known.
+    pub failure: Option<String>,
     /// Runs of this part that have ended, earlier ones included.
     pub done: usize,
     /// Runs of this part.
@@ -59,9 +61,30 @@ pub struct Progress<R> {
 /// How a run ended.
 pub(crate) enum Ended<R> {
     /// Its result is there.
-    Done(Option<R>),
+    Done {
+        /// What it found.
+        best: Option<R>,
+        /// Why it found nothing, where that is known.
+        failure: Option<String>,
+    },
     /// It was interrupted, or another process is at work on it.
     NotYet,
+}
+
+impl<R> Ended<R> {
+    /// A run of which it is not told why it found nothing, if it did.
+    pub(crate) fn done(best: Option<R>) -> Self {
+        Self::Done { best, failure: None }
+    }
+}
+
+impl<R> Progress<R> {
+    /// What is said of a run that found nothing.
+    pub fn nothing(&self) -> String {
+        let reason =
+            self.failure.as_ref().map_or_else(String::new, |reason| format!(", most often for this reason: {reason}"));
+        format!("every evaluation failed{reason}")
+    }
 }
 
 impl Part {
@@ -179,9 +202,9 @@ impl<'a, R> Work<'a, R> {
                 }
                 match how(job) {
                     Ok(Ended::NotYet) => {}
-                    Ok(Ended::Done(best)) => {
+                    Ok(Ended::Done { best, failure }) => {
                         let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
-                        (self.options.on_run)(&Progress { run: name(job), best, done, all: self.all });
+                        (self.options.on_run)(&Progress { run: name(job), best, failure, done, all: self.all });
                     }
                     Err(error) => {
                         if let Ok(mut failure) = failure.lock() {

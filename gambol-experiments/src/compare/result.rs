@@ -21,6 +21,9 @@ pub struct RunResult {
     /// What the champion at the end of the run comes to in the movement without terms, in one whole episode; `None` if the
     /// fitness has no terms, or the champion fails.
     pub bare: Option<f64>,
+    /// Why most evaluations of the last generation failed, of a run without a champion.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub failure: Option<String>,
 }
 
 /// How far a run was after a generation.
@@ -58,8 +61,10 @@ impl RunResult {
             last.best = last.best.or(Some(champion.fitness.get()));
             bare = if job.cell.is_shaped() { without_terms(champion, registry) } else { None };
         }
+        let has_none = points.last().is_none_or(|last| last.best.is_none());
+        let failure = log.last().filter(|_| has_none).and_then(|last| Some(last.failure.as_ref()?.to_string()));
         let Job { cell, seed } = *job;
-        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points, bare })
+        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points, bare, failure })
     }
 
     /// Whether two results are of the same run: all but the seconds.

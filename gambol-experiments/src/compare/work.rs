@@ -18,14 +18,17 @@ pub fn work(folder: &ComparisonFolder, plan: &Plan, options: &WorkOptions<'_, f6
 
 /// Does a run, unless it is done, or goes on with it.
 fn run(folder: &ComparisonFolder, job: &Job<'_>, options: &WorkOptions<'_, f64>) -> Result<Ended<f64>, CompareError> {
-    let best = |result: &RunResult| Ended::Done(result.points.last().and_then(|point| point.best));
+    let best = |result: RunResult| Ended::Done {
+        best: result.points.last().and_then(|point| point.best),
+        failure: result.failure,
+    };
     if let Some(result) = folder.result(job)? {
-        return Ok(best(&result));
+        return Ok(best(result));
     }
     let failed = |source: TrainError| CompareError::Run { run: job.name(), source };
     let ended = options.run(&job.config(), &folder.run_folder(job)).map_err(failed)?;
     let Some(ended) = ended else { return Ok(Ended::NotYet) };
     let result = RunResult::read(job, &ended, &options.registry).map_err(|error| failed(error.into()))?;
     folder.write_result(job, &result)?;
-    Ok(best(&result))
+    Ok(best(result))
 }

@@ -124,7 +124,7 @@ impl GaitRuns {
             |(digest, config)| {
                 let run = GaitRun::measure(config, options.resources(), self.robust)?;
                 kept.lock().unwrap_or_else(PoisonError::into_inner).add(*digest, run.clone())?;
-                Ok::<_, GaitsError>(Ended::Done(Some(run)))
+                Ok::<_, GaitsError>(Ended::done(Some(run)))
             },
         )?;
         let mut found = Vec::new();

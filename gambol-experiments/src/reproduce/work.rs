@@ -36,7 +36,7 @@ fn run(
 ) -> Result<Ended<Judged>, ReproduceError> {
     let Job::Run { cell, seed } = *job else { return Ok(Ended::NotYet) };
     if let Some(result) = folder.run_result(&cell, seed)? {
-        return Ok(Ended::Done(result.champion));
+        return Ok(Ended::done(result.champion));
     }
     let stop = StopConditions { generations: Some(plan.generations), ..StopConditions::default() };
     let config = cell.config(seed, stop, &options.registry)?;
@@ -49,7 +49,7 @@ fn run(
     let Some(ended) = ended else { return Ok(Ended::NotYet) };
     let result = RunResult::read(&cell, &ended, settings_digest(&config), options.threads, &options.registry)?;
     folder.write_run(job, &result)?;
-    Ok(Ended::Done(result.champion))
+    Ok(Ended::done(result.champion))
 }
 
 /// Does a timed run, unless it is done.
@@ -72,5 +72,5 @@ fn time(
             result
         }
     };
-    Ok(Ended::Done(result.marks.last().and_then(|mark| mark.champion.clone())))
+    Ok(Ended::done(result.marks.last().and_then(|mark| mark.champion.clone())))
 }

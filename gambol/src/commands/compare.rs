@@ -101,8 +101,8 @@ impl Compare {
         let began = Instant::now();
         let show = |progress: &Progress<f64>| {
             if !self.quiet {
-                let Progress { run, best, done, all } = progress;
-                let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));
+                let Progress { run, best, done, all, .. } = progress;
+                let best = best.map_or_else(|| progress.nothing(), |best| format!("{best:.2}"));
                 tell!("{done}/{all} after {:.0} s: {run}: {best}", began.elapsed().as_secs_f64());
             }
         };

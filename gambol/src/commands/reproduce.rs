@@ -103,9 +103,9 @@ impl Thesis {
         let began = Instant::now();
         let show = |progress: &Progress<Judged>| {
             if !self.quiet {
-                let Progress { run, best: champion, done, all } = progress;
+                let Progress { run, best: champion, done, all, .. } = progress;
                 let verdict = match champion {
-                    None => "every evaluation failed".into(),
+                    None => progress.nothing(),
                     Some(champion) => {
                         let usable = if champion.usable { "usable" } else { "not usable" };
                         format!("fitness {:.2}, {usable}", champion.fitness)

@@ -80,9 +80,10 @@ impl Tune {
         let folder = ComparisonFolder::create(&Tuning::comparison(&self.out), &tuning.plan)?;
         let signal = StopSignal::default();
         super::interrupt::stop_on_interrupt(&signal)?;
-        let show = |Progress { run, best, done, all }: &Progress<f64>| {
+        let show = |progress: &Progress<f64>| {
             if !self.quiet {
-                let best = best.map_or_else(|| "every evaluation failed".into(), |best| format!("{best:.2}"));
+                let Progress { run, best, done, all, .. } = progress;
+                let best = best.map_or_else(|| progress.nothing(), |best| format!("{best:.2}"));
                 tell!("{done}/{all}: {run}: {best}");
             }
         };

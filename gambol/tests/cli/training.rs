@@ -180,6 +180,10 @@ fn a_run_in_which_every_evaluation_fails_says_why() -> Outcome {
     for command in ["gait", "robust", "replay", "verify"] {
         assert_says(&fail(gambol(command).arg(&path)), &[says]);
     }
+    let mut compare = gambol("compare");
+    compare.args(["--strategies", "ga", "--movements", "running", "--seeds", "1", "--evaluations", "60"]);
+    let told = run(compare.arg("--creatures").arg(&file).arg("--out").arg(folder.path().join("compared"))).stderr;
+    assert_says(&told, &["seed 1: every evaluation failed, most often for this reason: a joint comes apart"]);
     Ok(())
 }
 
