@@ -315,23 +315,23 @@ pub(crate) fn finds(browser: &mut Browser, folder: &Path, home: &Home) {
     };
     open(browser, "tetrapod-1-running");
     load_anew(browser, "tetrapod-1-running");
-    let is_open = |command: &str| format!("document.getElementById('run-command').textContent.includes('{command}')");
-    wait(browser, "the run", &is_open("tetrapod-1 running"));
+    let is_open = |run: &str| format!("document.getElementById('keep-title').textContent === '{run}'");
+    wait(browser, "the run", &is_open("tetrapod-1-running"));
     wait(browser, "its generation", "document.getElementById('arena-caption').textContent.startsWith('generation 1,')");
     gallery(browser, 5);
     wait(browser, "its exports", "document.querySelectorAll('#keep-exports button').length > 5");
     click(browser, "[data-chapter=watch]");
-    let mut latest = "tetrapod-2 jumping";
+    let mut latest = "tetrapod-2-jumping";
     // In a browser, training ends with the page.
     if *home == Home::Served {
-        latest = "tetrapod-1 running";
+        latest = "tetrapod-1-running";
         set(browser, "#run-more", "5000");
         click(browser, "#run-go-on");
         wait(browser, "more", "/generation \\d\\d/.test(document.getElementById('run-state').textContent)");
         set(browser, "#run-pace", "shown");
         wait(browser, "the pause", "document.getElementById('run-state').textContent.includes('training waits')");
         load_anew(browser, "tetrapod-1-running");
-        wait(browser, "the run", &is_open("tetrapod-1 running"));
+        wait(browser, "the run", &is_open("tetrapod-1-running"));
         assert_eq!(browser.evaluate("document.getElementById('run-pace').value"), "shown");
         let before = generation(browser);
         wait(

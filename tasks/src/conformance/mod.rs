@@ -17,3 +17,9 @@ mod stories;
 pub use environment::check_environment;
 pub use movement::check_movement;
 pub use rules::check_rules;
+
+/// Checks that a name can be typed.
+fn typed(name: &str) -> Result<(), String> {
+    let typed = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
+    if name.is_empty() || !name.chars().all(typed) { Err(format!("the name {name:?}")) } else { Ok(()) }
+}

@@ -1,6 +1,9 @@
 //! What a movement owes.
 
-use super::stories::{Story, bodies, stories, stories_of};
+use super::{
+    stories::{Story, bodies, stories, stories_of},
+    typed,
+};
 use crate::{Body, Movement, Verdict};
 use ne_core::conformance::{Promise, Violation};
 use std::collections::BTreeSet;
@@ -174,10 +177,7 @@ fn each(found: &[Seen], expected: &[Seen], stories: &[Story], what: &str) -> Res
 fn labels(movement: &dyn Movement, stories: &[Story]) -> Result<(), String> {
     let labels = |of: &dyn Movement| (of.name().to_owned(), of.unit().to_owned());
     let born = labels(movement);
-    let typed = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
-    if born.0.is_empty() || !born.0.chars().all(typed) {
-        return Err(format!("the name {:?}", born.0));
-    }
+    typed(&born.0)?;
     if born.1.is_empty() || born.1.chars().any(char::is_whitespace) {
         return Err(format!("the unit {:?}", born.1));
     }

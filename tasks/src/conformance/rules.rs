@@ -1,6 +1,9 @@
 //! What rules owe.
 
-use super::stories::{Story, TIME_STEP, bodies, longer_stories_of, told};
+use super::{
+    stories::{Story, TIME_STEP, bodies, longer_stories_of, told},
+    typed,
+};
 use crate::{
     Body, Snapshot,
     gait::{GaitReport, Judgement, Reason, Rules, Trajectory},
@@ -67,11 +70,6 @@ fn labels(rules: &dyn Rules) -> Result<String, String> {
     let name = rules.name();
     typed(name)?;
     Ok(format!("{name}, {} s, {:?}, needs commands: {}", rules.seconds(), rules.view(), rules.needs_commands()))
-}
-
-fn typed(name: &str) -> Result<(), String> {
-    let typed = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
-    if name.is_empty() || !name.chars().all(typed) { Err(format!("the name {name:?}")) } else { Ok(()) }
 }
 
 /// Every promise about one gait.
