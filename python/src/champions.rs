@@ -43,7 +43,7 @@ pub(crate) fn verify(py: Python<'_>, path: PathBuf) -> PyResult<(bool, Option<f6
 pub(crate) fn judge_gait(py: Python<'_>, path: PathBuf) -> PyResult<String> {
     py.detach(|| {
         let champion = champion(&path)?;
-        let judge = || on_own_threads()?.install(|| gait::judge(&champion, &registry()).map_err(wrong));
+        let judge = || own_threads()?.install(|| gait::judge(&champion, &registry()).map_err(wrong));
         let report = believed(&champion, judge)?;
         serde_json::to_string(&report).map_err(wrong)
     })
@@ -62,7 +62,7 @@ pub(crate) fn champion_robustness(
         let variation = variation.map(|name| registry().variations.find(&name).cloned()).transpose().map_err(wrong)?;
         let perturbations = Perturbations { count: worlds, seed, variation };
         let champion = champion(&path)?;
-        let threads = on_own_threads()?;
+        let threads = own_threads()?;
         let replay = || {
             let mut replays =
                 threads.install(|| PerturbedReplays::new(&champion, &registry(), &perturbations)).map_err(wrong)?;
@@ -99,7 +99,7 @@ fn is_another(file: &Path, champion: &Path) -> PyResult<()> {
 }
 
 /// Threads that all share are gone in a process that was forked.
-fn on_own_threads() -> PyResult<rayon::ThreadPool> {
+fn own_threads() -> PyResult<rayon::ThreadPool> {
     rayon::ThreadPoolBuilder::new().build().map_err(wrong)
 }
 
@@ -151,7 +151,7 @@ pub(crate) fn write_replay(py: Python<'_>, path: PathBuf, page: PathBuf, seconds
         let steps = seconds.map(|seconds| champion.steps_in(seconds)).transpose().map_err(wrong)?;
         is_another(&page, &path)?;
         let write = || report::write_replay(&champion, &registry(), steps, &page);
-        let write = || on_own_threads()?.install(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
+        let write = || own_threads()?.install(|| write().map_err(|error| PyOSError::new_err(error.to_string())));
         believed(&champion, write)
     })
 }

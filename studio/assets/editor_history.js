@@ -4,13 +4,6 @@
 
 const EDITOR_CHECK_DELAY = 150;
 
-// What is being drawn, by the names of editors: it is there again when this tab is loaded anew.
-const drafts = {
-  get(editor) { try { return JSON.parse(sessionStorage.getItem(`draft: ${editor}`)); } catch { return null; } },
-  // A browser that keeps nothing keeps no draft either.
-  set(editor, drawn) { try { sessionStorage.setItem(`draft: ${editor}`, JSON.stringify(drawn)); } catch { /* So it is. */ } },
-};
-
 class EditorHistory {
   constructor(root, hooks) {
     Object.assign(this, { root, hooks, problems: [], checks: 0 });

@@ -26,7 +26,7 @@ class Studio {
       draw: creature => {
         this.go("draw");
         this.draw(creature);
-        drafts.set("creature", this.editor.creature);
+        remembered.set("drawn creature", this.editor.creature);
       },
       close: runs => this.close(runs),
     });
@@ -47,11 +47,15 @@ class Studio {
       // Before there is anything to show, nothing is wrong.
       if (request !== "show" && request !== "advance") this.refuse(reason);
       // What the address has is not there: what else there is takes its place.
-      if (!this.isKnown && !this.opened && request.startsWith("open")) connection.ask({ do: request === "open-latest" ? "look" : "open-latest" });
+      if (request.startsWith("open") && this.isBeginning) {
+        this.isBeginning = request !== "open-latest";
+        connection.ask({ do: this.isBeginning ? "open-latest" : "look" });
+      }
     });
     connection.on("catalogue", () => this.know());
     connection.on("opened", event => {
       this.opened = event;
+      this.isBeginning = false;
       this.shown = null;
       this.setAddress(event.run);
       this.showAgain();
@@ -117,6 +121,7 @@ class Studio {
   // run. What there is to choose from is long, and comes after what there is to see.
   async begin(linked) {
     const asked = new URLSearchParams(location.search);
+    this.isBeginning = !asked.get("creature");
     let text = null;
     try { text = await linked; } catch (error) { this.refuse(`The link is damaged: ${error.message}`); }
     if (text) this.connection.ask({ do: "open-champion", name: "the link", text });
@@ -168,7 +173,7 @@ class Studio {
     this.editor = new Editor(document.getElementById("draw-editor"), {
       check: creature => this.check({ do: "check", creature }),
       freeName: name => this.freeName(name),
-      changed: creature => drafts.set("creature", creature),
+      changed: creature => remembered.set("drawn creature", creature),
       play: creature => {
         this.choose.setDrawn(creature);
         this.choose.train();
@@ -176,7 +181,7 @@ class Studio {
     });
     const chosen = creatures.find(({ name }) => name === this.choose.choice.creature);
     this.draw(this.watch.config?.creature || chosen || creatures[0]);
-    const draft = drafts.get("creature");
+    const draft = remembered.get("drawn creature");
     if (draft) this.editor.become(draft);
   }
 
@@ -202,7 +207,7 @@ class Studio {
     this.terrainEditor = new TerrainEditor(document.getElementById("draw-ground"), {
       creature: () => this.choose.creature,
       check: terrain => this.check({ do: "check-terrain", terrain }),
-      changed: terrain => drafts.set("ground", terrain),
+      changed: terrain => remembered.set("drawn ground", terrain),
       keep: (name, terrain) => new Promise((resolve, reject) => {
         this.keeping = { name, resolve, reject };
         this.connection.ask({ do: "keep-terrain", name, terrain });
@@ -218,7 +223,7 @@ class Studio {
       },
     });
     this.terrainEditor.setKept(this.choose.catalogue.terrains);
-    const draft = drafts.get("ground");
+    const draft = remembered.get("drawn ground");
     if (draft) this.terrainEditor.become(draft);
     this.connection.on("catalogue", ({ terrains }) => {
       this.terrainEditor.setKept(terrains);

@@ -48,7 +48,7 @@ class Watch {
     document.getElementById("run-command").textContent = command;
     document.title = `${name} · Gambol studio`;
     this.clear();
-    const isPaced = Boolean(run) && drafts.get("pace") === run;
+    const isPaced = Boolean(run) && remembered.get("paced run") === run;
     this.setState(state);
     this.setPace(isPaced ? "shown" : "free");
   }
@@ -56,7 +56,7 @@ class Watch {
   // Training waits for what is shown, or does not. It is so again when this tab is loaded anew.
   setPace(pace) {
     document.getElementById("run-pace").value = pace;
-    drafts.set("pace", pace === "shown" ? this.run : null);
+    remembered.set("paced run", pace === "shown" ? this.run : null);
   }
 
   // Nothing is known of a run yet.

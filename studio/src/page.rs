@@ -37,6 +37,7 @@ const SCRIPTS: &[&str] = &[
     include_str!("../assets/choose.js"),
     include_str!("../assets/play.js"),
     include_str!("../assets/link.js"),
+    include_str!("../assets/remembered.js"),
     include_str!("../assets/keep.js"),
     include_str!("../assets/editor_geometry.js"),
     include_str!("../assets/editor_decorations.js"),

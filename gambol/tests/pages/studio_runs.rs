@@ -345,6 +345,10 @@ pub(crate) fn finds(browser: &mut Browser, folder: &Path, home: &Home) {
     // What the address names is not there: the latest is, and the page says so.
     load_anew(browser, "nothing");
     wait(browser, "the latest", &is_open(latest));
+    // Also where the page begins with the gallery, which is there before.
+    let address = browser.evaluate("location.href.split('?')[0] + '?run=nothing#/keep'");
+    browser.visit(address.as_str().expect("an address"), 1280);
+    wait(browser, "the latest", &is_open(latest));
     assert_eq!(browser.evaluate("document.querySelector('#notice p').textContent"), "there is no run \"nothing\"");
     wait(browser, "the gallery", "document.querySelectorAll('#keep-runs button').length === 5");
     is_clean(browser, &studio);
