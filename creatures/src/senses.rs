@@ -25,7 +25,7 @@ const SPEED_HEADROOM: f32 = 2.0;
 ///
 /// The order of the channels is that of the sensors, and within a sensor that of the outputs, feet or rays; only
 /// actuated hinges are sensed. It is part of what a trained net means, and never changes for the same creature and
-/// sensors.
+/// sensors. No two channels have one name: of two gap sensors the second's are `distance to next gap (2)` and so on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Senses {
     channels: Vec<Channel>,
@@ -61,15 +61,21 @@ impl Senses {
                 _ => senses.add(blueprint, sensor),
             }
             let is_custom = |index: usize| matches!(sensors[index], Sensor::Custom(_));
-            problems.extend(senses.channels[told..].iter().find_map(|Channel { name, .. }| {
-                let first = names.insert(name.clone(), index)?;
-                // Sensors of the format may look for one thing at two lengths.
-                (is_custom(index) || is_custom(first)).then(|| Problem::DuplicateChannel {
-                    path: format!("sensors[{index}]"),
-                    channel: name.clone(),
-                    first,
-                })
-            }));
+            for channel in &mut senses.channels[told..] {
+                let Some(&first) = names.get(&channel.name) else {
+                    names.insert(channel.name.clone(), index);
+                    continue;
+                };
+                if is_custom(index) || is_custom(first) {
+                    let (path, channel) = (format!("sensors[{index}]"), channel.name.clone());
+                    problems.push(Problem::DuplicateChannel { path, channel, first });
+                    break;
+                }
+                // Sensors of the format may look for one thing at two lengths: from two to the next free number.
+                let mut numbered = (2..).map(|number| format!("{} ({number})", channel.name));
+                channel.name = numbered.find(|name| !names.contains_key(name)).unwrap_or_default();
+                names.insert(channel.name.clone(), index);
+            }
         }
         if problems.is_empty() { Ok(senses) } else { Err(CreatureError::Invalid(problems)) }
     }

@@ -117,6 +117,24 @@ fn read(senses: &Senses, body: &Body) -> Vec<f32> {
 }
 
 #[test]
+fn no_two_channels_have_one_name() {
+    let ray = |length| Sensor::Rangefinder { angles: vec![0.0], length };
+    let senses =
+        senses(&[ray(1.0), Sensor::NextGap { length: 4.0 }, ray(2.0), Sensor::NextGap { length: 2.0 }, ray(3.0)], 3.0);
+    let names: Vec<&str> = senses.channels().iter().map(|channel| channel.name.as_str()).collect();
+    let expected = [
+        "distance at 0°",
+        "distance to next gap",
+        "width of next gap",
+        "distance at 0° (2)",
+        "distance to next gap (2)",
+        "width of next gap (2)",
+        "distance at 0° (3)",
+    ];
+    assert_eq!(names, expected);
+}
+
+#[test]
 fn channels_have_names_units_and_ranges() {
     let senses = senses(&all_sensors(), 3.0);
     let sixty = 60f32.to_radians();

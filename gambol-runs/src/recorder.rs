@@ -92,8 +92,12 @@ impl EarlierLines {
 /// If a line is damaged or missing; the error names file and line.
 pub fn check_lines(folder: &RunFolder, config: &RunConfig) -> Result<(), FolderError> {
     let standing = folder.read_standing()?;
+    let foreign = |what| Err(FolderError::Foreign { path: folder.checkpoint(), what });
     if standing.seed != Seed::of_run(config.seed) {
-        return Err(FolderError::Foreign { path: folder.checkpoint(), what: "the seed" });
+        return foreign("the seed");
+    }
+    if standing.label != config.label() {
+        return foreign("its settings");
     }
     let champion = standing.champion.map(|ChampionStanding { tier, fitness, .. }| TieredFitness { tier, fitness });
     EarlierLines::check(folder, config, &standing.progress, champion).map(drop)

@@ -19,6 +19,9 @@ pub const CHECKPOINT_VERSION: u32 = 2;
 pub struct Checkpoint<S: Strategy> {
     /// The run's seed.
     pub seed: Seed,
+    /// What [`with_label`](crate::Evolution::with_label) was told; empty without.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub label: String,
     /// Budgets used.
     pub progress: Progress,
     /// The best so far.
@@ -62,6 +65,8 @@ impl<S: Strategy> Checkpoint<S> {
 #[serde(bound = "S: Strategy")]
 pub(crate) struct CheckpointRef<'a, S: Strategy> {
     pub(crate) seed: Seed,
+    #[serde(skip_serializing_if = "str::is_empty")]
+    pub(crate) label: &'a str,
     pub(crate) progress: Progress,
     pub(crate) champion: Option<&'a Champion<S::Genome>>,
     #[serde(skip_serializing_if = "<[_]>::is_empty", serialize_with = "shared_fields::serialize")]

@@ -25,6 +25,7 @@ use std::{
 pub struct Evolution<S: Strategy> {
     strategy: S,
     seed: Seed,
+    label: String,
     stop: StopConditions,
     signal: StopSignal,
     progress: Progress,
@@ -113,16 +114,38 @@ impl EvolutionError {
 impl<S: Strategy> Evolution<S> {
     /// A new run. The stop conditions are used as they are; see [`StopConditions::validate`].
     pub fn new(strategy: S, seed: Seed, stop: StopConditions) -> Self {
-        let (progress, candidates, decision) = (Progress::default(), Vec::new(), Decision::Stay);
-        Self::resume(Checkpoint { seed, progress, champion: None, candidates, decision, last: false, strategy }, stop)
+        let (label, progress, candidates, decision) = (String::new(), Progress::default(), Vec::new(), Decision::Stay);
+        let checkpoint =
+            Checkpoint { seed, label, progress, champion: None, candidates, decision, last: false, strategy };
+        Self::resume(checkpoint, stop)
     }
 
     /// Goes on where a checkpoint was written. A run with a champion selection needs it
     /// [again](Self::with_champion_selection), and so does one with a [promotion](Self::with_promotion).
     pub fn resume(checkpoint: Checkpoint<S>, stop: StopConditions) -> Self {
-        let Checkpoint { seed, progress, champion, candidates, decision, strategy, .. } = checkpoint;
+        let Checkpoint { seed, label, progress, champion, candidates, decision, strategy, .. } = checkpoint;
         let (signal, asked, selection, promotion) = (StopSignal::default(), None, None, None);
-        Self { strategy, seed, stop, signal, progress, champion, candidates, asked, selection, promotion, decision }
+        Self {
+            strategy,
+            seed,
+            label,
+            stop,
+            signal,
+            progress,
+            champion,
+            candidates,
+            asked,
+            selection,
+            promotion,
+            decision,
+        }
+    }
+
+    /// Writes a text in every checkpoint, such as a digest of the task's settings: by it a caller tells whether a checkpoint is
+    /// of the run that it wants to go on with. It changes nothing else, and a resumed run has that of its checkpoint.
+    #[must_use]
+    pub fn with_label(self, label: impl Into<String>) -> Self {
+        Self { label: label.into(), ..self }
     }
 
     /// Lets a champion selection choose the champion. The best of each generation, or of a [group](ReEvaluations::group) of them, becomes a
@@ -267,6 +290,7 @@ impl<S: Strategy> Evolution<S> {
             strategy: &self.strategy,
             progress: self.progress,
             seed: self.seed,
+            label: &self.label,
             decision: self.decision,
             stop: &self.stop,
         };
@@ -391,7 +415,8 @@ impl<S: Strategy> Evolution<S> {
     fn write(&self, path: &Path, last: bool) -> Result<(), ArchiveError> {
         let (seed, progress, decision, strategy) = (self.seed, self.progress, self.decision, &self.strategy);
         let (champion, candidates) = (self.champion.as_ref(), self.candidates.as_slice());
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, last, strategy };
+        let label = self.label.as_str();
+        let parts = checkpoint::CheckpointRef { seed, label, progress, champion, candidates, decision, last, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }
@@ -402,8 +427,9 @@ impl<S: Strategy> Generation<'_, S> {
     /// # Errors
     /// If the file cannot be written; an older one is then still there.
     pub fn write_checkpoint(&self, path: &Path) -> Result<(), ArchiveError> {
-        let Self { seed, progress, champion, candidates, decision, strategy, .. } = *self;
-        let parts = checkpoint::CheckpointRef { seed, progress, champion, candidates, decision, last: false, strategy };
+        let Self { seed, label, progress, champion, candidates, decision, strategy, .. } = *self;
+        let last = false;
+        let parts = checkpoint::CheckpointRef { seed, label, progress, champion, candidates, decision, last, strategy };
         checkpoint::write_parts(path, &parts)
     }
 }

@@ -38,6 +38,8 @@ pub struct Generation<'a, S: Strategy> {
     pub progress: Progress,
     /// The run's seed.
     pub seed: Seed,
+    /// What [`with_label`](crate::Evolution::with_label) was told; empty without.
+    pub label: &'a str,
     /// What a [`Promotion`](crate::promotion::Promotion) says; without one always to stay.
     pub decision: Decision,
     /// When the run will end.

@@ -14,7 +14,7 @@ pub use strategy::StrategySettings;
 
 use creatures::{Actuation, Creature, Sensor, Terrain};
 use envs_rapier::{PhysicsSettings, Variation};
-use ne_core::{SettingError, StopConditions};
+use ne_core::{SettingError, StopConditions, digest::Digest};
 use ne_net::{Activation, Topology};
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
@@ -107,16 +107,23 @@ impl RunConfig {
     /// The first field by which another configuration is that of another run; `None`: by none. A run keeps its own when its limits change,
     /// and when it begins with what another has learned.
     pub fn other_run(&self, other: &Self) -> Option<String> {
-        let fields = |config: &Self| {
-            let config = Self { stop: StopConditions::default(), topology: None, origin: None, ..config.clone() };
-            match serde_json::to_value(config) {
-                Ok(Value::Object(fields)) => fields,
-                // Plain data can be written.
-                _ => Map::new(),
-            }
-        };
-        let (one, other) = (fields(self), fields(other));
+        let (one, other) = (self.fields_of_run(), other.fields_of_run());
         one.keys().chain(other.keys()).find(|&field| one.get(field) != other.get(field)).cloned()
+    }
+
+    /// What its checkpoints are [labelled](ne_core::Evolution::with_label) with: the digest of all by which
+    /// [another run](Self::other_run) is told.
+    pub fn label(&self) -> String {
+        Digest::of_json(&Value::Object(self.fields_of_run())).to_string()
+    }
+
+    fn fields_of_run(&self) -> Map<String, Value> {
+        let config = Self { stop: StopConditions::default(), topology: None, origin: None, ..self.clone() };
+        match serde_json::to_value(config) {
+            Ok(Value::Object(fields)) => fields,
+            // Plain data can be written.
+            _ => Map::new(),
+        }
     }
 }
 

@@ -148,6 +148,9 @@ pub enum FolderError {
 pub struct RunStanding {
     /// The seed of the run.
     pub seed: Seed,
+    /// The [label](RunConfig::label) of its settings.
+    #[serde(default)]
+    pub label: String,
     /// What it has used up.
     pub progress: Progress,
     /// What the rules of its stage have decided after the last generation.

@@ -64,10 +64,11 @@ impl AnyGenome {
 
 /// A checkpoint whose strategy is one of any kind.
 pub(super) fn any_checkpoint<S: NetStrategy>(checkpoint: Checkpoint<S>) -> Checkpoint<AnyStrategy> {
-    let Checkpoint { seed, progress, champion, candidates, decision, last, strategy } = checkpoint;
+    let Checkpoint { seed, label, progress, champion, candidates, decision, last, strategy } = checkpoint;
     let champion = champion.map(|champion| champion.map(AnyGenome::new::<S>));
     let candidates = candidates.into_iter().map(|candidate| candidate.map(AnyGenome::new::<S>)).collect();
-    Checkpoint { seed, progress, champion, candidates, decision, last, strategy: AnyStrategy::new(strategy) }
+    let strategy = AnyStrategy::new(strategy);
+    Checkpoint { seed, label, progress, champion, candidates, decision, last, strategy }
 }
 
 /// What all strategies can do.

@@ -85,7 +85,8 @@ impl Training {
     ) -> Result<Self, TrainError> {
         let evaluator = Arc::new(Parallel::new(resources.threads)?);
         let (folder, lock) = RunFolder::create(folder)?;
-        let mut evolution = with_rules(Evolution::new(strategy, Seed::of_run(config.seed), stop), promotion);
+        let evolution = Evolution::new(strategy, Seed::of_run(config.seed), stop).with_label(config.label());
+        let mut evolution = with_rules(evolution, promotion);
         if let Some(champion) = champion.filter(|_| setup.reference.is_some()) {
             evolution = evolution.with_candidate(champion);
         }
@@ -136,6 +137,9 @@ impl Training {
         }
         if !checkpoint.strategy.fits(&setup.topology) {
             return Err(foreign("the nets that it searches").into());
+        }
+        if checkpoint.label != config.label() {
+            return Err(foreign("its settings").into());
         }
         if let Some(champion) = &checkpoint.champion
             && setup.episode.check_shape(&champion.genome.express()).is_err()

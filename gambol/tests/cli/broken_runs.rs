@@ -224,12 +224,16 @@ fn the_checkpoint_of_another_run_is_refused() -> Outcome {
     let folder = tempfile::tempdir()?;
     let (run, other) = (folder.path().join("run"), folder.path().join("other"));
     succeed(&mut small_run(&run, 4));
-    let foreign: [(&[&str], &str); 2] =
-        [(&["--seed", "9"], "the seed"), (&["--set", "strategy.cma-es.step_size=0.77"], "the strategy's settings")];
+    let foreign: [(&[&str], &str); 3] = [
+        (&["--seed", "9"], "the seed"),
+        (&["--set", "strategy.cma-es.step_size=0.77"], "the strategy's settings"),
+        (&["--set", "physics.gravity=9.7"], "its settings"),
+    ];
     for (flags, says) in foreign {
         succeed(small_run(&other, 4).args(flags));
         fs::copy(other.join("checkpoint"), run.join("checkpoint"))?;
         assert_refused(&run, &["checkpoint of this run", says]);
+        assert_says(&fail(gambol("report").arg(&run)), &["is not the checkpoint of this run"]);
         fs::remove_dir_all(&other)?;
     }
     Ok(())
