@@ -22,7 +22,7 @@ const ON_LEGS: [(&str, f64); 7] = [
     ("haste", -0.95),
 ];
 
-/// Weights of two legs with knees stay small: those that grow large make gaits that fail in other worlds (docs/gaits.md).
+/// Weights of two legs with knees stay small: those that grow large make gaits that fail in other worlds (docs/gaits-experiments.md).
 const SMALL_WEIGHTS: [(&str, f64); 2] = [("greatest_growth", 1.0), ("mean_decay", 0.01)];
 
 /// The term that asks for a stride in each turn of the clock.

@@ -97,7 +97,7 @@ impl Movement for Landing {
 
 impl Landing {
     /// How much a moment of leaping on counts, 0 to 1. Where half of one at 45° counts searches find jumps sooner, but more of these turn
-    /// over in other worlds (docs/gaits.md).
+    /// over in other worlds (docs/gaits-experiments.md).
     fn uprightness(&self) -> f32 {
         if self.legless { 1.0 } else { self.turn.uprightness() }
     }
