@@ -91,13 +91,13 @@ impl Conditions {
         if !self.torso_spin.is_finite() {
             return Err(SettingError::new("torso_spin", self.torso_spin, "finite"));
         }
-        for Push { time, velocity } in &self.pushes {
+        for (index, Push { time, velocity }) in self.pushes.iter().enumerate() {
             if !(time.is_finite() && *time >= 0.0) {
-                return Err(SettingError::new("pushes.time", time, "finite and at least 0"));
+                return Err(SettingError::new(format!("pushes[{index}].time"), time, "finite and at least 0"));
             }
             if !(-FASTEST_PUSH..=FASTEST_PUSH).contains(velocity) {
                 let allowed = format!("from -{FASTEST_PUSH} to {FASTEST_PUSH}");
-                return Err(SettingError::new("pushes.velocity", velocity, allowed));
+                return Err(SettingError::new(format!("pushes[{index}].velocity"), velocity, allowed));
             }
         }
         Ok(())

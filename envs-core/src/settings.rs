@@ -61,8 +61,8 @@ pub struct PhysicsSettings {
     /// rest.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 60.0)))]
     pub settle_time: f32,
-    /// The speed of any part above which the simulation counts as exploded, m/s, from 1 to 400 (where rapier caps
-    /// speeds); default 100.
+    /// The speed of any part, along x or along y, above which the simulation counts as exploded, m/s, from 1 to 400 (where rapier
+    /// caps speeds); default 100.
     #[cfg_attr(feature = "schema", schemars(range(min = 1.0, max = 400.0)))]
     pub unstable_speed: f32,
     /// Water all around in place of the ground; `null`, the default: none. A creature in water does not settle.

@@ -185,8 +185,7 @@ pub(super) struct FileContent {
 /// Reads a configuration file: one with some of the fields, or the `config.json` of another run.
 pub(super) fn parse(text: &str) -> Result<FileContent, ConfigError> {
     let UniqueKeys(layer) = serde_json::from_str(text).map_err(|error| {
-        let full = error.to_string();
-        let message = full.split(" at line ").next().unwrap_or(&full).to_owned();
+        let message = field_path::without_place(&error.to_string()).to_owned();
         ConfigError::Malformed { line: error.line(), column: error.column(), message }
     })?;
     if !layer.is_object() {

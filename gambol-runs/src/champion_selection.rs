@@ -47,9 +47,10 @@ type Steadiness = dyn Fn(&dyn Phenotype, Trial, usize) -> usize + Send + Sync;
 /// Says which of these controllers is usable in most worlds, of equals the first, and in how many.
 type Steadiest = dyn Fn(&[&dyn Phenotype]) -> Option<(usize, usize)> + Send + Sync;
 
-/// The highest tier of a champion whose gait is judged in this episode.
-pub(crate) fn highest_tier(reference: &ReferenceEpisode) -> u8 {
-    USABLE + steps_of(reference).len() as u8
+/// The highest tier of a champion that is chosen there; `None` where none is chosen, or its gait is not judged.
+pub(crate) fn highest_tier(reference: Option<&ReferenceEpisode>) -> Option<u8> {
+    let reference = reference.filter(|reference| reference.judge.is_some())?;
+    Some(USABLE + steps_of(reference).len() as u8)
 }
 
 /// The steps that a champion is tried at there; none where nothing varies.

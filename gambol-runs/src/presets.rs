@@ -11,19 +11,20 @@ use ne_core::StopConditions;
 use ne_fixed::{CmaEsSettings, ConventionalNeSettings};
 use ne_neat::NeatSettings;
 use ne_net::Activation;
+use std::{fmt, sync::Arc};
 use tasks::{Commands, Medium, MovementCatalogue, MovementSpec, Trials};
 
 /// A named starting point of a configuration.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone)]
 pub struct Preset {
     /// Its name.
-    pub name: &'static str,
+    pub name: String,
     /// One sentence.
-    pub description: &'static str,
-    /// What it changes in a bare configuration for a creature and a movement: one with the default strategy, a net with ten
-    /// hidden neurons, motors that are given speeds, and nothing that varies.
-    pub change: fn(&mut RunConfig, &DefaultsCatalogue),
+    pub description: String,
+    change: Arc<Change>,
 }
+
+type Change = dyn Fn(&mut RunConfig, &DefaultsCatalogue) + Send + Sync;
 
 /// The presets there are; the first is the default. By default those of Gambol.
 #[derive(Clone, Debug)]
@@ -32,58 +33,62 @@ pub struct PresetCatalogue {
     others: Vec<Preset>,
 }
 
-const DEFAULT: Preset = Preset {
-    name: "default",
-    description: "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and rewards for gaits",
-    change: |config, known| {
+fn default() -> Preset {
+    let description = "what we found to work best: CMA-ES, a net a limb, clocks, target angles, and rewards for gaits";
+    Preset::new("default", description, |config, known| {
         config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::gaits());
         config.variation = Variation::light();
         defaults::apply(config, known);
-    },
-};
+    })
+}
 
-const THESIS: Preset = Preset {
-    name: "thesis",
-    description: "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite",
-    change: |config, _| {
+fn thesis() -> Preset {
+    let description =
+        "the algorithm of Gegendorfer 2017: roulette, one-point crossover, small uniform mutation, no elite";
+    Preset::new("thesis", description, |config, _| {
         config.strategy = StrategySettings::new("conventional", &ConventionalNeSettings::thesis());
         config.controller.hidden_activation = Activation::RationalTanh;
         config.controller.output_activation = Activation::RationalTanh;
-    },
-};
+    })
+}
 
-const STANLEY_2002: Preset = Preset {
-    name: "stanley-2002",
-    description: "NEAT with the settings of Stanley & Miikkulainen 2002; outputs stretched to ±1, as motors want them",
-    change: |config, _| {
+fn stanley_2002() -> Preset {
+    let description =
+        "NEAT with the settings of Stanley & Miikkulainen 2002; outputs stretched to ±1, as motors want them";
+    Preset::new("stanley-2002", description, |config, _| {
         let output_activation = Activation::SteepTanh;
         let settings = NeatSettings { output_activation, ..NeatSettings::stanley_2002() };
         config.strategy = StrategySettings::new("neat", &settings);
-    },
-};
+    })
+}
 
-const PLAIN: Preset = Preset {
-    name: "plain",
-    description: "for fair comparisons: a dense net of ten hidden neurons, the movement alone as fitness, nothing varies",
+fn plain() -> Preset {
+    let description =
+        "for fair comparisons: a dense net of ten hidden neurons, the movement alone as fitness, worlds do not vary";
     // Episodes as long as those that champions of the default preset are judged by, so that the scores of both compare.
-    change: |config, known| config.movement.steps = defaults::steps(config, known),
-};
+    Preset::new("plain", description, |config, known| config.movement.steps = defaults::steps(config, known))
+}
 
 /// All that the default preset has, but for the settings of its strategy.
-const SHAPED: Preset = Preset {
-    name: "shaped",
-    description: "for fair comparisons: all that the default preset has, but for the settings of its strategy",
-    change: |config, known| {
+fn shaped() -> Preset {
+    let description = "for fair comparisons: all that the default preset has, but for the settings of its strategy";
+    Preset::new("shaped", description, |config, known| {
         config.variation = Variation::light();
         defaults::apply(config, known);
         // Every strategy has its own defaults, the first mutation strength too.
         config.strategy = StrategySettings::new("cma-es", &CmaEsSettings::default());
-    },
-};
+    })
+}
 
 impl Default for PresetCatalogue {
     fn default() -> Self {
-        Self { first: DEFAULT, others: vec![THESIS, STANLEY_2002, PLAIN, SHAPED] }
+        Self { first: default(), others: vec![thesis(), stanley_2002(), plain(), shaped()] }
+    }
+}
+
+impl fmt::Debug for Preset {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Preset").field("name", &self.name).finish_non_exhaustive()
     }
 }
 
@@ -113,12 +118,22 @@ impl PresetCatalogue {
     /// # Errors
     /// Says which there are, and the nearest name.
     pub fn find(&self, name: &str) -> Result<&Preset, String> {
-        let known = || self.entries().map(|preset| preset.name).collect::<Vec<_>>();
+        let known = || self.entries().map(|preset| &*preset.name).collect::<Vec<_>>();
         self.entries().find(|preset| preset.name == name).ok_or_else(|| suggest::unknown("preset", name, &known()))
     }
 }
 
 impl Preset {
+    /// A preset of this name, described in one sentence. `change` is given a bare configuration for a creature and a movement: one with the
+    /// default strategy, a net with ten hidden neurons, motors that are given speeds, and nothing that varies.
+    pub fn new(
+        name: &str,
+        description: &str,
+        change: impl Fn(&mut RunConfig, &DefaultsCatalogue) + Send + Sync + 'static,
+    ) -> Self {
+        Self { name: name.into(), description: description.into(), change: Arc::new(change) }
+    }
+
     /// The configuration this preset gives for a creature and a movement, with seed 1 and 300 generations. A creature that
     /// is to swim is put into water.
     pub fn config(
@@ -128,7 +143,7 @@ impl Preset {
         movements: &MovementCatalogue,
         known: &DefaultsCatalogue,
     ) -> RunConfig {
-        let mut config = RunConfig { preset: self.name.into(), ..bare(creature, movement) };
+        let mut config = RunConfig { preset: self.name.clone(), ..bare(creature, movement) };
         if movements.find(movement).is_some_and(|entry| entry.medium == Medium::Water) {
             // Only rapier has water.
             config.physics.water = Some(Water::default());

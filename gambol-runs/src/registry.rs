@@ -75,25 +75,52 @@ pub enum RegistryError {
         /// What its rules say.
         seconds: f64,
     },
+    /// A strategy's alias.
+    #[error("the alias \"{alias}\" of the strategy \"{strategy}\": another strategy has this name or alias")]
+    Alias {
+        /// The alias.
+        alias: String,
+        /// The strategy.
+        strategy: String,
+    },
+    /// What is said of a movement in `defaults`.
+    #[error("defaults of the movement \"{movement}\": there is no movement of this name")]
+    Defaults {
+        /// The movement.
+        movement: String,
+    },
 }
 
 impl Registry {
-    /// Checks what was added by other crates: names, and how long rules want to judge. `gambol::program` does so before anything else.
+    /// Checks what was added by other crates: names, aliases, for which movements there are defaults, and how long rules want to judge.
+    /// `gambol::program` does so before anything else.
     ///
     /// # Errors
     /// The first that is not as it must be.
     pub fn check(&self) -> Result<(), RegistryError> {
         let movements = self.movements.entries().iter().map(|entry| ("movement", &*entry.name));
         let strategies = self.strategies.entries().iter().map(|entry| ("strategy", entry.name()));
+        let aliases = self.strategies.entries().iter().filter_map(|entry| Some(("alias", entry.alias()?)));
+        let presets = self.presets.entries().map(|preset| ("preset", &*preset.name));
         let variations = self.variations.names().into_iter().map(|name| ("variation", name));
         let terrains = self.terrains.names().into_iter().map(|name| ("terrain", name));
         let sensors = self.sensors.names().into_iter().map(|name| ("custom sensor", name));
-        let all = movements.chain(strategies).chain(variations).chain(terrains).chain(sensors);
+        let all =
+            movements.chain(strategies).chain(aliases).chain(presets).chain(variations).chain(terrains).chain(sensors);
         let fits = |letter: char| letter.is_ascii_lowercase() || letter.is_ascii_digit() || letter == '-';
         for (kind, name) in all {
             if name.is_empty() || !name.chars().all(fits) {
                 return Err(RegistryError::Name { kind, name: name.into() });
             }
+        }
+        let names = self.strategies.names();
+        for entry in self.strategies.entries() {
+            if let Some(alias) = entry.alias().filter(|alias| names.iter().filter(|name| name == &alias).count() > 1) {
+                return Err(RegistryError::Alias { alias: alias.into(), strategy: entry.name().into() });
+            }
+        }
+        if let Some(movement) = self.defaults.movements().find(|movement| self.movements.find(movement).is_none()) {
+            return Err(RegistryError::Defaults { movement: movement.into() });
         }
         for entry in self.movements.entries() {
             if let Some(seconds) = entry.rules.as_ref().map(|rules| rules.seconds())
@@ -123,6 +150,7 @@ impl Registry {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::defaults::MovementDefaults;
     use tasks::{
         Running,
         gait::{Findings, GaitReport, Rules, Trajectory},
@@ -163,5 +191,15 @@ mod tests {
         };
         let expected = "the rules of the movement \"running\": seconds() = NaN: must be from 0.1 to 600";
         assert_eq!(check(&rules), Err(expected.into()));
+        let alias = |registry: &mut Registry| {
+            registry.strategies.add::<ne_fixed::HillClimbing>("").with_alias("ga");
+        };
+        let expected = "the alias \"ga\" of the strategy \"conventional\": another strategy has this name or alias";
+        assert_eq!(check(&alias), Err(expected.into()));
+        let defaults = |registry: &mut Registry| {
+            registry.defaults.add("runing", MovementDefaults::unknown);
+        };
+        let expected = "defaults of the movement \"runing\": there is no movement of this name";
+        assert_eq!(check(&defaults), Err(expected.into()));
     }
 }

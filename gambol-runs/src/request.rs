@@ -82,7 +82,7 @@ pub enum RequestError {
     Name(#[from] UnknownName),
     /// Something that a run needs was not said.
     #[error("{0}")]
-    Missing(&'static str),
+    Missing(String),
     /// The configuration file cannot be read.
     #[error("cannot read {}: {source}", path.display())]
     Read {
@@ -168,11 +168,11 @@ impl Request {
         }
         let mut config = assembly.finish().map_err(|source| RequestError::Unknown(source.to_string()))?;
         if config.preset != base.preset {
-            return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set"));
+            return Err(RequestError::Missing("a preset is chosen with --preset NAME, not with --set".into()));
         }
         if config.movement.name != base.movement.name {
             let message = "a movement is chosen on the command line or in a file, not with --set: steps, terms and more come with it";
-            return Err(RequestError::Missing(message));
+            return Err(RequestError::Missing(message.into()));
         }
         defaults::follow_clock(&mut config, &base.movement);
         config.seed = self.seed.unwrap_or(config.seed);
@@ -209,7 +209,9 @@ impl Request {
             return Ok(source::creature(name, registry)?);
         }
         let Some((layer, value)) = layer.and_then(|layer| Some((layer, layer.value.get("creature")?))) else {
-            return Err(RequestError::Missing("say which creature: a name (see: gambol creatures) or a creature file"));
+            let message =
+                format!("say which creature: a name (see: {} creatures) or a creature file", crate::program_name());
+            return Err(RequestError::Missing(message));
         };
         layer.creature("creature", value, registry)
     }
@@ -238,7 +240,7 @@ impl Request {
             }
             Some((layer, _, Some(found))) => wrong(layer, "movement.name", found),
             Some((layer, found, None)) if !found.is_object() => wrong(layer, "movement", found),
-            _ => Err(RequestError::Missing("say which movement (see: gambol movements)")),
+            _ => Err(RequestError::Missing(format!("say which movement (see: {} movements)", crate::program_name()))),
         }
     }
 

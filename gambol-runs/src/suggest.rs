@@ -1,5 +1,7 @@
 //! "Did you mean ...?"
 
+use ne_core::field_path;
+
 /// The candidate most like `name`, if any is like it at all.
 pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     candidates
@@ -20,7 +22,7 @@ pub fn unknown(kind: &str, name: &str, known: &[&str]) -> String {
 
 /// Adds the nearest valid name to serde's "unknown field `x`, expected one of `a`, `b`".
 pub(crate) fn explain(message: &str) -> String {
-    let message = message.split(" at line ").next().unwrap_or(message);
+    let message = field_path::without_place(message);
     let mut quoted = message.split('`').skip(1).step_by(2);
     match quoted.next() {
         Some(name) if message.starts_with("unknown") => match nearest(name, quoted) {

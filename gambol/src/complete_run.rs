@@ -92,7 +92,8 @@ mod tests {
     #[test]
     fn a_lesson_tells_why_it_came_to_nothing() -> Result<(), Box<dyn std::error::Error>> {
         let mut registry = Registry::default();
-        registry.movements.add::<Flawed<true>>(Some(10), "fails").add::<Flawed<false>>(Some(10), "counts its episodes");
+        registry.movements.add::<Flawed<true>>(Some(10), "fails");
+        registry.movements.add::<Flawed<false>>(Some(10), "counts its episodes");
         let folder = tempfile::tempdir()?;
         for (movement, says) in [
             ("failing", "every evaluation failed: on purpose"),

@@ -35,7 +35,8 @@ impl SettingError {
         if value >= low && value <= high && value.is_finite() {
             Ok(())
         } else if high.is_infinite() {
-            Err(Self::new(field, value, format!("at least {low}")))
+            let kind = if value.is_finite() { "" } else { "finite and " };
+            Err(Self::new(field, value, format!("{kind}at least {low}")))
         } else {
             Err(Self::new(field, value, format!("from {low} to {high}")))
         }

@@ -34,6 +34,7 @@ pub struct StopConditions {
     pub target: Option<f64>,
     /// A [tier](crate::champion_selection::ReEvaluation::tiers) of the champion that is good enough.
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
     pub tier: Option<u8>,
     /// Generations without a better champion, at least 1.
     #[cfg_attr(feature = "schema", schemars(range(min = 1)))]
@@ -123,6 +124,7 @@ impl StopConditions {
             ("evaluations", self.evaluations),
             ("steps", self.steps),
             ("stagnation", self.stagnation),
+            ("tier", self.tier.map(u64::from)),
         ];
         for (field, count) in counts {
             if count == Some(0) {

@@ -19,7 +19,7 @@ fn setting_errors_name_field_value_and_range() {
     assert_eq!(message(SettingError::check_range("x", -1.0, 0.0, f64::INFINITY)), "x = -1: must be at least 0");
     assert_eq!(
         message(SettingError::check_range("x", f64::INFINITY, 0.0, f64::INFINITY)),
-        "x = inf: must be at least 0"
+        "x = inf: must be finite and at least 0"
     );
 }
 
@@ -31,6 +31,7 @@ fn stop_conditions_name_the_field() {
     assert_eq!(message(StopConditions { evaluations: Some(0), ..none }), "evaluations = 0: must be at least 1");
     assert_eq!(message(StopConditions { steps: Some(0), ..none }), "steps = 0: must be at least 1");
     assert_eq!(message(StopConditions { stagnation: Some(0), ..none }), "stagnation = 0: must be at least 1");
+    assert_eq!(message(StopConditions { tier: Some(0), ..none }), "tier = 0: must be at least 1");
     assert_eq!(message(StopConditions { minutes: Some(0.0), ..none }), "minutes = 0: must be a finite number above 0");
     assert_eq!(
         message(StopConditions { minutes: Some(f64::INFINITY), ..none }),

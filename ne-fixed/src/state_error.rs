@@ -13,7 +13,7 @@ pub enum StateError {
     /// There are too many or too few individuals.
     #[error("{field}: found {found} individuals, the settings say {expected}")]
     Count {
-        /// Which generation: `parents` or `asked`.
+        /// Which of them, such as `parents` or `asked`.
         field: String,
         /// How many there must be.
         expected: usize,
@@ -23,7 +23,7 @@ pub enum StateError {
     /// An individual is not a genome of the topology.
     #[error("{field}[{index}].{source}")]
     Individual {
-        /// Which generation: `parents` or `asked`.
+        /// Which of them, such as `parents` or `asked`.
         field: String,
         /// Which individual, from 0.
         index: usize,

@@ -19,8 +19,7 @@ use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use rayon::{ThreadPool, ThreadPoolBuilder, prelude::*};
 use std::sync::{Arc, OnceLock};
 
-/// The most environments: their arrays are then gigabytes.
-/// Each takes some 6 kB.
+/// The most environments. Each takes some 6 kB, so that these take gigabytes.
 const MOST_ENVIRONMENTS: usize = 1 << 20;
 
 /// Environments of one creature and one movement, stepped together.

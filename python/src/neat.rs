@@ -138,7 +138,12 @@ impl NeatSearch {
     /// A search from what was saved.
     #[staticmethod]
     fn restore(py: Python<'_>, saved: &[u8]) -> PyResult<Self> {
-        py.detach(|| serde_json::from_slice(saved)).map_err(|error| wrong(format!("the state of neat: {error}")))
+        let damaged = |error: serde_json::Error| wrong(format!("the state of neat: {error}"));
+        let search: Self = py.detach(|| serde_json::from_slice(saved)).map_err(damaged)?;
+        match search.progress.asked.unwrap_or(0) == search.asked.len() {
+            true => Ok(search),
+            false => Err(damaged(serde::de::Error::custom(progress::WRONG_SIZE))),
+        }
     }
 
     /// How many generations have been told.

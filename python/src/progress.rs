@@ -8,6 +8,9 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::{exceptions::PyRuntimeError, prelude::*};
 use serde::{Deserialize, Serialize};
 
+/// Of a saved search.
+pub(crate) const WRONG_SIZE: &str = "the generation that waits for its results is not of the size that is said";
+
 /// The generations of a search, and the best it has found.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -144,6 +144,10 @@ fn make<S: NetStrategy<Genome = WeightVector> + Sync>(
 
 fn restore<S: NetStrategy<Genome = WeightVector> + Sync>(bytes: &[u8]) -> serde_json::Result<Search> {
     let Saved { about, population, strategy } = serde_json::from_slice::<Saved<S>>(bytes)?;
+    let genes = about.progress.asked.unwrap_or(0).checked_mul(about.dimension);
+    if about.dimension == 0 || genes != Some(population.len()) {
+        return Err(serde::de::Error::custom(progress::WRONG_SIZE));
+    }
     Ok(Search { search: Box::new(Held { strategy, population }), about })
 }
 

@@ -163,3 +163,13 @@ def test_a_setting_within_a_setting_leaves_the_others():
     assert neat.statistics["compatibility_threshold"] < 3.0
     with pytest.raises(ValueError, match=r"strategy\.neat\.speciation\.limit: unknown field `limit`"):
         gambol.Neat(2, 1, speciation={"limit": 0.5})
+
+
+@pytest.mark.parametrize("search", [gambol.CmaEs(3, seed=1), gambol.Neat(2, 1, seed=1)])
+def test_a_state_of_another_size_is_no_search(search):
+    """Of a generation that waits for its results there is one more than it says."""
+    count = len(search.ask())
+    state = search.__getstate__().replace(f'"asked":{count}'.encode(), f'"asked":{count + 1}'.encode())
+    assert state != search.__getstate__()
+    with pytest.raises(ValueError, match="the generation that waits for its results is not of the size that is said"):
+        object.__new__(type(search)).__setstate__(state)

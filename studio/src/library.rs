@@ -93,7 +93,7 @@ impl Library {
             drawn: drawn.iter().map(|creature| creature.name.clone()).collect(),
             creatures: shipped.filter(|creature| !is_drawn(creature)).chain(drawn.clone()).collect(),
             movements: movements.map(|movement| thing(&movement.name, &movement.description)).collect(),
-            presets: registry.presets.entries().map(|preset| thing(preset.name, preset.description)).collect(),
+            presets: registry.presets.entries().map(|preset| thing(&preset.name, &preset.description)).collect(),
             strategies: registry
                 .strategies
                 .entries()

@@ -239,7 +239,7 @@ impl Viewer {
     fn open_champion(&mut self, champion: Champion) -> Result<Vec<Reply>, Refusal> {
         let registry = self.library.registry();
         let config =
-            registry.config(registry.presets.first().name, champion.creature.clone(), &champion.movement.name)?;
+            registry.config(&registry.presets.first().name, champion.creature.clone(), &champion.movement.name)?;
         let unit = registry.movements.build(&champion.movement)?.unit().to_owned();
         let state = RunState::Ended { reason: format!("a champion of generation {}", champion.generation) };
         let opened = Opened { run: String::new(), config, unit, command: String::new(), state };

@@ -61,6 +61,20 @@ type Make = dyn Fn(&MovementSettings) -> Result<Box<dyn Movement>, MovementSpecE
 /// Settings of a movement or a term, as a configuration file has them: a JSON object.
 pub type MovementSettings = Map<String, Value>;
 
+impl MovementEntry {
+    /// Puts the movement into water.
+    pub fn in_water(&mut self) -> &mut Self {
+        self.medium = Medium::Water;
+        self
+    }
+
+    /// Has its gaits judged by these rules.
+    pub fn judged_by(&mut self, rules: impl Rules + 'static) -> &mut Self {
+        self.rules = Some(Arc::new(rules));
+        self
+    }
+}
+
 impl fmt::Debug for MovementEntry {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.debug_struct("MovementEntry").field("name", &self.name).field("steps", &self.steps).finish_non_exhaustive()
@@ -180,12 +194,13 @@ impl Default for MovementCatalogue {
             "distance covered at a walk; settings: speed, body lengths/s (1)",
             Walking::new,
         );
-        catalogue.add_with_settings(
-            Some(2000),
-            "distance at a wanted speed, discounted by its cost of transport; settings: speed, body lengths/s (2)",
-            Cruising::new,
-        );
-        catalogue.judged_by(RunningRules::default());
+        catalogue
+            .add_with_settings(
+                Some(2000),
+                "distance at a wanted speed, discounted by its cost of transport; settings: speed, body lengths/s (2)",
+                Cruising::new,
+            )
+            .judged_by(RunningRules::default());
         catalogue.add_with_settings(
             Some(1000),
             "time it stands still and upright; settings: after, s (2), from when on",
@@ -206,8 +221,8 @@ impl Default for MovementCatalogue {
             Some(1000),
             "time it does as it is told: a speed, standing still, a jump; settings: jump, s (1.5), what one is worth",
             Playing::new,
-        );
-        catalogue.judged_by(PlayingRules);
+        )
+        .judged_by(PlayingRules);
         let swimming = "distance the centre of mass covers in water, forwards";
         catalogue.add::<Swimming>(Some(1000), swimming).in_water().judged_by(SwimmingRules);
         catalogue.add::<Energy>(None, "work of all motors; weigh it negatively");
@@ -262,8 +277,12 @@ impl Default for MovementCatalogue {
 }
 
 impl MovementCatalogue {
-    /// Adds a movement, or replaces the one of the same name. `steps` as in [`MovementEntry::steps`].
-    pub fn add<M: Movement + Default + 'static>(&mut self, steps: Option<u32>, description: &str) -> &mut Self {
+    /// Adds a movement, or replaces the one of the same name, with its rules and its medium. `steps` as in [`MovementEntry::steps`].
+    pub fn add<M: Movement + Default + 'static>(
+        &mut self,
+        steps: Option<u32>,
+        description: &str,
+    ) -> &mut MovementEntry {
         self.add_with(steps, description, || Box::new(M::default()))
     }
 
@@ -273,7 +292,7 @@ impl MovementCatalogue {
         steps: Option<u32>,
         description: &str,
         make: impl Fn() -> Box<dyn Movement> + Send + Sync + 'static,
-    ) -> &mut Self {
+    ) -> &mut MovementEntry {
         let sample = make();
         let name = sample.name().to_owned();
         let plain = move |settings: &MovementSettings| match settings.keys().next() {
@@ -330,42 +349,26 @@ impl MovementCatalogue {
         steps: Option<u32>,
         description: &str,
         configure: impl Fn(S) -> Result<M, SettingError> + Send + Sync + 'static,
-    ) -> &mut Self {
+    ) -> &mut MovementEntry {
         let make = move |settings: &MovementSettings| -> Result<Box<dyn Movement>, MovementSpecError> {
             Ok(Box::new(configure(parse(settings)?)?))
         };
         self.insert(&M::default(), steps, description, Arc::new(make))
     }
 
-    fn insert(&mut self, sample: &dyn Movement, steps: Option<u32>, description: &str, make: Arc<Make>) -> &mut Self {
+    fn insert(
+        &mut self,
+        sample: &dyn Movement,
+        steps: Option<u32>,
+        description: &str,
+        make: Arc<Make>,
+    ) -> &mut MovementEntry {
         let (name, unit) = (sample.name().to_owned(), sample.unit().to_owned());
         self.entries.retain(|entry| entry.name != name);
-        self.entries.push(MovementEntry {
-            name,
-            description: description.into(),
-            unit,
-            steps,
-            medium: Medium::Ground,
-            rules: None,
-            make,
-        });
-        self
-    }
-
-    /// Puts the movement that was added last into water.
-    pub fn in_water(&mut self) -> &mut Self {
-        if let Some(entry) = self.entries.last_mut() {
-            entry.medium = Medium::Water;
-        }
-        self
-    }
-
-    /// Has the gaits of the movement that was added last judged by these rules.
-    pub fn judged_by(&mut self, rules: impl Rules + 'static) -> &mut Self {
-        if let Some(entry) = self.entries.last_mut() {
-            entry.rules = Some(Arc::new(rules));
-        }
-        self
+        let (description, medium, rules) = (description.into(), Medium::Ground, None);
+        let place = self.entries.len();
+        self.entries.push(MovementEntry { name, description, unit, steps, medium, rules, make });
+        &mut self.entries[place]
     }
 
     /// The rules by which gaits of the movement of this name are judged; `None` if they are not, or there is none.

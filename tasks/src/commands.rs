@@ -143,7 +143,7 @@ impl Commands {
     pub fn validate(&self) -> Result<(), SettingError> {
         match self {
             Self::Random(random) => random.validate().map_err(|error| error.within("random")),
-            Self::Given(changes) => check_given(changes).map_err(|error| error.within("given")),
+            Self::Given(changes) => check_given(changes),
         }
     }
 
@@ -222,17 +222,20 @@ impl RandomCommands {
 
 fn check_given(changes: &[CommandChange]) -> Result<(), SettingError> {
     if changes.is_empty() || changes.len() > MOST_CHANGES {
-        return Err(SettingError::new("length", changes.len(), format!("from 1 to {MOST_CHANGES} changes")));
+        return Err(SettingError::new(
+            "given",
+            format!("{} changes", changes.len()),
+            format!("from 1 to {MOST_CHANGES}"),
+        ));
     }
     let mut earliest = 0.0;
     for (index, change) in changes.iter().enumerate() {
         if !(change.time >= earliest && change.time <= 1e6) {
             let allowed = format!("from {earliest}, no earlier than the change before, to 1000000");
-            return Err(SettingError::new(format!("{index}.time"), change.time, allowed));
+            return Err(SettingError::new(format!("given[{index}].time"), change.time, allowed));
         }
         earliest = change.time;
-        SettingError::check_range("speed", change.speed.into(), -20.0, 20.0)
-            .map_err(|error| error.within(&index.to_string()))?;
+        SettingError::check_range(&format!("given[{index}].speed"), change.speed.into(), -20.0, 20.0)?;
     }
     Ok(())
 }
@@ -382,9 +385,9 @@ mod tests {
             (random(|it| it.backwards = 1.1), "random.backwards"),
             (random(|it| it.jumps = -0.1), "random.jumps"),
             (random(|it| it.press = 0.0), "random.press"),
-            (Commands::Given(Vec::new()), "given.length"),
-            (Commands::Given(vec![CommandChange { time: -1.0, ..CommandChange::default() }]), "given.0.time"),
-            (Commands::Given(vec![CommandChange { speed: 30.0, ..CommandChange::default() }]), "given.0.speed"),
+            (Commands::Given(Vec::new()), "given"),
+            (Commands::Given(vec![CommandChange { time: -1.0, ..CommandChange::default() }]), "given[0].time"),
+            (Commands::Given(vec![CommandChange { speed: 30.0, ..CommandChange::default() }]), "given[0].speed"),
         ];
         for (commands, field) in cases {
             let error = commands.validate().expect_err(field).to_string();

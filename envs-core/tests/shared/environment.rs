@@ -231,11 +231,11 @@ fn a_world_that_makes_no_sense_is_refused() {
         (Conditions { torso_spin: f32::NAN, ..reference.clone() }, "conditions.torso_spin = NaN: must be finite"),
         (
             Conditions { pushes: vec![Push { time: -1.0, velocity: 0.1 }], ..reference.clone() },
-            "conditions.pushes.time = -1: must be finite and at least 0",
+            "conditions.pushes[0].time = -1: must be finite and at least 0",
         ),
         (
             Conditions { pushes: vec![Push { time: 1.0, velocity: 101.0 }], ..reference.clone() },
-            "conditions.pushes.velocity = 101: must be from -100 to 100",
+            "conditions.pushes[0].velocity = 101: must be from -100 to 100",
         ),
         (
             Conditions { turns: vec![], ..reference.clone() },

@@ -284,10 +284,10 @@ impl Cell {
         !self.config.movement.terms.is_empty()
     }
 
-    /// Whether the worlds of its runs vary, drawn from the seed of the run and the number of the generation, whatever the
-    /// strategy.
+    /// Whether the worlds of its runs vary, or what bodies are told, drawn from the seed of the run and the number of the generation,
+    /// whatever the strategy.
     pub fn shares_worlds(&self) -> bool {
-        !self.config.variation.is_none()
+        self.config.varies()
     }
 }
 
@@ -329,7 +329,7 @@ impl Method {
             return Ok(Self { preset: Some(text.into()), ..none });
         }
         let mut known = registry.strategies.names();
-        known.extend(registry.presets.entries().map(|preset| preset.name));
+        known.extend(registry.presets.entries().map(|preset| &*preset.name));
         let hint = "; or give it a name and a configuration file, NAME=FILE";
         Err(PlanError::Method(suggest::unknown("strategy or preset", text, &known) + hint))
     }

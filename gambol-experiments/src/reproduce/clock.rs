@@ -44,7 +44,7 @@ pub(super) fn time(
         marks.push(Mark { minutes, seconds, generations: outcome.progress.generations, champion });
     }
     Ok(Some(ClockResult {
-        preset: cell.preset.name.into(),
+        preset: cell.preset.name.clone(),
         creature: cell.scenario.creature.into(),
         movement: cell.scenario.movement.into(),
         settings: settings_digest(&config),

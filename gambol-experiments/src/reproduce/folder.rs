@@ -91,7 +91,7 @@ pub enum ReproduceError {
         /// The result or the run folder.
         path: PathBuf,
         /// The preset.
-        preset: &'static str,
+        preset: String,
     },
     /// A run folder that cannot be read.
     #[error(transparent)]
@@ -187,7 +187,7 @@ impl ReproductionFolder {
     /// # Errors
     /// If it cannot be read, is damaged, or is of another run or of other settings.
     pub fn run_result(&self, cell: &Cell, seed: u64) -> Result<Option<RunResult>, ReproduceError> {
-        let job = Job::Run { cell: *cell, seed };
+        let job = Job::Run { cell: cell.clone(), seed };
         let path = self.result_file(&job);
         if !path.is_file() {
             return Ok(None);
@@ -213,7 +213,7 @@ impl ReproductionFolder {
     /// # Errors
     /// If it cannot be read, is damaged, or is of another run or of other settings.
     pub fn clock_result(&self, cell: &Cell) -> Result<Option<ClockResult>, ReproduceError> {
-        let job = Job::Clock { cell: *cell };
+        let job = Job::Clock { cell: cell.clone() };
         let path = self.result_file(&job);
         if !path.is_file() {
             return Ok(None);
@@ -258,21 +258,21 @@ impl ReproductionFolder {
     }
 
     fn write(&self, job: &Job, format: &str, result: &impl Serialize) -> Result<(), ReproduceError> {
-        make(&self.place("results", &job.cell()))?;
+        make(&self.place("results", job.cell()))?;
         Ok(archive::write(&self.result_file(job), format, VERSION, result, Layout::Compact)?)
     }
 
     pub(super) fn run_folder(&self, job: &Job) -> PathBuf {
-        self.place("runs", &job.cell()).join(leaf(job))
+        self.place("runs", job.cell()).join(leaf(job))
     }
 
     pub(crate) fn result_file(&self, job: &Job) -> PathBuf {
-        self.place("results", &job.cell()).join(format!("{}.json", leaf(job)))
+        self.place("results", job.cell()).join(format!("{}.json", leaf(job)))
     }
 
     fn place(&self, folder: &str, cell: &Cell) -> PathBuf {
         let scenario = format!("{}-{}", cell.scenario.creature, cell.scenario.movement);
-        self.path.join(folder).join(cell.preset.name).join(scenario)
+        self.path.join(folder).join(&cell.preset.name).join(scenario)
     }
 
     /// Checks that a result is of this run, and of today's settings.
@@ -283,7 +283,7 @@ impl ReproductionFolder {
         }
         let config = cell.config(0, StopConditions::default(), &self.registry)?;
         if settings_digest(&config) != settings {
-            return Err(ReproduceError::Settings { path, preset: cell.preset.name });
+            return Err(ReproduceError::Settings { path, preset: cell.preset.name.clone() });
         }
         Ok(())
     }
@@ -315,10 +315,10 @@ mod tests {
         let plan = Request { runs: 1, ..Request::default() }.plan(&Registry::default()).expect("a plan");
         let folder = ReproductionFolder::create(place.path(), &plan).expect("a new folder");
         let job = plan.jobs().next().expect("a run");
-        let Job::Run { cell, seed } = job else { panic!("timed runs come last") };
+        let Job::Run { cell, seed } = job.clone() else { panic!("timed runs come last") };
         let config = cell.config(seed, StopConditions::default(), &plan.registry).expect("a shipped creature");
         let mut result = RunResult {
-            preset: cell.preset.name.into(),
+            preset: cell.preset.name.clone(),
             creature: cell.scenario.creature.into(),
             movement: cell.scenario.movement.into(),
             seed,

@@ -56,23 +56,24 @@ pub fn write_outcome(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome
 
 fn read(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceError> {
     let is_asked = |preset: &Preset| plan.presets.iter().any(|asked| asked.name == preset.name);
-    let others = plan.registry.presets.entries().copied().filter(|preset| !is_asked(preset));
+    let others = plan.registry.presets.entries().filter(|preset| !is_asked(preset)).cloned();
     let mut cells = Vec::new();
     for scenario in SCENARIOS {
-        for preset in plan.presets.iter().copied().chain(others.clone()) {
+        for preset in plan.presets.iter().cloned().chain(others.clone()) {
             let cell = Cell { preset, scenario };
             let mut runs = Vec::new();
             for seed in folder.seeds(&cell)? {
                 runs.extend(folder.run_result(&cell, seed)?);
             }
-            cells.push(CellOutcome { cell, runs, clock: folder.clock_result(&cell)? });
+            let clock = folder.clock_result(&cell)?;
+            cells.push(CellOutcome { cell, runs, clock });
         }
     }
     let is_there = |cell: &&CellOutcome| !cell.runs.is_empty() || cell.clock.is_some();
     let presets: Vec<Preset> = plan
         .presets
         .iter()
-        .copied()
+        .cloned()
         .chain(others)
         .filter(|preset| {
             is_asked(preset) || cells.iter().filter(is_there).any(|cell| cell.cell.preset.name == preset.name)

@@ -71,7 +71,7 @@ pub struct Plan {
 }
 
 /// A preset on a scenario.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Cell {
     /// The preset.
     pub preset: Preset,
@@ -80,7 +80,7 @@ pub struct Cell {
 }
 
 /// One run of a plan.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Job {
     /// So many generations with this seed.
     Run {
@@ -130,7 +130,7 @@ impl Request {
             true => vec!["thesis", "default"],
             false => self.presets.iter().map(String::as_str).collect(),
         };
-        let find = |name| registry.presets.find(name).copied().map_err(RequestError::Unknown);
+        let find = |name| registry.presets.find(name).cloned().map_err(RequestError::Unknown);
         names.into_iter().map(find).collect()
     }
 }
@@ -144,7 +144,8 @@ impl Plan {
     }
 
     fn cells(&self) -> impl Iterator<Item = Cell> {
-        let scenarios = |&preset| self.scenarios.iter().map(move |&scenario| Cell { preset, scenario });
+        let cell = |preset: &Preset, scenario| Cell { preset: preset.clone(), scenario };
+        let scenarios = move |preset| self.scenarios.iter().map(move |&scenario| cell(preset, scenario));
         self.presets.iter().flat_map(scenarios)
     }
 }
@@ -159,8 +160,8 @@ impl Job {
     }
 
     /// Which preset on which scenario.
-    pub fn cell(&self) -> Cell {
-        match *self {
+    pub fn cell(&self) -> &Cell {
+        match self {
             Self::Run { cell, .. } | Self::Clock { cell } => cell,
         }
     }
@@ -288,7 +289,7 @@ mod tests {
     #[test]
     fn a_digest_of_settings_knows_neither_seed_nor_end() {
         let cell = |index: usize, name| Cell {
-            preset: *Registry::default().presets.find(name).expect("there is one"),
+            preset: Registry::default().presets.find(name).expect("there is one").clone(),
             scenario: &thesis::SCENARIOS[index],
         };
         let digest = |cell: Cell, seed, generations| {

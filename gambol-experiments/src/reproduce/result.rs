@@ -148,7 +148,7 @@ impl RunResult {
         let judged = champion.map(|champion| Judged::of(&champion, registry)).transpose();
         let failed = |source: SetupError| ReproduceError::run(format!("{}, seed {seed}", cell.name()), source.into());
         Ok(Self {
-            preset: cell.preset.name.into(),
+            preset: cell.preset.name.clone(),
             creature: cell.scenario.creature.into(),
             movement: cell.scenario.movement.into(),
             seed,

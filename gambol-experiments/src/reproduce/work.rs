@@ -20,7 +20,7 @@ pub fn work(
 ) -> Result<usize, ReproduceError> {
     let mine = options.part.of(plan.jobs());
     let work = Work::new(options, mine.len());
-    let (timed, runs): (Vec<Job>, Vec<Job>) = mine.iter().partition(|job| matches!(job, Job::Clock { .. }));
+    let (timed, runs): (Vec<Job>, Vec<Job>) = mine.into_iter().partition(|job| matches!(job, Job::Clock { .. }));
     work.side_by_side(options.workers(), &runs, Job::name, |job| run(folder, plan, job, options))?;
     let minutes = plan.clock_minutes.as_deref().unwrap_or_default();
     work.side_by_side(1, &timed, Job::name, |job| time(folder, job, minutes, options))?;
@@ -34,8 +34,8 @@ fn run(
     job: &Job,
     options: &WorkOptions<'_, Judged>,
 ) -> Result<Ended<Judged>, ReproduceError> {
-    let Job::Run { cell, seed } = *job else { return Ok(Ended::NotYet) };
-    if let Some(result) = folder.run_result(&cell, seed)? {
+    let &Job::Run { ref cell, seed } = job else { return Ok(Ended::NotYet) };
+    if let Some(result) = folder.run_result(cell, seed)? {
         return Ok(Ended::done(result.champion));
     }
     let stop = StopConditions { generations: Some(plan.generations), ..StopConditions::default() };
@@ -43,11 +43,11 @@ fn run(
     let path = folder.run_folder(job);
     let begun = RunFolder::at(&path);
     if begun.is_begun() && begun.read_config()? != config {
-        return Err(ReproduceError::Settings { path, preset: cell.preset.name });
+        return Err(ReproduceError::Settings { path, preset: cell.preset.name.clone() });
     }
     let ended = options.run(&config, &path).map_err(|error| ReproduceError::run(job.name(), error))?;
     let Some(ended) = ended else { return Ok(Ended::NotYet) };
-    let result = RunResult::read(&cell, &ended, settings_digest(&config), options.threads, &options.registry)?;
+    let result = RunResult::read(cell, &ended, settings_digest(&config), options.threads, &options.registry)?;
     folder.write_run(job, &result)?;
     Ok(Ended::done(result.champion))
 }
@@ -60,14 +60,14 @@ fn time(
     options: &WorkOptions<'_, Judged>,
 ) -> Result<Ended<Judged>, ReproduceError> {
     let cell = job.cell();
-    let result = match folder.clock_result(&cell)? {
+    let result = match folder.clock_result(cell)? {
         Some(result) => result,
         None => {
             let path = folder.run_folder(job);
             if !RunFolder::set_aside(&path)? {
                 return Ok(Ended::NotYet);
             }
-            let Some(result) = clock::time(&cell, &path, minutes, options)? else { return Ok(Ended::NotYet) };
+            let Some(result) = clock::time(cell, &path, minutes, options)? else { return Ok(Ended::NotYet) };
             folder.write_clock(job, &result)?;
             result
         }

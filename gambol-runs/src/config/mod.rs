@@ -39,7 +39,8 @@ pub struct RunConfig {
     pub movement: MovementSpec,
     /// Trials of an evaluation.
     pub trials: Trials,
-    /// How trials differ. With any, with shortened training episodes or further bodies, the champion is chosen without variation, in one trial; of a body that is told random commands in eight, in each of which it is told something else.
+    /// How trials differ. If they do, or if the body is told random commands, training episodes are shortened or there are further bodies,
+    /// the champion is chosen without variation: in one trial, or in eight if the body is told random commands, with others in each.
     pub variation: Variation,
     /// The steps an episode of training lasts, from 1 to 1,000,000; `null`, the default: as many as the movement's. With fewer, more
     /// individuals can be tried, and the champion is chosen in one episode of the movement's length.
@@ -98,10 +99,15 @@ impl RunConfig {
         1 + self.further_bodies.len()
     }
 
-    /// Whether a champion selection chooses the champion: where training is in worlds that vary, in shorter episodes or in further bodies, so
-    /// that the best of a generation need not be the best in one whole episode of `creature`.
+    /// Whether the trials of a generation differ from those of the next: in their worlds, or in what the body is told.
+    pub fn varies(&self) -> bool {
+        !self.variation.is_none() || matches!(self.commands, Some(Commands::Random(_)))
+    }
+
+    /// Whether a champion selection chooses the champion: where training [varies](Self::varies), or is in shorter episodes or in further
+    /// bodies, so that the best of a generation need not be the best in one whole episode of `creature`.
     pub fn has_champion_selection(&self) -> bool {
-        !self.variation.is_none() || self.training_steps.is_some() || !self.further_bodies.is_empty()
+        self.varies() || self.training_steps.is_some() || !self.further_bodies.is_empty()
     }
 
     /// The first field by which another configuration is that of another run; `None`: by none. A run keeps its own when its limits change,
@@ -205,7 +211,7 @@ pub struct RecordSettings {
     pub checkpoint_every: u64,
     /// The whole population is kept for the report at these generations.
     pub populations_at: Vec<u64>,
-    /// With variation, shortened training episodes or further bodies: with each checkpoint, or more seldom where that takes much longer than
+    /// With variation, random commands, shortened training episodes or further bodies: with each checkpoint, or more seldom where that takes much longer than
     /// training, so many of the best of the generation, and the best of each few generations since, are evaluated in whole episodes of
     /// the creature without variation, and the best of them may become champion; from 1 to 1000, default 22. What the
     /// strategy recommends is one more.

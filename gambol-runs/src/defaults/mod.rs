@@ -60,9 +60,9 @@ pub struct MovementDefaults {
     pub modular: Option<LimbPhases>,
     /// Hidden neurons of a limb, or of the one net.
     pub hidden: usize,
-    /// Of the motors' angle law, 1/s.
+    /// Gain of the motors' angle law, 1/s.
     pub gain: f32,
-    /// Of the clock that the net senses, unless the creature's file has one, s.
+    /// Period of the clock that the net senses, unless the creature's file has one, s.
     pub period: f32,
     /// Whether that clock begins anew at every landing.
     pub from_landing: bool,
@@ -144,6 +144,11 @@ impl DefaultsCatalogue {
     ) -> &mut Self {
         self.makers.insert(movement.into(), Arc::new(make));
         self
+    }
+
+    /// The movements of which something is known.
+    pub fn movements(&self) -> impl Iterator<Item = &str> {
+        self.makers.keys().map(String::as_str)
     }
 
     /// What it adds for a movement and a body.

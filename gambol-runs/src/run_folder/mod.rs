@@ -59,7 +59,7 @@ pub enum FolderError {
         path: PathBuf,
     },
     /// Another process trains in it; nothing was touched.
-    #[error("another gambol is at work in {}; wait until it has ended, or stop it", path.display())]
+    #[error("another {} is at work in {}; wait until it has ended, or stop it", crate::program_name(), path.display())]
     Busy {
         /// The folder.
         path: PathBuf,
@@ -117,6 +117,16 @@ pub enum FolderError {
     Create {
         /// The folder.
         path: PathBuf,
+        /// The reason.
+        source: io::Error,
+    },
+    /// It cannot be moved aside.
+    #[error("cannot move the folder {} to {}: {source}", from.display(), to.display())]
+    Move {
+        /// The folder.
+        from: PathBuf,
+        /// Its new place.
+        to: PathBuf,
         /// The reason.
         source: io::Error,
     },

@@ -92,7 +92,11 @@ impl RunFolder {
         let mut places = std::iter::once(format!("old-{name}")).chain(numbered).map(|name| path.with_file_name(name));
         let place = places.find(|place| fs::symlink_metadata(place).is_err()).unwrap_or_default();
         reach(WritePoint::Move(path));
-        fs::rename(path, &place).map_err(|source| FolderError::Create { path: place.clone(), source })?;
+        fs::rename(path, &place).map_err(|source| FolderError::Move {
+            from: path.into(),
+            to: place.clone(),
+            source,
+        })?;
         tracing::warn!(from = %path.display(), to = %place.display(), "a folder without a checkpoint was moved aside");
         Ok(true)
     }

@@ -4,6 +4,7 @@ mod further_bodies;
 
 use crate::{
     Registry,
+    champion_selection::highest_tier,
     config::{ControllerSettings, RecordSettings, RunConfig, RungSettings, StrategySettings},
     episode_parts::SetupError,
     judge::{Judge, TRAINING},
@@ -159,14 +160,8 @@ impl Setup {
                 Some(ReferenceEpisode::new(task, (episode, reference.trials), proof, judge, Seed::of_run(config.seed)))
             }
         };
-        if config.stop.tier.is_some() && reference.as_ref().is_none_or(|reference| reference.judge.is_none()) {
-            let judged: Vec<&str> = registry.movements.judged().collect();
-            let allowed = format!(
-                "null where no gaits are judged during training: only those of {} are, and only in runs with variation, \
-                 shortened training episodes or further bodies",
-                judged.join(", ")
-            );
-            return Err(SettingError::new("stop.tier", "a tier (--until usable)", allowed).into());
+        if let Some(tier) = config.stop.tier {
+            check_tier(tier, reference.as_ref(), registry)?;
         }
         let task = further_bodies::with_further_bodies(config, task, [senses, motors], registry)?;
         let task = match config.training_steps {
@@ -207,6 +202,25 @@ impl Setup {
     pub fn outputs(&self) -> &[Channel] {
         self.episode.environment().motors().channels()
     }
+}
+
+/// Checks that a champion can have the tier that ends the run.
+fn check_tier(tier: u8, reference: Option<&ReferenceEpisode>, registry: &Registry) -> Result<(), SettingError> {
+    let (found, allowed) = match highest_tier(reference) {
+        Some(highest) if (1..=highest).contains(&tier) => return Ok(()),
+        Some(1) => (tier.to_string(), "1: where worlds do not vary there is no higher tier".into()),
+        Some(highest) => (tier.to_string(), format!("from 1 to {highest}")),
+        None => {
+            let judged: Vec<&str> = registry.movements.judged().collect();
+            let allowed = format!(
+                "null where no gaits are judged during training: only those of {} are, and only in runs with variation, \
+                 random commands, shortened training episodes or further bodies",
+                judged.join(", ")
+            );
+            ("a tier (--until usable)".into(), allowed)
+        }
+    };
+    Err(SettingError::new("stop.tier", found, allowed))
 }
 
 /// What is measured for a search with several objectives, or else the fitness.

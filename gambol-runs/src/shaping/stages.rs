@@ -5,7 +5,7 @@ use super::{
 use crate::Registry;
 use crate::{
     assembly::{Assembly, ConfigError},
-    champion_selection,
+    champion_selection::highest_tier,
     config::{GiveUp, RunConfig, StageSettings, Transferred},
     defaults,
     episode_parts::SetupError,
@@ -334,11 +334,11 @@ fn check_rules(settings: &StageSettings, setup: &Setup, (is_first, is_last): (bo
 /// A tier that is asked for can be reached, or could be if worlds varied.
 fn check_tier(rule: &PromotionRule, setup: &Setup) -> Result<(), SettingError> {
     let Some((asking, tier)) = rule.highest_tier() else { return Ok(()) };
-    let allowed = match highest_tier(setup) {
+    let allowed = match highest_tier(setup.reference.as_ref()) {
         Some(highest) if tier <= u64::from(highest) || highest == USABLE => return Ok(()),
         Some(highest) => format!("from 1 to {highest}"),
         None => "asked for only where gaits are judged during training: of movements that are judged, in runs with a \
-                 variation, shortened training episodes or further_bodies"
+                 variation, random commands, shortened training episodes or further_bodies"
             .into(),
     };
     let is_usable = *asking == PromotionRule::Usable;
@@ -346,15 +346,10 @@ fn check_tier(rule: &PromotionRule, setup: &Setup) -> Result<(), SettingError> {
     Err(SettingError::new(field, found, allowed))
 }
 
-/// The highest tier of a champion; `None` where none is judged.
-fn highest_tier(setup: &Setup) -> Option<u8> {
-    setup.reference.as_ref().filter(|reference| reference.judge.is_some()).map(champion_selection::highest_tier)
-}
-
 /// The same stage, where rules ask for no tier that is out of reach: without variation every tier counts as the lowest, as of a run until
 /// usable.
 fn within_reach(settings: &StageSettings, setup: &Setup) -> StageSettings {
-    let highest = highest_tier(setup).map_or(u64::MAX, u64::from);
+    let highest = highest_tier(setup.reference.as_ref()).map_or(u64::MAX, u64::from);
     let limited = |rule: PromotionRule| rule.with_tiers_up_to(highest);
     StageSettings {
         promotion: settings.promotion.clone().map(limited),

@@ -14,19 +14,18 @@ use std::sync::Arc;
 impl Default for StrategyCatalogue {
     fn default() -> Self {
         let mut catalogue = Self::empty();
-        catalogue
-            .add::<ConventionalNe>("conventional neuroevolution: a genetic algorithm over the weights of a fixed net")
-            .alias("ga")
-            .add::<Neat>(
-                "NeuroEvolution of Augmenting Topologies: the net's connections and neurons evolve with its weights",
-            )
-            .add::<CmaEs>("covariance matrix adaptation: a normal distribution of weights that learns which way is up")
-            .add::<OpenEs>("OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations")
-            .add::<Cosyne>("cooperative synapse neuroevolution: the weights of each place in the net coevolve")
-            .add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)")
-            .add::<Ars>("augmented random search, V1-t: steps along the best of random directions; a baseline")
-            .add::<HillClimbing>("hill climbing: one parent and its noisy copies, the best goes on; a baseline")
-            .add::<RandomSearch>("random search: every net is drawn anew, nothing is learnt; a baseline");
+        let conventional = "conventional neuroevolution: a genetic algorithm over the weights of a fixed net";
+        catalogue.add::<ConventionalNe>(conventional).with_alias("ga");
+        let neat = "NeuroEvolution of Augmenting Topologies: the net's connections and neurons evolve with its weights";
+        catalogue.add::<Neat>(neat);
+        let cma_es = "covariance matrix adaptation: a normal distribution of weights that learns which way is up";
+        catalogue.add::<CmaEs>(cma_es);
+        catalogue.add::<OpenEs>("OpenAI's evolution strategy: gradient steps estimated from mirrored perturbations");
+        catalogue.add::<Cosyne>("cooperative synapse neuroevolution: the weights of each place in the net coevolve");
+        catalogue.add::<Nsga2>("NSGA-II: a front of compromises between several objectives (movement.objectives)");
+        catalogue.add::<Ars>("augmented random search, V1-t: steps along the best of random directions; a baseline");
+        catalogue.add::<HillClimbing>("hill climbing: one parent and its noisy copies, the best goes on; a baseline");
+        catalogue.add::<RandomSearch>("random search: every net is drawn anew, nothing is learnt; a baseline");
         catalogue
     }
 }
@@ -209,11 +208,11 @@ mod tests {
     #[test]
     fn a_strategy_that_takes_a_place_has_its_alias_or_one_of_its_own() {
         let mut catalogue = StrategyCatalogue::default();
-        catalogue.add::<ConventionalNe>("another of this name");
+        let entry = catalogue.add::<ConventionalNe>("another of this name");
+        assert_eq!(entry.alias(), Some("ga"));
+        entry.with_alias("classic");
         let named =
             |catalogue: &StrategyCatalogue, alias: &str| catalogue.find(alias).map(|entry| entry.name().to_owned());
-        assert_eq!(named(&catalogue, "ga").as_deref(), Some("conventional"));
-        catalogue.alias("classic");
         assert_eq!(named(&catalogue, "classic").as_deref(), Some("conventional"));
         assert_eq!(named(&catalogue, "ga"), None);
     }

@@ -10,8 +10,6 @@ use std::{fmt, marker::PhantomData, path::Path, sync::Arc};
 #[derive(Clone, Debug)]
 pub struct StrategyCatalogue {
     entries: Vec<StrategyEntry>,
-    /// Which was added last.
-    last: usize,
 }
 
 /// A strategy that users can ask for by name.
@@ -49,29 +47,21 @@ pub enum StrategyError {
 impl StrategyCatalogue {
     /// A catalogue without any.
     pub fn empty() -> Self {
-        Self { entries: Vec::new(), last: 0 }
+        Self { entries: Vec::new() }
     }
 
     /// Adds a strategy, or replaces the one of the same name, whose alias it has then. `description`: one sentence.
-    pub fn add<S: NetStrategy>(&mut self, description: &str) -> &mut Self {
+    pub fn add<S: NetStrategy>(&mut self, description: &str) -> &mut StrategyEntry {
         let kind = Arc::new(KindOf::<S>(PhantomData));
         let found = self.entries.iter().position(|entry| entry.name == S::NAME);
         let alias = found.and_then(|index| self.entries[index].alias.clone());
         let entry = StrategyEntry { name: S::NAME, alias, description: description.into(), kind };
-        self.last = found.unwrap_or(self.entries.len());
+        let place = found.unwrap_or(self.entries.len());
         match found {
-            Some(index) => self.entries[index] = entry,
+            Some(_) => self.entries[place] = entry,
             None => self.entries.push(entry),
         }
-        self
-    }
-
-    /// Gives the strategy added last a shorter name, for the command line.
-    pub fn alias(&mut self, alias: &str) -> &mut Self {
-        if let Some(entry) = self.entries.get_mut(self.last) {
-            entry.alias = Some(alias.into());
-        }
-        self
+        &mut self.entries[place]
     }
 
     /// All strategies, in the order in which they were added.
@@ -176,6 +166,12 @@ impl StrategyEntry {
     /// Its name in configurations.
     pub fn name(&self) -> &str {
         self.name
+    }
+
+    /// Gives it a shorter name, for the command line.
+    pub fn with_alias(&mut self, alias: &str) -> &mut Self {
+        self.alias = Some(alias.into());
+        self
     }
 
     /// A shorter name, for the command line.

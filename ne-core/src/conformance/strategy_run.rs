@@ -1,6 +1,6 @@
 use super::genome::to_json;
 use super::probe::Behaviour;
-use crate::{Evaluation, Failure, Genome, Origin, Phenotype, Seed, SpeciesReport, Strategy};
+use crate::{Evaluation, Failure, FrontPoint, Genome, Origin, Phenotype, Seed, SpeciesReport, Strategy};
 
 /// What a strategy did in one generation, as text that tells every bit.
 #[derive(Clone, Debug)]
@@ -18,6 +18,10 @@ pub(super) struct Told<G> {
     pub(super) origins: Vec<Origin>,
     pub(super) memberships: Vec<u64>,
     pub(super) species: Vec<SpeciesReport>,
+    /// The genome that the search would give as its answer.
+    recommendation: Option<String>,
+    /// Genome, fitness, objectives and generation of each compromise.
+    front: Option<Vec<String>>,
 }
 
 /// How many genomes of a generation are kept as they are.
@@ -74,6 +78,11 @@ pub(super) fn generation<S: Strategy>(
         let phenotype = genome.express();
         (phenotype.inputs(), phenotype.outputs())
     };
+    let compromise = |point: &FrontPoint<'_, S::Genome>| {
+        let FrontPoint { genome, fitness, objectives, generation } = point;
+        Ok(format!("{} {fitness:?} {objectives:?} of generation {generation}", to_json(*genome)?))
+    };
+    let front = strategy.front().map(|front| front.iter().map(compromise).collect::<Result<_, String>>());
     Ok(Told {
         name: strategy.name().into(),
         sample: genomes.iter().take(SAMPLE).cloned().collect(),
@@ -83,6 +92,8 @@ pub(super) fn generation<S: Strategy>(
         origins: strategy.origins().to_vec(),
         memberships: strategy.memberships(),
         species: strategy.species(),
+        recommendation: strategy.recommendation().as_ref().map(to_json).transpose()?,
+        front: front.transpose()?,
     })
 }
 
@@ -112,6 +123,21 @@ pub(super) fn same<G>(found: &[Told<G>], expected: &[Told<G>], what: &str) -> Re
         };
         if bits(found) != bits(expected) {
             return Err(format!("{place}, statistics: {:?} against {:?}", found.statistics, expected.statistics));
+        }
+        let further = |told: &Told<G>| {
+            let Told { species, memberships, recommendation, front, .. } = told;
+            [
+                ("species", format!("{species:?}")),
+                ("memberships", format!("{memberships:?}")),
+                ("recommendation", format!("{recommendation:?}")),
+                ("front", format!("{front:?}")),
+            ]
+        };
+        for ((what, found), (_, expected)) in further(found).into_iter().zip(further(expected)) {
+            if found != expected {
+                let (found, expected) = around_difference(&found, &expected);
+                return Err(format!("{place}, {what}: {found} against {expected}"));
+            }
         }
     }
     Ok(())

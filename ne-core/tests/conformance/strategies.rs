@@ -3,7 +3,7 @@ use crate::{
     common::{Climber, Weights},
 };
 use ne_core::{
-    Evaluation, Origin, Seed, SpeciesReport, Statistic, Strategy,
+    Evaluation, Fitness, FrontPoint, Origin, Seed, SpeciesReport, Statistic, Strategy,
     conformance::{StrategyOptions, check_strategy, genome, strategy::*},
 };
 use serde::{Deserialize, Serialize};
@@ -43,6 +43,8 @@ enum Flaw {
     AskedByChance,
     IgnoresSeed,
     ForgetsInFile,
+    ForgetsItsAnswer,
+    ForgetsItsFront,
     CannotBeReadBack,
     CountsQuestions,
     GenomesWithNan,
@@ -127,6 +129,17 @@ impl Strategy for Flawed {
         if self.flaw == Flaw::SpeciesOfNobody { vec![1; self.asked.len()] } else { Vec::new() }
     }
 
+    fn recommendation(&self) -> Option<Weights> {
+        let generations = self.unsaved as f32;
+        (self.flaw == Flaw::ForgetsItsAnswer).then(|| Weights(vec![generations; self.asked[0].0.len()]))
+    }
+
+    fn front(&self) -> Option<Vec<FrontPoint<'_, Weights>>> {
+        let (fitness, generation) = (Fitness::new(1.0).expect("a number"), self.unsaved.into());
+        let point = || FrontPoint { genome: &self.asked[0], fitness, objectives: &[], generation };
+        (self.flaw == Flaw::ForgetsItsFront).then(|| vec![point()])
+    }
+
     fn species(&self) -> Vec<SpeciesReport> {
         let best = None;
         if self.flaw == Flaw::SpeciesOfNobody { vec![SpeciesReport { id: 2, size: 1, best }] } else { Vec::new() }
@@ -154,6 +167,8 @@ fn broken_strategies_are_caught() {
         (DETERMINISTIC, "asks by chance of its own", check(Flaw::AskedByChance)),
         (USES_SEED, "ignores the seed", check(Flaw::IgnoresSeed)),
         (RESUMES, "forgets in a file", check(Flaw::ForgetsInFile)),
+        (RESUMES, "forgets its answer in a file", check(Flaw::ForgetsItsAnswer)),
+        (RESUMES, "forgets its front in a file", check(Flaw::ForgetsItsFront)),
         (RESUMES, "cannot be read back", check(Flaw::CannotBeReadBack)),
         (REPEATS, "counts what it is asked", check(Flaw::CountsQuestions)),
         (genome::SURVIVES_A_FILE, "genomes with NaN", check(Flaw::GenomesWithNan)),

@@ -40,7 +40,7 @@ pub(super) struct Balancing<const N: usize> {
 pub(super) struct Balanced {
     /// Decisions after which cart and poles were still within their limits.
     pub(super) held: u32,
-    /// Decisions made: one more than were held, unless all were.
+    /// Decisions made: one more than were held, unless all were or an output was no number.
     pub(super) decisions: u32,
     /// The output that is no number and ended it, if one did.
     pub(super) failure: Option<Failure>,

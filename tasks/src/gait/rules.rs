@@ -7,7 +7,7 @@ use std::fmt;
 /// speaks against it.
 ///
 /// A movement gets them where it is added to a catalogue:
-/// [`MovementCatalogue::judged_by`](crate::MovementCatalogue::judged_by). Whatever judges gaits then judges its gaits: the
+/// [`MovementEntry::judged_by`](crate::MovementEntry::judged_by). Whatever judges gaits then judges its gaits: the
 /// choice of champions, `gambol gait` and `robust`, `--until usable`, reports.
 ///
 /// Check yours with [`check_rules`](crate::conformance::check_rules).

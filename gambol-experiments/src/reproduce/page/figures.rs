@@ -13,7 +13,7 @@ pub(super) fn all(outcome: &Outcome) -> String {
 fn figure(outcome: &Outcome, scenario: &Scenario) -> String {
     let name = scenario.name();
     let cells: Vec<_> = outcome.of(scenario).filter(|cell| !cell.runs.is_empty()).collect();
-    let colours: Vec<String> = cells.iter().map(|cell| colour(outcome, cell.cell.preset.name)).collect();
+    let colours: Vec<String> = cells.iter().map(|cell| colour(outcome, &cell.cell.preset.name)).collect();
     let chart = match cells.is_empty() {
         true => "<p class=\"quiet\">No run is there yet.</p>".into(),
         false => chart::draw(&cells, &colours, &format!("fitness of {name} against the generation")),
@@ -21,7 +21,7 @@ fn figure(outcome: &Outcome, scenario: &Scenario) -> String {
     let legend: String = cells
         .iter()
         .map(|cell| {
-            let name = preset_name(outcome, cell.cell.preset.name);
+            let name = preset_name(outcome, &cell.cell.preset.name);
             let fitness = number(cell.fitnesses().map(|[_, median, _]| median));
             format!("<span class=\"legend-entry\">{name} median of champions <b>{fitness}</b></span>")
         })

@@ -32,7 +32,7 @@ pub(super) fn render(outcome: &Outcome) -> String {
 fn lead(outcome: &Outcome) -> String {
     let runs: usize = outcome.cells.iter().map(|cell| cell.runs.len()).sum();
     let timed = outcome.cells.iter().filter(|cell| cell.clock.is_some()).count();
-    let presets: Vec<&str> = outcome.presets.iter().map(|preset| preset.name).collect();
+    let presets: Vec<&str> = outcome.presets.iter().map(|preset| &*preset.name).collect();
     format!(
         "<strong>{runs} runs</strong> of {} generations, {timed} timed runs; scenarios: {}; presets: {}.",
         outcome.generations,
@@ -115,7 +115,7 @@ mod tests {
 
     fn run(cell: &Cell, seed: u64) -> RunResult {
         RunResult {
-            preset: cell.preset.name.into(),
+            preset: cell.preset.name.clone(),
             creature: cell.scenario.creature.into(),
             movement: cell.scenario.movement.into(),
             seed,
@@ -130,17 +130,18 @@ mod tests {
 
     fn outcome(plan: &Plan, runs: u64) -> Outcome {
         let cell = |job: Job| {
-            let cell = job.cell();
+            let cell = job.cell().clone();
             let mark = |&minutes: &f64| Mark { minutes, seconds: 60.0 * minutes, generations: 123, champion: None };
             let clock = plan.clock_minutes.as_ref().map(|minutes| ClockResult {
-                preset: cell.preset.name.into(),
+                preset: cell.preset.name.clone(),
                 creature: cell.scenario.creature.into(),
                 movement: cell.scenario.movement.into(),
                 settings: String::new(),
                 threads: 1,
                 marks: minutes.iter().map(mark).collect(),
             });
-            CellOutcome { cell, runs: (1..=runs).map(|seed| run(&cell, seed)).collect(), clock }
+            let runs = (1..=runs).map(|seed| run(&cell, seed)).collect();
+            CellOutcome { cell, runs, clock }
         };
         let jobs = plan.jobs().filter(|job| matches!(job, Job::Run { seed: 1, .. }));
         Outcome {

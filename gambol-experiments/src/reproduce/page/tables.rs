@@ -34,7 +34,7 @@ fn usable_of(outcome: &Outcome, movement: &str) -> String {
             rows += &format!(
                 "<tr class=\"ours\"><th></th><td class=\"words\">{}</td><td>{}</td><td>{median}</td><td>{low} to {high}</td>\
                  <td>{}</td></tr>",
-                preset_name(outcome, cell.cell.preset.name),
+                preset_name(outcome, &cell.cell.preset.name),
                 share_usable(cell),
                 wall(cell.seconds())
             );
@@ -107,7 +107,7 @@ fn thesis_row(scenario: &Scenario, minutes: &[f64]) -> String {
 }
 
 fn our_row(outcome: &Outcome, cell: &CellOutcome, minutes: &[f64]) -> String {
-    let preset = preset_name(outcome, cell.cell.preset.name);
+    let preset = preset_name(outcome, &cell.cell.preset.name);
     let movement = cell.cell.scenario.movement;
     let mut row = format!("<tr class=\"ours\"><th></th><td class=\"words\">{preset}</td>");
     for &minutes in minutes {
