@@ -199,7 +199,7 @@ impl<E: Engine> CreatureEnvironment<E> {
     pub fn with_actuation(mut self, actuation: Actuation) -> Result<Self, EnvironmentError> {
         if let Actuation::Angle { gain } = actuation {
             let [low, high] = Actuation::GAINS;
-            SettingError::check_range("gain", f64::from(gain), low.into(), high.into())
+            SettingError::check_range("gain", gain, low.into(), high.into())
                 .map_err(|error| error.within("actuation.angle"))?;
         }
         let plan = Arc::make_mut(&mut self.plan);

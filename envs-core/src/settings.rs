@@ -121,7 +121,7 @@ impl PhysicsSettings {
             ("continuous_collision_substeps", self.continuous_collision_substeps, 0.0, 8.0),
         ];
         for (field, count, low, high) in counts {
-            SettingError::check_range(field, f64::from(count), low, high)?;
+            SettingError::check_range(field, count, low, high)?;
         }
         let ranges = [
             ("time_step", self.time_step, 0.001, 0.05),

@@ -94,7 +94,7 @@ impl RapierWorld {
     /// If the shape is not valid.
     pub fn add_obstacle(&mut self, shape: &GroundShape, friction: f32) -> Result<(), SettingError> {
         Ground { shapes: vec![*shape] }.validate()?;
-        SettingError::check_range("friction", friction.into(), 0.0, 10.0)?;
+        SettingError::check_range("friction", friction, 0.0, 10.0)?;
         self.add_ground(shape, friction);
         Ok(())
     }

@@ -14,6 +14,7 @@ use serde_json::{Map, Value, json};
 
 /// Why a configuration is not one. The message names the field, and the nearest valid name where a name is wrong.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConfigError {
     /// A file is not JSON.
     #[error("line {line}, column {column}: {message}")]
@@ -58,14 +59,14 @@ impl From<StrategyError> for ConfigError {
 
 /// A configuration in the making.
 #[derive(Clone, Debug)]
-pub struct Assembly<'a> {
+pub(crate) struct Assembly<'a> {
     value: Value,
     registry: &'a Registry,
 }
 
 impl<'a> Assembly<'a> {
     /// Starts from a complete configuration. Names are those of the registry.
-    pub fn new(base: &RunConfig, registry: &'a Registry) -> Self {
+    pub(crate) fn new(base: &RunConfig, registry: &'a Registry) -> Self {
         // Serialising plain data to a value cannot fail; were it to, the missing fields would be named at the end.
         Self { value: serde_json::to_value(base).unwrap_or_default(), registry }
     }
@@ -73,7 +74,7 @@ impl<'a> Assembly<'a> {
     /// Lays fields over what is there. Objects are merged; a choice (an object whose one key names what was chosen, with
     /// its settings, such as `{"tournament": {"size": 3}}`) replaces another choice. A variation or a terrain may be named
     /// (`"light"`, `"gaps:0.3"`), and replaces what is there.
-    pub fn lay_over(&mut self, mut layer: Value) {
+    pub(crate) fn lay_over(&mut self, mut layer: Value) {
         self.spell_out(&mut layer);
         merge(&mut self.value, layer);
     }
@@ -98,7 +99,7 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// If there is no `=`, the path leads through something that is not an object, or the value begins as JSON and is none.
-    pub fn set(&mut self, assignment: &str) -> Result<(), ConfigError> {
+    pub(crate) fn set(&mut self, assignment: &str) -> Result<(), ConfigError> {
         let (path, text) = assignment
             .split_once('=')
             .filter(|(path, _)| !path.trim().is_empty())
@@ -134,7 +135,7 @@ impl<'a> Assembly<'a> {
     ///
     /// # Errors
     /// If a field is unknown, missing or of the wrong type.
-    pub fn finish(self) -> Result<RunConfig, ConfigError> {
+    pub(crate) fn finish(self) -> Result<RunConfig, ConfigError> {
         self.check()
     }
 

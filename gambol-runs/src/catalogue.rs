@@ -287,7 +287,7 @@ mod tests {
     fn settings_of_a_sensor_are_checked_by_it() {
         let mut sensors = Catalogue::<MakeSense>::default();
         sensors.add_sense_with_settings("lean", "how far the torso leans", |LeanSettings { most }| {
-            SettingError::check_range("most", f64::from(most), 0.1, 3.0).map(|()| Lean { most })
+            SettingError::check_range("most", most, 0.1, 3.0).map(|()| Lean { most })
         });
         let blueprint = Blueprint::new(creatures::find("biped-1").expect("it is shipped")).expect("valid");
         let told = |settings: &str| {

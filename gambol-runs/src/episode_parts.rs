@@ -25,7 +25,7 @@ pub enum SetupError {
     #[error("movement.{}", with_nearest(.0))]
     Movement(#[from] MovementSpecError),
     /// A setting is out of range.
-    #[error("{0}")]
+    #[error(transparent)]
     Setting(#[from] SettingError),
     /// The topology was made for another creature, or for other sensors.
     #[error("the topology does not fit the creature: {0}")]
@@ -63,10 +63,10 @@ pub enum SetupError {
     #[error(transparent)]
     Strategy(#[from] StrategyError),
     /// The physics cannot build it.
-    #[error("{0}")]
+    #[error(transparent)]
     Environment(#[from] EnvironmentError),
     /// There is no such sensor, or its settings are wrong.
-    #[error("{0}")]
+    #[error(transparent)]
     Sensor(#[from] UnknownName),
     /// Lanes cannot ask a sensor of another crate.
     #[error("engine: lanes cannot ask \"{name}\", a sensor of another crate; train it with --engine rapier")]

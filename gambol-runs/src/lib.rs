@@ -10,16 +10,16 @@
 //! |---|---|
 //! | [`config`] | the configuration of a run, as plain data |
 //! | [`strategies`], [`defaults`], [`presets`], [`catalogue`], [`Registry`] | what a configuration can name |
-//! | [`assembly`] | a configuration put together from parts, later ones winning |
-//! | [`episode_parts`], [`training_task`] | what a population is evaluated on |
+//! | [`episode_parts`], [`obstacles`] | what a population is evaluated on |
 //! | [`judge`] | where gaits are judged: the reference world, and worlds near it |
 //! | [`setup`] | from a configuration to a task |
 //! | [`champion`], [`front`], [`trajectory`] | what a run has found, saved; verifying and recording it |
 //! | [`gait`], [`robust`] | a champion's gait, judged, also in perturbed worlds |
-//! | [`run_folder`] | which file is what |
-//! | [`training`] | train, resume |
+//! | [`run_folder`], [`recorder`] | which file is what, and what is written in it |
+//! | [`training`], [`run`] | train, resume; a run as an object, a generation at a time |
 //! | [`shaping`] | train in stages, go on from what was learned |
 //! | [`request`], [`source`] | what a user asks for, by names and files |
+//! | [`suggest`], [`texts`] | how messages and files say it |
 //! | `schema` | the JSON Schema of a configuration; with the feature `schema` |
 //!
 //! # Train, verify
@@ -44,7 +44,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-pub mod assembly;
+mod assembly;
 pub mod catalogue;
 pub mod champion;
 mod champion_selection;
@@ -56,15 +56,15 @@ pub mod gait;
 pub mod judge;
 mod layers;
 pub mod obstacles;
-pub mod perturbation;
+mod perturbation;
 pub mod presets;
 mod program_name;
 pub mod recorder;
-pub mod reference;
+mod reference;
 mod registry;
 pub mod request;
 pub mod robust;
-pub mod robustness_check;
+mod robustness_check;
 pub mod run;
 pub mod run_folder;
 #[cfg(feature = "schema")]
@@ -78,7 +78,7 @@ pub mod texts;
 mod tiers;
 mod topology;
 pub mod training;
-pub mod training_task;
+mod training_task;
 pub mod trajectory;
 mod unique_keys;
 

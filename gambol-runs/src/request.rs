@@ -1,8 +1,10 @@
 //! What a user asks for, and the configuration that follows from it.
 
+pub use crate::assembly::ConfigError;
+
 use crate::{
     Registry,
-    assembly::{self, Assembly, ConfigError},
+    assembly::{self, Assembly},
     catalogue::UnknownName,
     champion::{Champion, ChannelRecord},
     config::{EngineChoice, FrozenTopology, RunConfig},

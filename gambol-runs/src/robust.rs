@@ -206,7 +206,7 @@ impl PerturbedReplays {
         registry: &Registry,
         perturbations: &Perturbations,
     ) -> Result<Self, RobustnessError> {
-        SettingError::check_range("perturbations", perturbations.count.into(), 1.0, MOST.into())?;
+        SettingError::check_range("perturbations", perturbations.count, 1.0, MOST.into())?;
         if let Some(variation) = perturbations.variation {
             variation.validate().map_err(|error| error.within("variation"))?;
         }

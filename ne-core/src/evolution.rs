@@ -34,14 +34,14 @@ pub struct Evolution<S: Strategy> {
     /// Asked of the strategy, and not evaluated yet.
     asked: Option<Vec<S::Genome>>,
     selection: Option<ScheduledSelection<S::Genome>>,
-    promotion: Option<Rules>,
+    promotion: Option<BoxedPromotion>,
     decision: Decision,
 }
 
 /// A promotion that can be shown.
-struct Rules(Box<dyn Promotion>);
+struct BoxedPromotion(Box<dyn Promotion>);
 
-impl fmt::Debug for Rules {
+impl fmt::Debug for BoxedPromotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Promotion")
     }
@@ -175,7 +175,7 @@ impl<S: Strategy> Evolution<S> {
     /// Asks a promotion after every generation; with its decision the run ends.
     #[must_use]
     pub fn with_promotion(self, promotion: impl Promotion + 'static) -> Self {
-        Self { promotion: Some(Rules(Box::new(promotion))), ..self }
+        Self { promotion: Some(BoxedPromotion(Box::new(promotion))), ..self }
     }
 
     /// Uses this switch to end the run early.
@@ -198,7 +198,7 @@ impl<S: Strategy> Evolution<S> {
         // The clock is not read without need: not everywhere is there one.
         let start = self.stop.minutes.map(|_| Instant::now());
         loop {
-            if let Some(reason) = self.is_over(start.map_or(Duration::ZERO, |start| start.elapsed())) {
+            if let Some(reason) = self.stop_reason(start.map_or(Duration::ZERO, |start| start.elapsed())) {
                 return Ok(reason);
             }
             self.generation(task, evaluator, observers)?;
@@ -206,7 +206,7 @@ impl<S: Strategy> Evolution<S> {
     }
 
     /// Why it is to end before the next generation, `elapsed` after it began; `None`: it goes on.
-    pub fn is_over(&self, elapsed: Duration) -> Option<StopReason> {
+    pub fn stop_reason(&self, elapsed: Duration) -> Option<StopReason> {
         match self.decision {
             Decision::Stay => {}
             Decision::Promote => return Some(StopReason::Promoted),
@@ -274,7 +274,7 @@ impl<S: Strategy> Evolution<S> {
             species: self.strategy.species(),
             re_evaluation,
         };
-        if let Some(Rules(promotion)) = &self.promotion {
+        if let Some(BoxedPromotion(promotion)) = &self.promotion {
             let champion = self.champion.as_ref().map(Champion::standing);
             let state = StageState { report: &report, evaluations: &evaluations, champion, progress: self.progress };
             self.decision = promotion.decide(&state);

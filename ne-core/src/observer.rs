@@ -17,6 +17,13 @@ pub trait Observer<S: Strategy> {
     fn generation(&mut self, generation: &Generation<'_, S>) -> Result<(), ObserverError>;
 }
 
+/// An observer that is lent can be read after the run: `&mut [Box::new(&mut progress)]`.
+impl<S: Strategy, O: Observer<S> + ?Sized> Observer<S> for &mut O {
+    fn generation(&mut self, generation: &Generation<'_, S>) -> Result<(), ObserverError> {
+        (**self).generation(generation)
+    }
+}
+
 /// All there is to know of a generation that has just been told to the strategy.
 #[derive(Debug)]
 pub struct Generation<'a, S: Strategy> {

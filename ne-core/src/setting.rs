@@ -31,14 +31,33 @@ impl SettingError {
     ///
     /// # Errors
     /// The error names the field and the range.
-    pub fn check_range(field: &str, value: f64, low: f64, high: f64) -> Result<(), Self> {
-        if value >= low && value <= high && value.is_finite() {
+    pub fn check_range<N: Copy + Into<f64> + fmt::Display>(
+        field: &str,
+        value: N,
+        low: f64,
+        high: f64,
+    ) -> Result<(), Self> {
+        let number: f64 = value.into();
+        if number >= low && number <= high && number.is_finite() {
             Ok(())
         } else if high.is_infinite() {
-            let kind = if value.is_finite() { "" } else { "finite and " };
+            let kind = if number.is_finite() { "" } else { "finite and " };
             Err(Self::new(field, value, format!("{kind}at least {low}")))
         } else {
             Err(Self::new(field, value, format!("from {low} to {high}")))
+        }
+    }
+
+    /// Checks that a number is above 0 and at most `high`.
+    ///
+    /// # Errors
+    /// The error names the field and the range.
+    pub fn check_above_0<N: Copy + Into<f64> + fmt::Display>(field: &str, value: N, high: f64) -> Result<(), Self> {
+        let number: f64 = value.into();
+        if number > 0.0 && number <= high {
+            Ok(())
+        } else {
+            Err(Self::new(field, value, format!("above 0 and at most {high}")))
         }
     }
 

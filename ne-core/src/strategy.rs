@@ -66,7 +66,7 @@ pub trait Strategy: Serialize + Send {
 }
 
 /// A compromise between objectives that a [`Strategy`] has found.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Debug, PartialEq)]
 pub struct FrontPoint<'a, G> {
     /// The genome.
     pub genome: &'a G,
@@ -77,6 +77,15 @@ pub struct FrontPoint<'a, G> {
     /// The generation it was evaluated in, from 1: with its seed the task gives fitness and objectives again.
     pub generation: u64,
 }
+
+// By hand, since derived they ask that genomes can be copied, too.
+impl<G> Clone for FrontPoint<'_, G> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<G> Copy for FrontPoint<'_, G> {}
 
 /// Where an individual comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -45,7 +45,7 @@ impl WeightVector {
         let topology = topology.into();
         topology.validate().map_err(|error| error.within("topology"))?;
         topology.check_weights(&weights)?;
-        SettingError::check_range("mutation_deviation", mutation_deviation.into(), 0.0, f64::INFINITY)?;
+        SettingError::check_range("mutation_deviation", mutation_deviation, 0.0, f64::INFINITY)?;
         Ok(Self::checked(topology, weights, mutation_deviation))
     }
 
@@ -169,6 +169,6 @@ mod tests {
         assert_eq!(error(1, vec![0.0], 0.0), "weights: found 1, a net of shape 1-1 has 2");
         assert_eq!(error(1, vec![0.0, f32::NAN], 0.0), "weights[1] = NaN: must be finite");
         assert_eq!(error(1, vec![0.0, 0.0], -1.0), "mutation_deviation = -1: must be at least 0");
-        assert_eq!(error(1, vec![0.0, 0.0], f32::INFINITY), "mutation_deviation = inf: must be at least 0");
+        assert_eq!(error(1, vec![0.0, 0.0], f32::INFINITY), "mutation_deviation = inf: must be finite and at least 0");
     }
 }

@@ -66,6 +66,7 @@ mod diversity;
 mod genome;
 mod hill_climbing;
 mod initialization;
+mod mirrored;
 mod mutation;
 mod nets;
 mod normal;

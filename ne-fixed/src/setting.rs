@@ -23,14 +23,6 @@ pub(crate) fn check_pairs(population: usize) -> Result<(), SettingError> {
     }
 }
 
-/// Checks a number that must be above 0.
-pub(crate) fn check_above_0(field: &str, value: f64, most: f64) -> Result<(), SettingError> {
-    match value > 0.0 && value <= most {
-        true => Ok(()),
-        false => Err(SettingError::new(field, value, format!("above 0 and at most {most}"))),
-    }
-}
-
 /// Selectors of `ne-core` that check themselves.
 macro_rules! checked {
     ($($selector:ty),+) => {$(

@@ -32,9 +32,7 @@ impl ReproductionSettings {
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        if !(self.survival_share > 0.0 && self.survival_share <= 1.0) {
-            return Err(SettingError::new("survival_share", self.survival_share, "above 0 and at most 1"));
-        }
+        SettingError::check_above_0("survival_share", self.survival_share, 1.0)?;
         SettingError::check_range("mutation_only", self.mutation_only, 0.0, 1.0)?;
         SettingError::check_range("interspecies", self.interspecies, 0.0, 1.0)
     }

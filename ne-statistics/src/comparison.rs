@@ -14,6 +14,7 @@ pub struct Comparison {
 
 /// The error of making a [`Comparison`]: the two methods' scores do not fit together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ComparisonError {
     /// Different numbers of tasks.
     #[error("x has {x} tasks and y has {y}: methods are compared on the same tasks")]

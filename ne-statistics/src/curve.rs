@@ -13,6 +13,7 @@ pub struct Curve {
 
 /// The error of [`Curve::new`]. Points are counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CurveError {
     /// A coordinate is NaN, infinite or too large.
     #[error("point {point} is ({x}, {y}): must be finite numbers, at most {LARGEST:e} in size")]

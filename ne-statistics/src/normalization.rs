@@ -16,6 +16,7 @@ pub struct Reference {
 
 /// The error of [`normalize`]. Tasks are counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NormalizationError {
     /// Not one reference for each task.
     #[error("{references} references for {tasks} tasks: each task needs one")]

@@ -5,6 +5,7 @@ pub const LARGEST: f64 = 1e300;
 
 /// The error of functions of one or two samples given as slices.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SampleError {
     /// A sample has no values.
     #[error("{sample} is empty: it must have at least one value")]

@@ -15,6 +15,7 @@ pub struct Scores {
 
 /// The error of [`Scores::new`]. Tasks and runs are counted from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ScoresError {
     /// No tasks at all.
     #[error("no tasks: scores need at least one task")]

@@ -126,6 +126,7 @@ fn one() -> f64 {
 
 /// What can be wrong with a [`MovementSpec`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MovementSpecError {
     /// There is no movement of this name.
     #[error("{field}: there is no movement or term \"{name}\"; there are: {}", known.join(", "))]
@@ -457,7 +458,7 @@ impl MovementCatalogue {
                 SettingError::new("steps", "nothing", "given, since this movement has no length of its own").into()
             );
         };
-        SettingError::check_range("steps", f64::from(steps), 1.0, 1e6)?;
+        SettingError::check_range("steps", steps, 1.0, 1e6)?;
         Ok(steps)
     }
 

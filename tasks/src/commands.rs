@@ -235,7 +235,7 @@ fn check_given(changes: &[CommandChange]) -> Result<(), SettingError> {
             return Err(SettingError::new(format!("given[{index}].time"), change.time, allowed));
         }
         earliest = change.time;
-        SettingError::check_range(&format!("given[{index}].speed"), change.speed.into(), -20.0, 20.0)?;
+        SettingError::check_range(&format!("given[{index}].speed"), change.speed, -20.0, 20.0)?;
     }
     Ok(())
 }

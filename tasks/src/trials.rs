@@ -46,7 +46,7 @@ impl Trials {
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        SettingError::check_range("count", f64::from(self.count), 1.0, 1000.0)
+        SettingError::check_range("count", self.count, 1.0, 1000.0)
     }
 }
 

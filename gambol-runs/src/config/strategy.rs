@@ -57,7 +57,7 @@ impl StrategySettings {
         self.settings.insert(field.into(), value.into());
     }
 
-    /// Lays settings over what is there, as [`Assembly::lay_over`](crate::assembly::Assembly::lay_over) does.
+    /// Lays settings over what is there. Objects are merged; a choice (an object whose one key names what was chosen) replaces another.
     pub fn lay_over(&mut self, settings: Map<String, Value>) {
         for (field, value) in settings {
             merge(self.settings.entry(field).or_insert(Value::Null), value);

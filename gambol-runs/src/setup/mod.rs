@@ -69,9 +69,7 @@ impl Setup {
     pub fn new(config: &RunConfig, registry: &Registry) -> Result<Self, SetupError> {
         config.stop.validate().map_err(|error| error.within("stop"))?;
         config.record.validate().map_err(|error| error.within("record"))?;
-        let input_range = f64::from(config.controller.input_range);
-        SettingError::check_range("input_range", input_range, 0.001, 1000.0)
-            .map_err(|error| error.within("controller"))?;
+        SettingError::check_range("controller.input_range", config.controller.input_range, 0.001, 1000.0)?;
         if let Actuation::Angle { gain } = config.controller.actuation
             && !config.controller.actuation.is_valid()
         {
@@ -145,7 +143,7 @@ impl Setup {
             return Err(SettingError::new("terrain", "a terrain", allowed).into());
         }
         if let Some(steps) = config.training_steps {
-            SettingError::check_range("training_steps", steps.into(), 1.0, 1e6)?;
+            SettingError::check_range("training_steps", steps, 1.0, 1e6)?;
         }
         let reference = match config.has_champion_selection() {
             false => None,

@@ -361,7 +361,7 @@ fn within_reach(settings: &StageSettings, setup: &Setup) -> StageSettings {
 
 fn check_giving_up(settings: &StageSettings, earlier: &[(StageSettings, RunConfig)]) -> Result<(), SettingError> {
     let Some(GiveUp { back_to, times, .. }) = &settings.give_up else { return Ok(()) };
-    SettingError::check_range("give_up.times", f64::from(*times), 1.0, 100.0)?;
+    SettingError::check_range("give_up.times", *times, 1.0, 100.0)?;
     let names = || earlier.iter().map(|(stage, _)| &stage.name).chain([&settings.name]);
     match names().any(|name| name == back_to) {
         true => Ok(()),

@@ -247,7 +247,7 @@ impl Training {
     ) -> (Option<StopReason>, Result<(), EvolutionError>) {
         let _span = tracing::debug_span!("run", folder = %self.folder.path().display()).entered();
         let elapsed = self.began.map_or(Duration::ZERO, |began| began.elapsed());
-        if let Some(reason) = self.evolution.is_over(elapsed) {
+        if let Some(reason) = self.evolution.stop_reason(elapsed) {
             return (Some(reason), Ok(()));
         }
         let run = Recorded { config: &self.config, setup: &self.setup };

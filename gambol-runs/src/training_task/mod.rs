@@ -2,7 +2,7 @@
 
 mod several;
 
-pub use several::SeveralBodies;
+pub(crate) use several::SeveralBodies;
 
 use crate::config::EngineChoice;
 use envs_lanes::LaneEpisode;

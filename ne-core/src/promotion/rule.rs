@@ -85,10 +85,7 @@ impl PromotionRule {
             Self::Tier(tier) => count("tier", *tier),
             Self::Share(PopulationShare { fitness, of }) => {
                 finite("share.fitness", *fitness)?;
-                match *of > 0.0 && *of <= 1.0 {
-                    true => Ok(()),
-                    false => Err(SettingError::new("share.of", of, "above 0 and at most 1")),
-                }
+                SettingError::check_above_0("share.of", *of, 1.0)
             }
             Self::Measurement(MeasurementBound { at_least, at_most, .. }) => match (at_least, at_most) {
                 (Some(bound), None) => finite("measurement.at_least", *bound),

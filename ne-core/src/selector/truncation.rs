@@ -31,11 +31,7 @@ impl Truncation {
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        if self.share > 0.0 && self.share <= 1.0 {
-            Ok(())
-        } else {
-            Err(SettingError::new("share", self.share, "above 0 and at most 1"))
-        }
+        SettingError::check_above_0("share", self.share, 1.0)
     }
 }
 

@@ -1,7 +1,4 @@
-use crate::{
-    Initialization,
-    setting::{check_above_0, check_pairs},
-};
+use crate::{Initialization, setting::check_pairs};
 use ne_core::{SettingError, share_rounded_down};
 use serde::{Deserialize, Serialize};
 
@@ -47,9 +44,9 @@ impl ArsSettings {
     /// Names the field and its range: `population = 7: must be even, from 2 to 1000000`.
     pub fn validate(&self) -> Result<(), SettingError> {
         check_pairs(self.population)?;
-        check_above_0("step_size", self.step_size, 1000.0)?;
+        SettingError::check_above_0("step_size", self.step_size, 1000.0)?;
         SettingError::check_range("noise", self.noise, 1e-6, 1000.0)?;
-        check_above_0("top_directions", self.top_directions, 1.0)?;
+        SettingError::check_above_0("top_directions", self.top_directions, 1.0)?;
         self.initial_centre.validate().map_err(|error| error.within("initial_centre"))
     }
 

@@ -1,9 +1,8 @@
 use super::{ArsSettings, state::State};
 use crate::{
     WeightVector,
-    genome::finite,
+    mirrored::{centre_length, drawn_centre},
     nets::{Nets, check_growth},
-    normal::Normal,
 };
 use ne_core::{Evaluation, Fitness, Purpose, Seed, SettingError, Statistic, Strategy};
 use ne_net::{Topology, TopologyMap};
@@ -63,9 +62,9 @@ impl Ars {
     /// # Errors
     /// If they are not weights of this search's topology; the error names the net: `start[0]`.
     pub fn with_start(mut self, start: &[Vec<f32>]) -> Result<Self, SettingError> {
-        let start = self.nets.start(start, 0.0)?;
-        if let (true, Some(best)) = (self.centre.is_empty(), start.first()) {
-            self.centre = best.weights().iter().map(|&weight| weight.into()).collect();
+        let start = self.nets.given_centre(start)?;
+        if let (true, Some(centre)) = (self.centre.is_empty(), start) {
+            self.centre = centre;
         }
         Ok(self)
     }
@@ -95,12 +94,6 @@ impl Ars {
     /// The topology of all nets.
     pub fn topology(&self) -> &Topology {
         &self.nets.topology
-    }
-
-    fn first_centre(&self, seed: Seed) -> Vec<f64> {
-        let mut net = WeightVector::zero(self.nets.topology.clone());
-        self.settings.initial_centre.draw(&mut net, &mut seed.stream(CENTRE));
-        net.weights().iter().map(|&weight| weight.into()).collect()
     }
 
     /// Steps 6 and 7 for the rewards of the samples, two for each direction.
@@ -139,22 +132,9 @@ impl Strategy for Ars {
 
     fn ask(&mut self, seed: Seed) -> &[WeightVector] {
         if self.centre.is_empty() {
-            self.centre = self.first_centre(seed);
+            self.centre = drawn_centre(&self.settings.initial_centre, &self.nets.topology, (seed, CENTRE));
         }
-        let mut population = self.nets.make_room(1 + self.settings.population);
-        let (first, samples) = population.split_at_mut(1);
-        first[0].genes_mut().0.iter_mut().zip(&self.centre).for_each(|(gene, &x)| *gene = finite(x));
-        let normal = Normal::new();
-        for (index, pair) in samples.chunks_exact_mut(2).enumerate() {
-            let mut stream = seed.individual(index as u64).stream(DIRECTIONS);
-            let [plus, minus] = pair else { continue };
-            let genes = plus.genes_mut().0.iter_mut().zip(minus.genes_mut().0);
-            for ((plus, minus), x) in genes.zip(&self.centre) {
-                let noise = self.settings.noise * f64::from(normal.next(&mut stream));
-                (*plus, *minus) = (finite(x + noise), finite(x - noise));
-            }
-        }
-        self.nets.ask(population)
+        self.nets.ask_mirrored(&self.centre, (self.settings.population, self.settings.noise), (seed, DIRECTIONS))
     }
 
     fn tell(&mut self, evaluations: &[Evaluation], _seed: Seed) {
@@ -168,11 +148,10 @@ impl Strategy for Ars {
     }
 
     fn statistics(&self) -> Vec<Statistic> {
-        let square: f64 = self.centre.iter().map(|x| x * x).sum();
         vec![
             Statistic::new("reward_deviation", self.reward_deviation),
             Statistic::new("step_length", self.step_length),
-            Statistic::new("centre_length", (square / self.centre.len().max(1) as f64).sqrt()),
+            Statistic::new("centre_length", centre_length(&self.centre)),
         ]
     }
 }

@@ -77,9 +77,7 @@ impl CosyneSettings {
         if !(2..=1_000_000).contains(&self.population) {
             return Err(SettingError::new("population", self.population, "from 2 to 1000000"));
         }
-        if !(self.parents > 0.0 && self.parents <= 1.0) {
-            return Err(SettingError::new("parents", self.parents, "above 0 and at most 1"));
-        }
+        SettingError::check_above_0("parents", self.parents, 1.0)?;
         if !(0.0..1.0).contains(&self.offspring) {
             return Err(SettingError::new("offspring", self.offspring, "from 0 to below 1"));
         }

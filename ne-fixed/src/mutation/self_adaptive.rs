@@ -41,9 +41,7 @@ impl Default for SelfAdaptiveMutation {
 impl Setting for SelfAdaptiveMutation {
     fn validate(&self) -> Result<(), SettingError> {
         SettingError::check_range("rate", self.rate, 0.0, 1.0)?;
-        if !(self.minimum > 0.0 && self.minimum <= 1000.0) {
-            return Err(SettingError::new("minimum", self.minimum, "above 0 and at most 1000"));
-        }
+        SettingError::check_above_0("minimum", self.minimum, 1000.0)?;
         SettingError::check_range("maximum", self.maximum, self.minimum, 1000.0)?;
         SettingError::check_range("initial", self.initial, self.minimum, self.maximum)?;
         self.learning_rate.map_or(Ok(()), |rate| SettingError::check_range("learning_rate", rate, 0.0, 10.0))

@@ -34,18 +34,14 @@ impl Adam {
     /// # Errors
     /// Names the field and its range.
     pub fn validate(&self) -> Result<(), SettingError> {
-        let above_0 = |field, value, most| {
-            let fits = value > 0.0 && value <= most;
-            if fits { Ok(()) } else { Err(SettingError::new(field, value, format!("above 0 and at most {most}"))) }
-        };
         let below_1 = |field, value| {
             let fits = (0.0..1.0).contains(&value);
             if fits { Ok(()) } else { Err(SettingError::new(field, value, "from 0 to below 1")) }
         };
-        above_0("learning_rate", self.learning_rate, 1000.0)?;
+        SettingError::check_above_0("learning_rate", self.learning_rate, 1000.0)?;
         below_1("momentum", self.momentum)?;
         below_1("square_decay", self.square_decay)?;
-        above_0("epsilon", self.epsilon, 1.0)
+        SettingError::check_above_0("epsilon", self.epsilon, 1.0)
     }
 
     /// Moves `weights` up the gradient.

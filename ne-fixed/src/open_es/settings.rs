@@ -1,8 +1,5 @@
 use super::Adam;
-use crate::{
-    Initialization,
-    setting::{check_above_0, check_pairs},
-};
+use crate::{Initialization, setting::check_pairs};
 use ne_core::SettingError;
 use serde::{Deserialize, Serialize};
 
@@ -57,7 +54,7 @@ impl OpenEsSettings {
     pub fn validate(&self) -> Result<(), SettingError> {
         check_pairs(self.population)?;
         SettingError::check_range("deviation", self.deviation, 1e-6, 1000.0)?;
-        check_above_0("deviation_decay", self.deviation_decay, 1.0)?;
+        SettingError::check_above_0("deviation_decay", self.deviation_decay, 1.0)?;
         SettingError::check_range("least_deviation", self.least_deviation, 1e-6, self.deviation)?;
         self.adam.validate().map_err(|error| error.within("adam"))?;
         SettingError::check_range("weight_decay", self.weight_decay, 0.0, 1.0)?;

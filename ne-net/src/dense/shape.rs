@@ -101,9 +101,7 @@ impl DenseShape {
             check(&format!("hidden[{layer}]"), width)?;
         }
         check("outputs", self.outputs)?;
-        if !(self.hidden_scale > 0.0 && self.hidden_scale <= 1000.0) {
-            return Err(SettingError::new("hidden_scale", self.hidden_scale, "above 0 and at most 1000"));
-        }
+        SettingError::check_above_0("hidden_scale", self.hidden_scale, 1000.0)?;
         if self.weight_count() > Self::MAX_WEIGHTS {
             let found = format!("{:?} ({} weights)", self.hidden, self.weight_count());
             return Err(SettingError::new(

@@ -1,5 +1,6 @@
 /// Why a trajectory cannot be measured.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GaitError {
     /// Nothing moves in fewer than two snapshots.
     #[error("a gait needs at least 2 snapshots, there are {snapshots}")]

@@ -59,9 +59,9 @@ impl Posture {
         if !(settings.tilt.is_finite() && settings.tilt > 0.0) {
             return Err(SettingError::new("tilt", settings.tilt, "finite and above 0"));
         }
-        SettingError::check_range("margin", settings.margin.into(), 0.0, 180.0)?;
-        SettingError::check_range("height", settings.height.into(), 0.0, 1.0)?;
-        SettingError::check_range("brush", settings.brush.into(), 0.0, 1.0)?;
+        SettingError::check_range("margin", settings.margin, 0.0, 180.0)?;
+        SettingError::check_range("height", settings.height, 0.0, 1.0)?;
+        SettingError::check_range("brush", settings.brush, 0.0, 1.0)?;
         Ok(Self { settings, ..Self::default() })
     }
 }

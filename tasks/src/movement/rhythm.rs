@@ -55,7 +55,7 @@ impl Rhythm {
     /// # Errors
     /// If the period is out of range.
     pub fn new(settings: RhythmSettings) -> Result<Self, SettingError> {
-        SettingError::check_range("period", settings.period.into(), 0.05, 5.0)?;
+        SettingError::check_range("period", settings.period, 0.05, 5.0)?;
         Ok(Self { settings, ..Self::default() })
     }
 }

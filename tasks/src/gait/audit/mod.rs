@@ -22,6 +22,7 @@ use std::fmt;
 /// A way to cheat.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum CheatKind {
     /// A joint came apart, m.
     JointSeparation,
