@@ -137,6 +137,9 @@ impl<'a, R> WorkOptions<'a, R> {
         let folder = RunFolder::at(path);
         let reason = if folder.is_begun() {
             folder.check_run(config)?;
+            if folder.read_config()?.stop != config.stop {
+                return Err(FolderError::AnotherRun { path: path.into(), what: "stop".into() }.into());
+            }
             match resume(path, None, how) {
                 Err(TrainError::Over { reason, .. }) => Ok(reason),
                 ended => ended.map(|outcome| outcome.reason),

@@ -238,6 +238,8 @@ impl Champion {
         // A configuration may leave the length of an episode to the movement.
         let movement = MovementSpec { steps: config.movement.steps, ..self.movement.clone() };
         let differs = [
+            (self.seed.run_seed() != config.seed, "the seed"),
+            (self.strategy != config.strategy.name(), "the strategy"),
             (self.creature != config.creature, "the creature"),
             (movement != config.movement, "the movement"),
             (self.physics != config.physics, "the physics"),

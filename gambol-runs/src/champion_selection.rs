@@ -53,6 +53,12 @@ pub(crate) fn highest_tier(reference: Option<&ReferenceEpisode>) -> Option<u8> {
     Some(USABLE + steps_of(reference).len() as u8)
 }
 
+/// The highest tier that any champion can have.
+#[cfg(feature = "schema")]
+pub(crate) fn highest_tier_of_all() -> u8 {
+    [false, true].into_iter().map(|commanded| USABLE + steps(commanded).len() as u8).fold(USABLE, u8::max)
+}
+
 /// The steps that a champion is tried at there; none where nothing varies.
 fn steps_of(reference: &ReferenceEpisode) -> Vec<Step> {
     reference.robustness_check.as_ref().map_or_else(Vec::new, |check| steps(check.needs_commands()))

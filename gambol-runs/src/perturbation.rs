@@ -11,9 +11,9 @@ const PERTURBATION: Purpose = Purpose::new("perturbation");
 
 /// The friction of the ground is changed by up to this share, either way.
 pub const FRICTION: f32 = 0.3;
-/// The mass of all parts together is.
+/// The total mass is changed by up to this share, either way.
 pub const MASS: f32 = 0.1;
-/// The top torque of all motors together is.
+/// The top torque of all motors is changed by up to this share, either way.
 pub const TORQUE: f32 = 0.1;
 /// The lowest and the highest bump, m.
 pub const BUMP_HEIGHTS: [f32; 2] = [0.002, 0.02];

@@ -5,7 +5,7 @@ use crate::{
     config::RunConfig,
     front::Front,
     run_folder::{
-        ChampionStanding, FolderError, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing,
+        ChampionStanding, FolderError, FolderLock, GalleryEntry, GalleryKind, GalleryMember, RunFolder, Timing,
         lines::{Kept, LineFile},
     },
     setup::Setup,
@@ -27,6 +27,7 @@ pub(crate) const GALLERY_MEMBERS: usize = 1000;
 /// after the lines they belong to are on the disk.
 pub(crate) struct Recorder {
     folder: RunFolder,
+    lock: FolderLock,
     log: LineFile,
     gallery: LineFile,
     timing: LineFile,
@@ -66,13 +67,17 @@ impl EarlierLines {
     ) -> Result<Self, FolderError> {
         let generations = usize::try_from(progress.generations).unwrap_or(usize::MAX);
         let (log, reports) = Kept::check::<GenerationReport>(&folder.log(), generations)?;
-        // The log tells how many lines the gallery must have.
+        // The log tells which lines the gallery must have: the generation of each and, of a champion, the fitness.
         let mut best = None;
-        let mut entries = 0;
+        let mut expected = Vec::new();
         for report in &reports {
             let champion = report.best_so_far.map(|fitness| TieredFitness { tier: report.tier, fitness });
-            entries += usize::from(champion > best);
-            entries += usize::from(config.record.populations_at.contains(&report.generation));
+            if champion > best {
+                expected.push((report.generation, report.best_so_far));
+            }
+            if config.record.populations_at.contains(&report.generation) {
+                expected.push((report.generation, None));
+            }
             best = champion;
         }
         if let Some(last) = reports.last()
@@ -80,7 +85,15 @@ impl EarlierLines {
         {
             return Err(FolderError::ForeignLog { path: folder.log(), generation: last.generation });
         }
-        let (gallery, _) = Kept::check::<GalleryEntry>(&folder.gallery(), entries)?;
+        let (gallery, entries) = Kept::check::<GalleryEntry>(&folder.gallery(), expected.len())?;
+        let told = |entry: &GalleryEntry| {
+            let champion = entry.members.first().filter(|_| entry.kind == GalleryKind::Champion);
+            (entry.generation, champion.and_then(|champion| champion.fitness))
+        };
+        if let Some(place) = entries.iter().zip(&expected).position(|(entry, expected)| told(entry) != *expected) {
+            let message = "it is of another run than the log".into();
+            return Err(FolderError::Line { path: folder.gallery(), line: place + 1, message });
+        }
         let (timing, _) = Kept::check::<Timing>(&folder.timing(), generations)?;
         Ok(Self { log, gallery, timing })
     }
@@ -106,25 +119,32 @@ pub fn check_lines(folder: &RunFolder, config: &RunConfig) -> Result<(), FolderE
 /// The champion of a run with this configuration, if it has one.
 ///
 /// # Errors
-/// If the file cannot be read, is damaged, or is the champion of another run.
+/// If the file cannot be read, is damaged, is the champion of another run, or older than that of the checkpoint.
 pub fn read_champion(folder: &RunFolder, config: &RunConfig) -> Result<Option<Champion>, FolderError> {
     let path = folder.champion();
     if !path.is_file() {
         return Ok(None);
     }
     let champion = Champion::read(&path)?;
-    match champion.differs_from(config) {
-        Some(what) => Err(FolderError::ForeignChampion { path, what }),
-        None => Ok(Some(champion)),
+    if let Some(what) = champion.differs_from(config) {
+        return Err(FolderError::ForeignChampion { path, what });
     }
+    // A run with stages has a checkpoint for each.
+    if folder.checkpoint().is_file()
+        && let Some(ChampionStanding { generation: expected, .. }) = folder.read_standing()?.champion
+        && champion.generation < expected
+    {
+        return Err(FolderError::OldChampion { path, found: champion.generation, expected });
+    }
+    Ok(Some(champion))
 }
 
 impl Recorder {
     /// Goes on after these lines; whatever the files hold beyond them is dropped.
-    pub(crate) fn new(folder: RunFolder, earlier: EarlierLines) -> Result<Self, FolderError> {
+    pub(crate) fn new(folder: RunFolder, lock: FolderLock, earlier: EarlierLines) -> Result<Self, FolderError> {
         let EarlierLines { log, gallery, timing } = earlier;
         let (log, gallery, timing) = (log.open()?, gallery.open()?, timing.open()?);
-        Ok(Self { folder, log, gallery, timing, last: Instant::now(), written: None })
+        Ok(Self { folder, lock, log, gallery, timing, last: Instant::now(), written: None })
     }
 
     /// The last save: brings everything to the disk, lines first, then champion and front, then the checkpoint, which says
@@ -152,7 +172,9 @@ impl Recorder {
         self.written.is_some()
     }
 
+    /// To be done before anything is written by its path.
     fn sync(&mut self) -> Result<(), FolderError> {
+        self.lock.check(self.folder.path())?;
         self.log.sync()?;
         self.gallery.sync()?;
         Ok(self.timing.sync()?)

@@ -2,6 +2,7 @@
 
 use crate::{
     Registry,
+    champion_selection::highest_tier_of_all,
     config::{RunConfig, StrategySettings},
 };
 use schemars::{JsonSchema, SchemaGenerator};
@@ -30,6 +31,7 @@ pub fn json_schema(registry: &Registry) -> Value {
     strategy.insert("additionalProperties".into(), false.into());
     let mut schema = generator.into_root_schema_for::<RunConfig>().to_value();
     schema["$defs"][&*StrategySettings::schema_name()] = strategy.to_value();
+    schema["$defs"]["StopConditions"]["properties"]["tier"]["maximum"] = highest_tier_of_all().into();
     creatures::tidy_schema(&mut schema);
     schema
 }

@@ -43,6 +43,38 @@ fn resources() -> Resources {
     Resources { threads: 1, registry: Registry::default(), signal: Default::default() }
 }
 
+/// Another run may have the place by then.
+#[cfg(unix)]
+#[test]
+fn a_run_whose_folder_is_moved_ends_and_touches_nothing_there() -> Outcome {
+    let place = tempfile::tempdir()?;
+    let [folder, moved] = ["run", "moved"].map(|name| place.path().join(name));
+    let config = config(
+        "biped-1",
+        "running",
+        &["movement.steps=40", "strategy.cma-es.population=8", "record.checkpoint_every=2"],
+    )?;
+    let first = || {
+        let mut training = gambol_runs::training::Training::begin(&config, &folder, &resources())?;
+        training.generation(&mut |_| {})?;
+        Ok::<_, Box<dyn std::error::Error>>(training)
+    };
+    let mut training = first()?;
+    fs::rename(&folder, &moved)?;
+    let says = "was moved, removed or replaced while its run was at work";
+    let gone = training.generation(&mut |_| {}).expect_err("its folder is gone").to_string();
+    assert!(gone.contains(says), "{gone}");
+    assert!(!folder.exists());
+    let training = first()?;
+    fs::remove_dir_all(&folder)?;
+    drop(train(&config, &folder, options(&mut |_| {}))?);
+    let other = bytes(&folder);
+    let gone = training.finish(StopReason::Interrupted).expect_err("another run has its folder").to_string();
+    assert!(gone.contains(says), "{gone}");
+    assert!(bytes(&folder) == other, "the other run is as it was");
+    Ok(())
+}
+
 /// All files below a folder that are the same for the same run.
 fn bytes(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();

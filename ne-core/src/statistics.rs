@@ -31,7 +31,7 @@ pub struct GenerationReport {
     /// The species, if the strategy has species.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub species: Vec<SpeciesReport>,
-    /// What came of the re-evaluation, if there is a champion selection and it sat after this generation.
+    /// What came of the re-evaluation, if there is a champion selection and a re-evaluation took place after this generation.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub re_evaluation: Option<ReEvaluationReport>,
 }

@@ -93,7 +93,7 @@ impl WeightVector {
         (Arc::make_mut(&mut self.weights), &mut self.mutation_deviation)
     }
 
-    /// Has no weights from now on, and is no individual any more.
+    /// Frees the weights; the individual must not be used afterwards.
     pub(crate) fn drop_weights(&mut self) {
         self.weights = Arc::default();
     }

@@ -1,4 +1,7 @@
-use crate::sample::{SampleError, paired_differences};
+use crate::{
+    rank_sum::doubled_ranks,
+    sample::{SampleError, paired_differences},
+};
 use serde::{Deserialize, Serialize};
 
 /// Up to so many pairs the p value is exact. The 2⁵⁰ signings are counted without rounding, as f64 is exact to 2⁵³.
@@ -51,7 +54,8 @@ pub fn wilcoxon_signed_rank(x: &[f64], y: &[f64]) -> Result<WilcoxonTest, Sample
     let mut differences = paired_differences(x, y)?;
     differences.retain(|&difference| difference != 0.0);
     differences.sort_by(|one, other| one.abs().total_cmp(&other.abs()));
-    let ranks = doubled_ranks(&differences);
+    let sizes: Vec<f64> = differences.iter().map(|difference| difference.abs()).collect();
+    let ranks = doubled_ranks(&sizes);
     let total: usize = ranks.iter().sum();
     let signed = ranks.iter().zip(&differences);
     let above: usize = signed.filter(|(_, difference)| **difference > 0.0).map(|(rank, _)| rank).sum();
@@ -65,16 +69,6 @@ pub fn wilcoxon_signed_rank(x: &[f64], y: &[f64]) -> Result<WilcoxonTest, Sample
         exact,
         rank_biserial: if total == 0 { 0.0 } else { (above as f64 - below as f64) / total as f64 },
     })
-}
-
-/// Twice the rank of each difference, sorted by size, so that the mean of tied ranks is a whole number.
-fn doubled_ranks(differences: &[f64]) -> Vec<usize> {
-    let mut ranks = Vec::with_capacity(differences.len());
-    for tied in differences.chunk_by(|one, other| one.abs() == other.abs()) {
-        let lower = ranks.len();
-        ranks.resize(lower + tied.len(), 2 * lower + 1 + tied.len());
-    }
-    ranks
 }
 
 /// Twice the probability of a sum of at most `smaller` when each of `ranks` counts with probability ½; at most 1.

@@ -299,5 +299,5 @@ fn a_trial_is_told_its_own_commands() {
     assert_ne!(play(2), first);
     assert_eq!(play(1), first);
     let refused = told(Commands::Given(Vec::new())).err().expect("refused").to_string();
-    assert!(refused.contains("commands.given.length"), "{refused}");
+    assert!(refused.contains("commands.given = 0 changes"), "{refused}");
 }

@@ -7,13 +7,15 @@ use crate::work::is_free;
 use gambol_runs::training::TrainError;
 use ne_core::archive::{self, ArchiveError, Layout};
 use std::{
+    fs::File,
     io,
     path::{Path, PathBuf},
 };
 
 const PLAN_FORMAT: &str = "gambol comparison";
 const RESULT_FORMAT: &str = "gambol comparison result";
-const VERSION: u32 = 2;
+const PLAN_VERSION: u32 = 2;
+const RESULT_VERSION: u32 = 3;
 
 /// The folder of a comparison.
 ///
@@ -91,6 +93,12 @@ pub enum CompareError {
         /// Which run it should be of.
         expected: String,
     },
+    /// A result is of a run with other settings.
+    #[error("{} is the result of a run with other settings or another budget; remove it to have the run done again", path.display())]
+    Settings {
+        /// The file.
+        path: PathBuf,
+    },
     /// Runs are missing.
     #[error("{missing} of {all} runs are missing; the first is: {first}")]
     Incomplete {
@@ -129,18 +137,24 @@ impl ComparisonFolder {
     /// If there is something else in the folder, or it cannot be written.
     pub fn create(path: &Path, plan: &Plan) -> Result<Self, CompareError> {
         let folder = Self { path: path.into() };
-        if folder.plan_file().is_file() {
-            return match plan.difference(&folder.plan()?) {
-                None => Ok(folder),
-                Some(what) => Err(CompareError::Other { path: path.into(), what }),
-            };
+        let is_begun = || folder.plan_file().is_file();
+        if !is_begun() {
+            let is_free = is_free(path).map_err(|source| ArchiveError::Read { path: path.into(), source })?;
+            if !is_free && !is_begun() {
+                return Err(CompareError::Exists { path: path.into() });
+            }
+            archive::make_folder(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
+            // Of two that begin at once one waits, where folders can be locked, and finds the plan of the other.
+            let alone = File::open(path).ok();
+            let _ = alone.as_ref().map(File::lock);
+            if !is_begun() {
+                archive::write(&folder.plan_file(), PLAN_FORMAT, PLAN_VERSION, plan, Layout::Pretty)?;
+            }
         }
-        if !is_free(path).map_err(|source| ArchiveError::Read { path: path.into(), source })? {
-            return Err(CompareError::Exists { path: path.into() });
+        match plan.difference(&folder.plan()?) {
+            None => Ok(folder),
+            Some(what) => Err(CompareError::Other { path: path.into(), what }),
         }
-        archive::make_folder(path).map_err(|source| CompareError::Write { path: path.into(), source })?;
-        archive::write(&folder.plan_file(), PLAN_FORMAT, VERSION, plan, Layout::Pretty)?;
-        Ok(folder)
     }
 
     /// A folder with a comparison.
@@ -162,7 +176,7 @@ impl ComparisonFolder {
     /// # Errors
     /// If it cannot be read or is damaged.
     pub fn plan(&self) -> Result<Plan, CompareError> {
-        Ok(archive::read(&self.plan_file(), PLAN_FORMAT, VERSION)?)
+        Ok(archive::read(&self.plan_file(), PLAN_FORMAT, PLAN_VERSION)?)
     }
 
     /// The result of a run, if it has ended.
@@ -174,7 +188,7 @@ impl ComparisonFolder {
         if !path.is_file() {
             return Ok(None);
         }
-        Ok(Some(Self::check(job, &path, archive::read(&path, RESULT_FORMAT, VERSION)?)?))
+        Ok(Some(Self::check(job, &path, archive::read(&path, RESULT_FORMAT, RESULT_VERSION)?)?))
     }
 
     /// The result of a run in the text of its file.
@@ -188,15 +202,17 @@ impl ComparisonFolder {
 
     /// A result in the text of a file, of whichever run.
     pub(crate) fn parse(path: &Path, text: &str) -> Result<RunResult, CompareError> {
-        Ok(archive::parse(path, text.as_bytes(), RESULT_FORMAT, VERSION)?)
+        Ok(archive::parse(path, text.as_bytes(), RESULT_FORMAT, RESULT_VERSION)?)
     }
 
     fn check(job: &Job<'_>, path: &Path, result: RunResult) -> Result<RunResult, CompareError> {
-        if (&result.method, &result.scenario, result.seed) == (&job.cell.method, &job.cell.scenario, job.seed) {
-            Ok(result)
-        } else {
+        if (&result.method, &result.scenario, result.seed) != (&job.cell.method, &job.cell.scenario, job.seed) {
             let found = format!("{}, {}, seed {}", result.method, result.scenario, result.seed);
-            Err(CompareError::Misplaced { path: path.into(), found, expected: job.name() })
+            return Err(CompareError::Misplaced { path: path.into(), found, expected: job.name() });
+        }
+        match result.settings == job.settings() {
+            true => Ok(result),
+            false => Err(CompareError::Settings { path: path.into() }),
         }
     }
 
@@ -230,7 +246,7 @@ impl ComparisonFolder {
         if let Some(parent) = path.parent() {
             archive::make_folder(parent).map_err(|source| CompareError::Write { path: parent.into(), source })?;
         }
-        Ok(archive::write(&path, RESULT_FORMAT, VERSION, result, Layout::Compact)?)
+        Ok(archive::write(&path, RESULT_FORMAT, RESULT_VERSION, result, Layout::Compact)?)
     }
 
     pub(super) fn run_folder(&self, job: &Job<'_>) -> PathBuf {

@@ -26,7 +26,7 @@ pub fn write_outcome(folder: &ComparisonFolder) -> Result<Analysis, CompareError
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::testing::clear_and_open;
+    use crate::compare::{RunResult, testing::clear_and_open};
 
     #[test]
     fn writes_page_and_raw_data_when_all_runs_are_there() {
@@ -36,7 +36,8 @@ mod tests {
         let missing = write_outcome(&folder).expect_err("there are no results");
         assert_eq!(missing.to_string(), "32 of 32 runs are missing; the first is: strong, biped running, seed 1");
         for (job, result) in plan.jobs().zip(&results) {
-            folder.write_result(&job, result).expect("can be written");
+            let result = RunResult { settings: job.settings(), ..result.clone() };
+            folder.write_result(&job, &result).expect("can be written");
         }
         let analysis = write_outcome(&folder).expect("all runs are there");
         assert_eq!(analysis, analyse(&plan, &results));

@@ -2,6 +2,7 @@ use super::plan::Job;
 use gambol_runs::{
     Registry,
     champion::Champion,
+    recorder::{check_lines, read_champion},
     run_folder::{FolderError, RunFolder},
 };
 use serde::{Deserialize, Serialize};
@@ -16,6 +17,8 @@ pub struct RunResult {
     pub scenario: String,
     /// The seed.
     pub seed: u64,
+    /// The [digest](Job::settings) of its configuration.
+    pub settings: String,
     /// How the best fitness rose: a point for each generation that had a better champion, and one for the last.
     pub points: Vec<Point>,
     /// What the champion at the end of the run comes to in the movement without terms, in one whole episode; `None` if the
@@ -45,6 +48,8 @@ impl RunResult {
     /// not of the one after the last generation: a score at a budget knows nothing of that one where the last generation went beyond it.
     /// Only a run too short for any in its log has that one.
     pub(super) fn read(job: &Job<'_>, folder: &RunFolder, registry: &Registry) -> Result<Self, FolderError> {
+        let config = folder.read_config()?;
+        check_lines(folder, &config)?;
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let mut seconds = 0.0;
         let mut points: Vec<Point> = Vec::new();
@@ -56,15 +61,15 @@ impl RunResult {
             }
         }
         let mut bare = None;
-        if let Some(last) = points.last_mut().filter(|_| folder.champion().is_file()) {
-            let champion = Champion::read(&folder.champion())?;
+        if let (Some(last), Some(champion)) = (points.last_mut(), read_champion(folder, &config)?) {
             last.best = last.best.or(Some(champion.fitness.get()));
             bare = if job.cell.is_shaped() { without_terms(champion, registry) } else { None };
         }
         let has_none = points.last().is_none_or(|last| last.best.is_none());
         let failure = log.last().filter(|_| has_none).and_then(|last| Some(last.failure.as_ref()?.to_string()));
         let Job { cell, seed } = *job;
-        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, points, bare, failure })
+        let settings = job.settings();
+        Ok(Self { method: cell.method.clone(), scenario: cell.scenario.clone(), seed, settings, points, bare, failure })
     }
 
     /// Whether two results are of the same run: all but the seconds.

@@ -36,7 +36,8 @@ pub(crate) fn run(method: &str, scenario: &str, seed: u64, points: &[(u64, Optio
         best,
     };
     let (method, scenario) = (method.into(), scenario.into());
-    RunResult { method, scenario, seed, points: points.iter().map(point).collect(), bare: None, failure: None }
+    let points = points.iter().map(point).collect();
+    RunResult { method, scenario, seed, settings: String::new(), points, bare: None, failure: None }
 }
 
 /// A plan and all its results: `score(method, scenario, seed)` from evaluation 500 on, half of it from 100 on.

@@ -4,7 +4,7 @@ use gambol_runs::{
     champion::Champion,
     episode_parts::SetupError,
     gait::{self, GaitOfChampionError},
-    recorder::read_champion,
+    recorder::{check_lines, read_champion},
     run_folder::RunFolder,
 };
 use serde::{Deserialize, Serialize};
@@ -143,6 +143,7 @@ impl RunResult {
     ) -> Result<Self, ReproduceError> {
         let config = folder.read_config()?;
         let seed = config.seed;
+        check_lines(folder, &config)?;
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let champion = read_champion(folder, &config)?;
         let judged = champion.map(|champion| Judged::of(&champion, registry)).transpose();

@@ -10,7 +10,7 @@ use creatures::Creature;
 use gambol_runs::Registry;
 use gambol_runs::{
     config::{RunConfig, StageSettings},
-    recorder::read_champion,
+    recorder::{check_lines, read_champion},
     run_folder::{FolderError, RunFolder},
     shaping::{self, StageRun},
 };
@@ -56,6 +56,7 @@ pub(super) fn compose(
     report.history.clear();
     for stage_run in &stage_runs {
         let stage_folder = RunFolder::at(&stage_run.folder);
+        check_lines(&stage_folder, &stage_folder.read_config()?)?;
         let log = stage_folder.read_log()?;
         report.history.extend(history::points(&log, None).into_iter().map(|point| point.after(generations)));
         let data = stage(stage_run, &stage_folder, config, generations, log.len() as u64, registry)?;

@@ -118,9 +118,11 @@ impl RunConfig {
     }
 
     /// What its checkpoints are [labelled](ne_core::Evolution::with_label) with: the digest of all by which
-    /// [another run](Self::other_run) is told.
+    /// [another run](Self::other_run) is told, but for the engine, since all engines give the same bits.
     pub fn label(&self) -> String {
-        Digest::of_json(&Value::Object(self.fields_of_run())).to_string()
+        let mut fields = self.fields_of_run();
+        fields.remove("engine");
+        Digest::of_json(&Value::Object(fields)).to_string()
     }
 
     fn fields_of_run(&self) -> Map<String, Value> {

@@ -64,6 +64,12 @@ pub enum FolderError {
         /// The folder.
         path: PathBuf,
     },
+    /// It is not the folder any more in which the run began to work.
+    #[error("{} was moved, removed or replaced while its run was at work; the run has ended, and nothing more was written", path.display())]
+    Replaced {
+        /// Where it was.
+        path: PathBuf,
+    },
     /// Its checkpoint is of another run.
     #[error("{} is not the checkpoint of this run: it differs from config.json in {what}", path.display())]
     Foreign {
@@ -98,6 +104,19 @@ pub enum FolderError {
         path: PathBuf,
         /// What differs.
         what: &'static str,
+    },
+    /// Its champion is one that its run has done better than.
+    #[error(
+        "{} is older than its run: it is of generation {found}, and the checkpoint has a champion of generation {expected}; \
+         resume the run to have it written again", path.display()
+    )]
+    OldChampion {
+        /// The champion file.
+        path: PathBuf,
+        /// The generation of the champion in the file.
+        found: u64,
+        /// The generation of that in the checkpoint.
+        expected: u64,
     },
     /// The champion of its checkpoint is not worth what it says; nothing was touched.
     #[error(

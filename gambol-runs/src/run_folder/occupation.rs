@@ -21,7 +21,38 @@ pub struct FolderLock {
     /// Locked until it is closed.
     _file: File,
     /// The folder itself, locked too where that can be done: the file can be deleted under a run.
-    _folder: Option<File>,
+    folder: Option<File>,
+}
+
+impl FolderLock {
+    /// Checks that the folder at this path is still the one that is locked.
+    ///
+    /// # Errors
+    /// If it was moved, removed or replaced under the run.
+    pub(crate) fn check(&self, path: &Path) -> Result<(), FolderError> {
+        match self.folder.as_ref().is_none_or(|folder| is_same(folder, path)) {
+            true => Ok(()),
+            false => Err(FolderError::Replaced { path: path.into() }),
+        }
+    }
+}
+
+#[cfg(unix)]
+fn is_same(folder: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |data: fs::Metadata| (data.dev(), data.ino());
+    match (folder.metadata(), fs::metadata(path)) {
+        (Ok(held), Ok(there)) => identity(held) == identity(there),
+        // What cannot be looked at is not known to be another; what is not there is.
+        (Err(_), _) => true,
+        (_, Err(error)) => error.kind() != io::ErrorKind::NotFound,
+    }
+}
+
+/// Elsewhere a folder cannot be moved while files in it are open.
+#[cfg(not(unix))]
+fn is_same(_: &File, _: &Path) -> bool {
+    true
 }
 
 impl RunFolder {
@@ -46,7 +77,7 @@ impl RunFolder {
         let folder = File::open(&self.path).ok();
         match folder.as_ref().map(File::try_lock) {
             Some(Err(TryLockError::WouldBlock)) => Err(busy()),
-            _ => Ok(FolderLock { _file: file, _folder: folder }),
+            _ => Ok(FolderLock { _file: file, folder }),
         }
     }
 

@@ -9,6 +9,7 @@ use crate::{
     champion::Champion,
     config::{Origin, RunConfig, Transferred},
     episode_parts::SetupError,
+    recorder::check_lines,
     run_folder::{FolderError, FolderLock, RunFolder},
     setup::Setup,
     strategies::AnyStrategy,
@@ -240,6 +241,7 @@ impl<C: Curriculum> StagedTraining<C> {
             }
             let begun = || stage_run(&stage_folder, number, planned.stage, &planned.name);
             if is_begun && stage_folder.read_standing()?.decision != Decision::Stay {
+                check_lines(&stage_folder, &stage_folder.read_config()?)?;
                 let passed = begun()?;
                 self.leave(&planned, passed);
                 continue;

@@ -7,7 +7,7 @@ use crate::{
     champion_selection::ReferenceSelection,
     config::RunConfig,
     episode_parts::SetupError,
-    recorder::{EarlierLines, Recorded, Recorder, Recording},
+    recorder::{EarlierLines, Recorded, Recorder, Recording, read_champion},
     run_folder::{FolderError, FolderLock, RunFolder},
     setup::Setup,
     strategies::{AnyGenome, AnyStrategy},
@@ -38,7 +38,6 @@ pub struct Training {
     evaluator: SuccessiveHalving<Arc<Parallel>>,
     /// Read only where time is a limit.
     began: Option<Instant>,
-    _lock: FolderLock,
 }
 
 /// Where a search begins: a strategy, and a champion that it need not find again.
@@ -152,7 +151,7 @@ impl Training {
         let best = checkpoint.champion.as_ref().map(ne_core::Champion::standing);
         let is_over = config.stop.reached(&checkpoint.progress, best, std::time::Duration::ZERO);
         // One that was killed before its last save still has that to come.
-        let is_saved = checkpoint.last && !lacks_files(&folder, &checkpoint);
+        let is_saved = checkpoint.last && !lacks_files(&folder, &config, &checkpoint);
         if let Some(reason) = is_over.filter(|_| promotion.is_none() && is_saved) {
             return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
         }
@@ -169,7 +168,7 @@ impl Training {
         evolution: Evolution<AnyStrategy>,
         config: RunConfig,
         setup: Setup,
-        (folder, _lock): (RunFolder, FolderLock),
+        (folder, lock): (RunFolder, FolderLock),
         earlier: EarlierLines,
         evaluator: Arc<Parallel>,
         resources: &Resources,
@@ -181,11 +180,11 @@ impl Training {
                 ReferenceSelection::new(reference, config.origin.is_some(), evaluator.clone()),
             );
         }
-        let recorder = Recorder::new(folder.clone(), earlier)?;
+        let recorder = Recorder::new(folder.clone(), lock, earlier)?;
         // The champion selection evaluates its candidates without rungs: all of them are promising.
         let evaluator = SuccessiveHalving::new(evaluator, setup.rungs());
         let began = config.stop.minutes.map(|_| Instant::now());
-        Ok(Self { evolution, config, setup, folder, recorder, evaluator, began, _lock })
+        Ok(Self { evolution, config, setup, folder, recorder, evaluator, began })
     }
 
     /// Where it writes.
@@ -296,10 +295,10 @@ impl Training {
     }
 }
 
-/// Whether a file is gone that the last save had written.
-fn lacks_files(folder: &RunFolder, checkpoint: &Checkpoint<AnyStrategy>) -> bool {
+/// Whether a file that the last save had written is gone, damaged, or of another run.
+fn lacks_files(folder: &RunFolder, config: &RunConfig, checkpoint: &Checkpoint<AnyStrategy>) -> bool {
     let has_champion = checkpoint.champion.is_some() || !checkpoint.candidates.is_empty();
-    let lacks_champion = has_champion && !folder.champion().is_file();
+    let lacks_champion = has_champion && !matches!(read_champion(folder, config), Ok(Some(_)));
     lacks_champion || (checkpoint.strategy.front().is_some() && !folder.front().is_file())
 }
 

@@ -88,6 +88,7 @@ fn strategy(name: &str, changes: &Value) -> Value {
 pub(crate) fn samples(registry: &Registry) -> Vec<Sample> {
     let configs = everyday().into_iter().chain(strategies()).chain([
         ("as told".into(), given_commands()),
+        ("until the highest tier".into(), highest_tier()),
         ("stages".into(), stages()),
         ("a painted creature".into(), painted_creature([0.0, 0.0])),
         ("a topology".into(), with_topology(registry)),
@@ -223,6 +224,14 @@ fn everyday() -> Vec<(String, Value)> {
         ("in thin water".into(), water(json!({ "drag": 1, "slip": 0 }))),
         ("in thick water".into(), water(json!({ "drag": 10, "slip": 0.05 }))),
     ]
+}
+
+/// A run that goes on until its champion has the highest tier.
+fn highest_tier() -> Value {
+    let creature = creatures::find("tetrapod-2").expect("shipped");
+    let mut value = text_value(&REGISTRY.config("default", creature, "playing").expect("there is such a preset"));
+    lay_over(&mut value, json!({ "stop": { "tier": 23 } }));
+    value
 }
 
 fn given_commands() -> Value {

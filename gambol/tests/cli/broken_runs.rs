@@ -48,6 +48,35 @@ fn a_report_is_not_made_of_two_runs() -> Outcome {
     Ok(())
 }
 
+/// Of runs that differ in the seed alone, and of the same run when it was shorter.
+#[test]
+fn champion_and_gallery_of_a_run_like_it_are_refused() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let [run, other, earlier] = ["run", "other", "earlier"].map(|name| folder.path().join(name));
+    succeed(small_run(&run, 12).args(WITHOUT_SELECTION));
+    succeed(small_run(&other, 12).args(WITHOUT_SELECTION).args(["--seed", "2"]));
+    succeed(small_run(&earlier, 1).args(WITHOUT_SELECTION));
+    let (champion, gallery) = (run.join("champion.json"), run.join("gallery.jsonl"));
+    let whole = read(&champion);
+    for (from, says) in
+        [(&other, "it differs from config.json in the seed"), (&earlier, "champion.json is older than its run")]
+    {
+        fs::copy(from.join("champion.json"), &champion)?;
+        assert_says(&fail(gambol("report").arg(&run)), &[says]);
+        // It is not what the checkpoint has, and so it is written again.
+        succeed(gambol("resume").arg(&run).args(["--no-report", "--quiet"]));
+        assert!(read(&champion) == whole, "the champion is there again");
+    }
+    let own = read(&gallery);
+    fs::copy(other.join("gallery.jsonl"), &gallery)?;
+    let says = "it is of another run than the log";
+    assert_says(&fail(gambol("report").arg(&run)), &[says]);
+    assert_says(&fail(gambol("resume").arg(&run).args(["--no-report", "--generations", "20"])), &[says]);
+    write(&gallery, &own);
+    succeed(gambol("report").arg(&run));
+    Ok(())
+}
+
 #[test]
 fn a_truncated_file_is_refused_wherever_it_ends() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -300,6 +329,58 @@ fn a_comparison_does_not_go_on_from_a_run_of_another_strategy() -> Outcome {
     Ok(())
 }
 
+/// What is kept of a run that has ended is of a run that is whole, and had what the plan says.
+#[test]
+fn a_comparison_takes_no_damaged_run_and_none_with_another_budget() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let out = folder.path().join("out");
+    let compare = |out: &Path, evaluations: &str| {
+        let mut compare = gambol("compare");
+        compare.args(["--strategies", "ga,hill-climbing", "--creatures", "biped-1", "--movements", "running"]);
+        compare.args(["--seeds", "1", "--set", "movement.steps=40", "--evaluations", evaluations, "--quiet"]);
+        compare.arg("--out").arg(out);
+        compare
+    };
+    succeed(&mut compare(&out, "200"));
+    let scores = read(&out.join("scores.csv"));
+    let result = |out: &Path| out.join("results/ga/biped-1-running/seed-1.json");
+    let [run, other] = ["ga", "hill-climbing"].map(|name| out.join(format!("runs/{name}/biped-1-running/seed-1")));
+    let log = fs::read_to_string(run.join("log.jsonl"))?;
+    let shorter: String = log.split_inclusive('\n').take(1).collect();
+    let champion = read(&other.join("champion.json"));
+    for (name, content, says) in [
+        ("log.jsonl", shorter.as_bytes(), "log.jsonl, line 2: it is missing"),
+        ("timing.jsonl", &[], "timing.jsonl, line 1: it is missing"),
+        ("champion.json", &champion, "is not the champion of this run: it differs from config.json in the strategy"),
+    ] {
+        let file = run.join(name);
+        let whole = read(&file);
+        write(&file, content);
+        fs::remove_file(result(&out))?;
+        // A champion that is not the checkpoint's is written again.
+        match name {
+            "champion.json" => drop(succeed(&mut compare(&out, "200"))),
+            _ => assert_says(&fail(&mut compare(&out, "200")), &[says]),
+        }
+        write(&file, &whole);
+        succeed(&mut compare(&out, "200"));
+        assert!(read(&out.join("scores.csv")) == scores, "{name}");
+    }
+    fs::remove_file(result(&out))?;
+    let whole = folder.path().join("whole");
+    copy_folder(&run, &whole)?;
+    succeed(gambol("resume").arg(&run).args(["--evaluations", "800", "--no-report", "--quiet"]));
+    assert_says(&fail(&mut compare(&out, "200")), &["its config.json has another \"stop\" than the run"]);
+    fs::remove_dir_all(&run)?;
+    fs::rename(&whole, &run)?;
+    succeed(&mut compare(&out, "200"));
+    let longer = folder.path().join("longer");
+    succeed(&mut compare(&longer, "400"));
+    fs::copy(result(&longer), result(&out))?;
+    assert_says(&fail(&mut compare(&out, "200")), &["is the result of a run with other settings or another budget"]);
+    Ok(())
+}
+
 #[test]
 fn a_run_with_stages_does_not_go_on_from_a_stage_of_another_run() -> Outcome {
     let folder = tempfile::tempdir()?;
@@ -321,6 +402,21 @@ fn a_run_with_stages_does_not_go_on_from_a_stage_of_another_run() -> Outcome {
         fs::rename(&aside, &own)?;
     }
     succeed(gambol("resume").arg(&run).args(["--generations", "60", "--no-report", "--quiet"]));
+    Ok(())
+}
+
+#[test]
+fn a_stage_that_was_passed_is_checked() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let config = crate::shaping::write(folder.path(), &crate::shaping::three_stages());
+    let run = folder.path().join("run");
+    succeed(crate::shaping::train(&config, &run).args(["--quiet", "--threads", "1"]));
+    let log = run.join("stages/01-run/log.jsonl");
+    let shorter: String = fs::read_to_string(&log)?.split_inclusive('\n').take(1).collect();
+    write(&log, shorter.as_bytes());
+    let says = "01-run/log.jsonl, line 2: it is missing";
+    assert_says(&fail(gambol("report").arg(&run)), &[says]);
+    assert_says(&fail(gambol("resume").arg(&run).args(["--generations", "60", "--no-report"])), &[says]);
     Ok(())
 }
 

@@ -129,8 +129,8 @@ impl PromotionRule {
         }
     }
 
-    /// Whether it could be met after some generation, if all but the number of generations were as it likes: not by
-    /// `{"not": {"generations": 1}}`, nor by `{"all": [{"generations": 5}, {"not": {"generations": 5}}]}`.
+    /// Whether some number of generations exists at which the rule could be met, assuming that all its other conditions hold: not for
+    /// `{"not": {"generations": 1}}`, nor for `{"all": [{"generations": 5}, {"not": {"generations": 5}}]}`.
     pub fn can_be_met(&self) -> bool {
         let mut generations = vec![1];
         self.add_thresholds(&mut generations);

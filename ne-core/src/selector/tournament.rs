@@ -50,7 +50,7 @@ impl Selector for Tournament {
                     winner = rival;
                 }
             }
-            // All whom it drew had failed: the best of all that have not, if there is one.
+            // Every individual drawn had failed: the best of all that have not, if there is one.
             if scores[winner].is_none() {
                 let scored = (0..scores.len()).filter(|&index| scores[index].is_some());
                 winner = scored.max_by_key(|&index| scores[index]).unwrap_or(winner);

@@ -35,8 +35,8 @@ pub enum Restart {
     /// it. For landscapes whose best place is found early and can be made better for long, such as gaits in worlds that
     /// vary: restarts alone spend the rest of a long run in worse places.
     Returning,
-    /// As [`Returning`](Self::Returning) in a search that begins from nothing; never in one that was told where to begin, or goes on
-    /// from another task. For a task that is learned in steps: elsewhere all of them would have to be learned again, and in a long
+    /// As [`Returning`](Self::Returning), but only for a search that was given no start: one that was told where to begin, or goes on
+    /// from another task, never restarts. For a task that is learned in steps: elsewhere all of them would have to be learned again, and in a long
     /// run that is where most of it would be spent.
     Anew,
 }

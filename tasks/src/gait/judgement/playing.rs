@@ -150,6 +150,15 @@ struct Kept {
     allowed: f64,
 }
 
+/// A change of speed that was not done in time.
+struct SlowAnswer {
+    time: f64,
+    from: f64,
+    to: f64,
+    /// How much of it was done.
+    share: f64,
+}
+
 impl Kept {
     fn excess(&self) -> f64 {
         (self.speed - self.wanted).abs() - self.allowed
@@ -161,8 +170,7 @@ fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reas
     let shortest = steps_in(trajectory, STRIDE);
     let holds = holds(trajectory);
     let (mut moved, mut stood) = (Vec::new(), Vec::new());
-    let (mut slowest, mut slow, mut changes): (Option<Reason>, usize, usize) = (None, 0, 0);
-    let mut least_share = f64::INFINITY;
+    let (mut slowest, mut slow, mut changes): (Option<SlowAnswer>, usize, usize) = (None, 0, 0);
     for (index, hold) in holds.iter().enumerate() {
         let judged = without_jumps(hold.first.midpoint(hold.end)..hold.end, presses, jump);
         let steps: usize = judged.iter().map(ExactSizeIterator::len).sum();
@@ -195,10 +203,9 @@ fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reas
         let share = (hold.first..=due).map(reached).fold(f64::NEG_INFINITY, f64::max);
         if share < ANSWERED {
             slow += 1;
-            if share < least_share {
-                least_share = share;
-                let (time, from, to) = (trajectory.time(hold.first), before.wanted, hold.wanted);
-                slowest = Some(Reason::SlowAnswer { time, from, to, share, required: ANSWERED, changes: 0, of: 0 });
+            if slowest.as_ref().is_none_or(|slowest| share < slowest.share) {
+                slowest =
+                    Some(SlowAnswer { time: trajectory.time(hold.first), from: before.wanted, to: hold.wanted, share });
             }
         }
     }
@@ -206,8 +213,8 @@ fn speeds(trajectory: &Trajectory<'_>, presses: &[usize], reasons: &mut Vec<Reas
     if moved.is_empty() && trajectory.seconds() > SECONDS - 0.5 * trajectory.time_step() {
         reasons.push(Reason::NeverToldToMove { required: STRIDE });
     }
-    if let Some(Reason::SlowAnswer { time, from, to, share, required, .. }) = slowest {
-        reasons.push(Reason::SlowAnswer { time, from, to, share, required, changes: slow, of: changes });
+    if let Some(SlowAnswer { time, from, to, share }) = slowest {
+        reasons.push(Reason::SlowAnswer { time, from, to, share, required: ANSWERED, changes: slow, of: changes });
     }
     for (kept, stands) in [(moved, false), (stood, true)] {
         let off = kept.iter().filter(|kept| kept.excess() > 0.0);
