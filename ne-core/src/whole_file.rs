@@ -70,8 +70,12 @@ fn put(path: &Path, file: NamedTempFile) -> io::Result<()> {
 /// Whatever the operating system says.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     reach(WritePoint::Folder(path));
+    let is_new = |folder: &&Path| !folder.as_os_str().is_empty() && !folder.exists();
+    let new: Vec<&Path> = path.ancestors().take_while(is_new).collect();
     fs::create_dir_all(path)?;
-    flush_folder(folder_of(path))
+    // Its name stands in the folder above it, which may have been made by another process a moment ago.
+    flush_folder(folder_of(path))?;
+    new.iter().skip(1).try_for_each(|folder| flush_folder(folder_of(folder)))
 }
 
 /// Checks that a file may be put at this path: that there is nothing, or a regular file. Devices, pipes and links are never

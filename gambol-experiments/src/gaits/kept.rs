@@ -10,7 +10,6 @@ use ne_core::{
 };
 use std::{
     collections::BTreeMap,
-    fs,
     path::{Path, PathBuf},
 };
 
@@ -27,7 +26,7 @@ pub(super) struct Kept {
 impl Kept {
     /// Keeps results in a folder, which is made if it is not there.
     pub(super) fn open(folder: &Path) -> Result<Self, ArchiveError> {
-        fs::create_dir_all(folder).map_err(|source| ArchiveError::Write { path: folder.into(), source })?;
+        archive::make_folder(folder).map_err(|source| ArchiveError::Write { path: folder.into(), source })?;
         Ok(Self { runs: BTreeMap::new(), folder: Some(folder.into()) })
     }
 
@@ -77,6 +76,7 @@ pub(super) fn digest(config: &RunConfig, robust: bool) -> Result<Digest, serde_j
 mod tests {
     use super::*;
     use gambol_runs::Registry;
+    use std::fs;
 
     #[test]
     fn results_are_found_again_and_a_damaged_one_is_named() {

@@ -4,8 +4,9 @@ use super::{
     result::{Judged, RunResult},
 };
 use crate::work::{Ended, Work, WorkOptions};
-use gambol_runs::run_folder::RunFolder;
-use ne_core::StopConditions;
+use gambol_runs::run_folder::{FolderError, FolderLock, RunFolder};
+use ne_core::{StopConditions, archive};
+use std::path::Path;
 
 /// Does the runs of a part that are not done, and goes on with interrupted ones; an interrupted timed run begins anew.
 /// [`Progress::best`](crate::reproduce::Progress) is the champion of a run. Returns how many runs of the part have not ended: 0,
@@ -52,6 +53,17 @@ fn run(
     Ok(Ended::done(result.champion))
 }
 
+/// The right to do the timed run in this folder, held in the folder above it. `None`: another process has it.
+fn lock_timed_run(path: &Path) -> Result<Option<FolderLock>, ReproduceError> {
+    let scenario = path.parent().unwrap_or(path);
+    archive::make_folder(scenario).map_err(|source| ReproduceError::Write { path: scenario.into(), source })?;
+    match RunFolder::at(scenario).lock() {
+        Ok(lock) => Ok(Some(lock)),
+        Err(FolderError::Busy { .. }) => Ok(None),
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Does a timed run, unless it is done.
 fn time(
     folder: &ReproductionFolder,
@@ -64,7 +76,12 @@ fn time(
         Some(result) => result,
         None => {
             let path = folder.run_folder(job);
-            if !RunFolder::set_aside(&path)? {
+            // No lock is held between two moments of a timed run: this one keeps other processes from taking it.
+            let Some(_timed) = lock_timed_run(&path)? else { return Ok(Ended::NotYet) };
+            if folder.clock_result(cell)?.is_some() {
+                return time(folder, job, minutes, options);
+            }
+            if !RunFolder::set_aside_with_runs(&path)? {
                 return Ok(Ended::NotYet);
             }
             let Some(result) = clock::time(cell, &path, minutes, options)? else { return Ok(Ended::NotYet) };

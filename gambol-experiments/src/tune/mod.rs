@@ -13,6 +13,7 @@ pub use draw::draw;
 use crate::compare::{Analysis, CompareError, ComparisonFolder, Method, Plan, PlanError, PlanRequest, write_outcome};
 use crate::work::is_free;
 use gambol_runs::{Registry, config::StrategySettings};
+use ne_core::archive;
 use serde_json::json;
 use std::{
     fs, io,
@@ -123,7 +124,7 @@ impl Tuning {
                 Err(source) => return Err(TuneError::Read { path, source }),
             }
         }
-        fs::create_dir_all(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
+        archive::make_folder(&place).map_err(|source| TuneError::Write { path: place.clone(), source })?;
         missing.into_iter().try_for_each(|(path, settings)| write_tuned(&path, settings))
     }
 

@@ -2,6 +2,7 @@
 
 use super::FolderError;
 use crate::config::RunConfig;
+use ne_core::archive;
 use std::{
     fs, io,
     path::{Path, PathBuf},
@@ -20,7 +21,7 @@ impl NewFolder {
     pub fn make(runs: &Path, config: &RunConfig) -> Result<Self, FolderError> {
         let name = format!("{}-{}", config.creature.name, config.movement.name);
         let failed = |path: &Path, source| FolderError::Create { path: path.into(), source };
-        fs::create_dir_all(runs).map_err(|source| failed(runs, source))?;
+        archive::make_folder(runs).map_err(|source| failed(runs, source))?;
         for number in 1_u64.. {
             let path = runs.join(if number == 1 { name.clone() } else { format!("{name}-{number}") });
             match fs::create_dir(&path) {

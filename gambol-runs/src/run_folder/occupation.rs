@@ -104,11 +104,23 @@ impl RunFolder {
     }
 
     /// Makes room for a run that begins at this path: moves a folder that is not free aside, to a name that begins with
-    /// `old-`, whatever lies in it. `false`: a process is at work there.
+    /// `old-`, whatever lies in it but a run that can be gone on with. `false`: there is one, or a process is at work there.
     ///
     /// # Errors
     /// If it cannot be read or moved.
     pub fn set_aside(path: &Path) -> Result<bool, FolderError> {
+        Self::set_aside_if(path, |folder| !folder.is_begun())
+    }
+
+    /// As [`set_aside`](Self::set_aside), for a run that cannot be gone on with: one that is there is moved as well.
+    ///
+    /// # Errors
+    /// If it cannot be read or moved.
+    pub fn set_aside_with_runs(path: &Path) -> Result<bool, FolderError> {
+        Self::set_aside_if(path, |_| true)
+    }
+
+    fn set_aside_if(path: &Path, may_move: impl Fn(&Self) -> bool) -> Result<bool, FolderError> {
         let folder = Self::at(path);
         if !path.is_dir() || folder.is_free()? {
             return Ok(true);
@@ -118,6 +130,10 @@ impl RunFolder {
             Err(FolderError::Busy { .. }) => return Ok(false),
             Err(error) => return Err(error),
         };
+        // Another process may have begun a run since the caller looked.
+        if !may_move(&folder) {
+            return Ok(false);
+        }
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let numbered = (2..).map(|number| format!("old-{name}-{number}"));
         let mut places = std::iter::once(format!("old-{name}")).chain(numbered).map(|name| path.with_file_name(name));
@@ -128,7 +144,7 @@ impl RunFolder {
             to: place.clone(),
             source,
         })?;
-        tracing::warn!(from = %path.display(), to = %place.display(), "a folder without a checkpoint was moved aside");
+        tracing::warn!(from = %path.display(), to = %place.display(), "a folder that no run can go on from was moved aside");
         Ok(true)
     }
 }

@@ -156,12 +156,13 @@ impl Training {
             return Err(TrainError::Over { folder, reason, generations: checkpoint.progress.generations });
         }
         let earlier = EarlierLines::check(&folder, &config, &checkpoint.progress, best)?;
-        // From here on the folder is known to be whole.
-        if config.stop != planned {
-            folder.write_config(&config)?;
-        }
         let evolution = with_rules(Evolution::resume(checkpoint, now.unwrap_or(config.stop)), promotion);
-        Self::new(evolution, config, setup, (folder, lock), earlier, evaluator, resources)
+        let training = Self::new(evolution, config, setup, (folder, lock), earlier, evaluator, resources)?;
+        // By now the folder is known to be whole, and files of lines to be writable.
+        if training.config.stop != planned {
+            training.folder.write_config(&training.config)?;
+        }
+        Ok(training)
     }
 
     fn new(

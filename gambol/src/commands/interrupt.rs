@@ -21,6 +21,9 @@ pub(super) fn stop_on_interrupt(signal: &StopSignal) -> io::Result<()> {
         flag::register_conditional_shutdown(number, i32::from(INTERRUPTED), signal.switch())?;
         flag::register(number, signal.switch())?;
     }
+    // A file that may not become larger is then told as an error of writing, as a full disk is.
+    #[cfg(unix)]
+    flag::register(consts::SIGXFSZ, std::sync::Arc::default())?;
     let signal = signal.clone();
     thread::Builder::new().name("interrupt".into()).spawn(move || {
         while !signal.is_set() {
