@@ -238,8 +238,6 @@ impl Champion {
         // A configuration may leave the length of an episode to the movement.
         let movement = MovementSpec { steps: config.movement.steps, ..self.movement.clone() };
         let differs = [
-            (self.seed.run_seed() != config.seed, "the seed"),
-            (self.strategy != config.strategy.name(), "the strategy"),
             (self.creature != config.creature, "the creature"),
             (movement != config.movement, "the movement"),
             (self.physics != config.physics, "the physics"),
@@ -247,6 +245,8 @@ impl Champion {
             (self.commands != config.commands, "the commands"),
             (self.input_range != config.controller.input_range, "controller.input_range"),
             (self.actuation != config.controller.actuation, "controller.actuation"),
+            (self.strategy != config.strategy.name(), "the strategy"),
+            (self.seed.run_seed() != config.seed, "the seed"),
         ];
         differs.into_iter().find_map(|(differs, what)| differs.then_some(what))
     }

@@ -54,7 +54,8 @@ fn champion_and_gallery_of_a_run_like_it_are_refused() -> Outcome {
     let folder = tempfile::tempdir()?;
     let [run, other, earlier] = ["run", "other", "earlier"].map(|name| folder.path().join(name));
     succeed(small_run(&run, 12).args(WITHOUT_SELECTION));
-    succeed(small_run(&other, 12).args(WITHOUT_SELECTION).args(["--seed", "2"]));
+    // Longer, so that its gallery has lines enough.
+    succeed(small_run(&other, 60).args(WITHOUT_SELECTION).args(["--seed", "2"]));
     succeed(small_run(&earlier, 1).args(WITHOUT_SELECTION));
     let (champion, gallery) = (run.join("champion.json"), run.join("gallery.jsonl"));
     let whole = read(&champion);
