@@ -58,6 +58,7 @@
 mod ars;
 mod chance;
 mod cma_es;
+pub mod conformance;
 mod conventional;
 mod cosyne;
 mod crossover;

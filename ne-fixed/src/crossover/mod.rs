@@ -16,7 +16,7 @@ use ne_core::RandomStream;
 
 /// Makes the genes of a child from those of two parents.
 ///
-/// An implementor owes:
+/// An implementor owes, and [`check_crossover`](crate::conformance::check_crossover) checks:
 /// - every gene of `child` is written, whatever it held before;
 /// - parents that are equal have a child equal to them;
 /// - the result depends on the parents and the stream alone, and is finite if they are.

@@ -16,7 +16,7 @@ use ne_core::RandomStream;
 
 /// Changes the genes of a child by chance.
 ///
-/// An implementor owes:
+/// An implementor owes, and [`check_mutation`](crate::conformance::check_mutation) checks:
 /// - the result depends on the arguments alone;
 /// - weights stay finite, and `deviation` finite and not negative, if they were;
 /// - `strength` scales the size of a change, not its probability.
