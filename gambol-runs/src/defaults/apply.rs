@@ -9,8 +9,12 @@ use creatures::{Actuation, Blueprint, Sensor};
 use ne_net::Activation;
 use tasks::{Commands, MovementSpec};
 
-/// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff.
+/// Motors that hold their speed, as those of other engines do: a gait of soft ones falls where they are stiff. N·m per rad/s.
 const MOTOR_GAIN: f32 = 200.0;
+
+/// The gain of motors that are stronger, for each N·m of the strongest: they have their top torque 1.25 rad/s off the speed asked for.
+/// Where a body is four times as large its motors have 64 times the torque, and would give an eightieth of it at the usual gain.
+const GAIN_OF_TORQUE: f32 = 0.8;
 
 /// Of one world alone the lucky would be the best: one near world, and two that vary.
 const TRIALS: u32 = 3;
@@ -25,7 +29,8 @@ pub fn apply(config: &mut RunConfig, catalogue: &DefaultsCatalogue) {
     controller.hidden_scale = 1.0;
     controller.modular = defaults.modular;
     controller.actuation = Actuation::Angle { gain: defaults.gain };
-    config.physics.motor_gain = MOTOR_GAIN;
+    let torques = config.creature.joints.iter().filter_map(|joint| Some(joint.motor?.top_torque));
+    config.physics.motor_gain = torques.fold(MOTOR_GAIN, |gain, torque| gain.max(GAIN_OF_TORQUE * torque));
     config.sensors = Some(sensors(&config.creature.sensors, &defaults));
     config.movement.terms = defaults.terms;
     config.movement.steps = defaults.steps;

@@ -17,6 +17,14 @@ fn config(creature: &str, movement: &str) -> RunConfig {
 }
 
 #[test]
+fn strong_motors_have_their_torque_as_near_the_speed_asked_for_as_others() {
+    let mut strong = creatures::find("biped-1").expect("shipped");
+    strong.joints[1].motor = Some(creatures::Motor { top_speed: 24.0, top_torque: 16_000.0 });
+    let config = Registry::default().config("default", strong, "running").expect("there is one");
+    assert_eq!(config.physics.motor_gain, 12_800.0);
+}
+
+#[test]
 fn limbs_leap_together_or_alternate_and_bipeds_leap_and_run_with_one_net() {
     let (alternating, together) = (Some(LimbPhases::Alternating), Some(LimbPhases::Together));
     for (creature, movement, limbs) in [

@@ -94,6 +94,9 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
     if blueprint.symmetry().is_none() {
         say!("  note: it looks the same from both sides: what it learns one way, a game can play the other way")?;
     }
+    if let Some(note) = is_small(&blueprint) {
+        say!("  note: {note}")?;
+    }
     for warning in balance::warnings(&blueprint).into_iter().chain(ends_in_passive(&blueprint)) {
         say!("  warning: {warning}")?;
     }
@@ -104,6 +107,21 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
         say!("  out  {}: {} to {} {}", channel.name, channel.range[0], channel.range[1], channel.unit)?;
     }
     Ok(())
+}
+
+/// That a body on legs falls over in fewer than six steps of the world, as one does that is less than 14 cm high: no controller is fast
+/// enough then. Fifteen are as many as a biped of 0.9 m has.
+fn is_small(blueprint: &Blueprint) -> Option<String> {
+    let PhysicsSettings { time_step, gravity, .. } = PhysicsSettings::default();
+    let fall = (blueprint.start_height() / gravity).sqrt();
+    (!blueprint.is_legless() && fall < 6.0 * time_step).then(|| {
+        let finer = (fall / 15.0).max(0.001);
+        format!(
+            "it is so small that it falls over within {fall:.2} s, and the world has steps of {time_step} s: train it with \
+             --set physics.time_step={finer:.3}, and with {:.0} times as many steps in movement.steps and training_steps",
+            time_step / finer
+        )
+    })
 }
 
 /// Chains of actuated parts that are no legs, since what hangs on their last part is not actuated.

@@ -180,6 +180,27 @@ fn a_creature_that_sinks_or_cannot_settle_is_warned_of() -> Outcome {
 }
 
 #[test]
+fn a_creature_too_small_for_steps_of_the_world_is_told_how_to_be_trained() -> Outcome {
+    let shrunk = |factor: f32| {
+        checked("biped-1", |creature| {
+            for part in &mut creature.parts {
+                part.position = part.position.map(|place| factor * place);
+                part.look = creatures::Look::default();
+                if let creatures::Shape::Box { width, height } = &mut part.shape {
+                    (*width, *height) = (factor * *width, factor * *height);
+                }
+            }
+            creature.joints.iter_mut().for_each(|joint| joint.anchor = joint.anchor.map(|place| factor * place));
+        })
+    };
+    let says = "note: it is so small that it falls over within 0.09 s, and the world has steps of 0.02 s: train it with \
+                --set physics.time_step=0.006, and with 3 times as many steps";
+    assert_says(&shrunk(0.1)?, &[says]);
+    assert!(!shrunk(0.3)?.contains("so small"));
+    Ok(())
+}
+
+#[test]
 fn a_shipped_creature_is_checked_by_its_name() {
     let printed = succeed(gambol("check").arg("tetrapod-2"));
     assert_says(
