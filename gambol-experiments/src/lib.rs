@@ -12,7 +12,10 @@
 pub mod benchmarks;
 pub mod compare;
 pub mod distributed;
+mod folder;
 pub mod gaits;
 pub mod reproduce;
 pub mod tune;
 mod work;
+
+pub use folder::ExperimentError;

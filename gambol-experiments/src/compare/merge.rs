@@ -7,9 +7,7 @@ use std::path::{Path, PathBuf};
 /// If the parts are not of one comparison, contradict each other, or runs are missing; nothing is written then.
 pub fn merge(parts: &[PathBuf], into: &Path) -> Result<ComparisonFolder, CompareError> {
     let folders = parts.iter().map(|path| ComparisonFolder::open(path)).collect::<Result<Vec<_>, _>>()?;
-    let Some((first, others)) = folders.split_first() else {
-        return Err(CompareError::NotOne { path: into.into() });
-    };
+    let Some((first, others)) = folders.split_first() else { return ComparisonFolder::open(into) };
     let plan = first.plan()?;
     for other in others {
         if let Some(what) = plan.difference(&other.plan()?) {
@@ -41,6 +39,6 @@ pub fn merge(parts: &[PathBuf], into: &Path) -> Result<ComparisonFolder, Compare
         return Err(CompareError::Incomplete { missing: missing.len(), all, first: first.clone() });
     }
     let merged = ComparisonFolder::create(into, &plan)?;
-    found.iter().try_for_each(|(job, result)| merged.write_result(job, result))?;
+    found.iter().try_for_each(|(job, result)| merged.files.write_result(job, result))?;
     Ok(merged)
 }

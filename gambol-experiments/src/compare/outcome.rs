@@ -1,5 +1,4 @@
 use super::{Analysis, CompareError, ComparisonFolder, analyse, csv, page};
-use ne_core::archive;
 
 /// Analyses a comparison whose runs have all ended, and writes `comparison.html`, `medians.csv`, `scores.csv`, `curves.csv`
 /// and `settings.csv` into its folder.
@@ -10,23 +9,23 @@ pub fn write_outcome(folder: &ComparisonFolder) -> Result<Analysis, CompareError
     let plan = folder.plan()?;
     let results = folder.results(&plan)?;
     let analysis = analyse(&plan, &results);
-    let files = [
-        (folder.page(), page::render(&analysis)),
-        (folder.path().join("medians.csv"), csv::medians(&analysis)),
-        (folder.path().join("scores.csv"), csv::scores(&analysis)),
-        (folder.path().join("curves.csv"), csv::curves(&results)),
-        (folder.path().join("settings.csv"), csv::settings(&plan)),
-    ];
-    for (path, text) in files {
-        archive::write_whole(&path, text.as_bytes()).map_err(|source| CompareError::Write { path, source })?;
-    }
+    folder.files.write_files(&[
+        ("comparison.html", page::render(&analysis)),
+        ("medians.csv", csv::medians(&analysis)),
+        ("scores.csv", csv::scores(&analysis)),
+        ("curves.csv", csv::curves(&results)),
+        ("settings.csv", csv::settings(&plan)),
+    ])?;
     Ok(analysis)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compare::{RunResult, testing::clear_and_open};
+    use crate::{
+        compare::{RunResult, testing::clear_and_open},
+        folder::PlannedRun,
+    };
 
     #[test]
     fn writes_page_and_raw_data_when_all_runs_are_there() {
@@ -37,7 +36,7 @@ mod tests {
         assert_eq!(missing.to_string(), "32 of 32 runs are missing; the first is: strong, biped running, seed 1");
         for (job, result) in plan.jobs().zip(&results) {
             let result = RunResult { settings: job.settings(), ..result.clone() };
-            folder.write_result(&job, &result).expect("can be written");
+            folder.files.write_result(&job, &result).expect("can be written");
         }
         let analysis = write_outcome(&folder).expect("all runs are there");
         assert_eq!(analysis, analyse(&plan, &results));

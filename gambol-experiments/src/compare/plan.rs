@@ -5,7 +5,7 @@ use gambol_runs::{
     config::RunConfig,
     request::{Request, RequestError},
 };
-use ne_core::{StopConditions, digest::Digest};
+use ne_core::StopConditions;
 use serde::{Deserialize, Serialize};
 use std::{collections::BTreeSet, path::PathBuf};
 
@@ -302,12 +302,6 @@ impl Job<'_> {
     /// The run's configuration.
     pub fn config(&self) -> RunConfig {
         RunConfig { seed: self.seed, ..self.cell.config.clone() }
-    }
-
-    /// The digest of all that the run was made with, its budget and its seed included.
-    pub fn settings(&self) -> String {
-        // Plain data: serialising cannot fail; were it to, all settings would be alike.
-        Digest::of_json(&serde_json::to_value(self.config()).unwrap_or_default()).to_string()
     }
 
     /// What a file of the run is called: `neat, biped-1 running, seed 3`.

@@ -1,4 +1,5 @@
 use super::plan::Job;
+use crate::folder::PlannedRun;
 use gambol_runs::{
     Registry,
     champion::Champion,
@@ -17,7 +18,7 @@ pub struct RunResult {
     pub scenario: String,
     /// The seed.
     pub seed: u64,
-    /// The [digest](Job::settings) of its configuration.
+    /// The digest of its configuration, its budget and its seed included.
     pub settings: String,
     /// How the best fitness rose: a point for each generation that had a better champion, and one for the last.
     pub points: Vec<Point>,

@@ -1,5 +1,8 @@
 use super::{Experiment, Failed, digest, nth, read, temporary, write};
-use crate::compare::{ComparisonFolder, Plan, WorkOptions, work, write_outcome};
+use crate::{
+    compare::{ComparisonFolder, Plan, RunResult, WorkOptions, work, write_outcome},
+    folder::parse,
+};
 use gambol_runs::Registry;
 use ne_core::digest::Digest;
 use std::path::{Path, PathBuf};
@@ -31,20 +34,19 @@ impl Experiment for Plan {
         let place = temporary()?;
         let folder = ComparisonFolder::create(place.path(), self)?;
         work(&folder, self, &WorkOptions::of_one(run, self.jobs().count(), registry, &|_| {}))?;
-        read(&folder.result_file(&job))
+        read(&folder.files.result_file(&job))
     }
 
     fn place(&self, folder: &Path, run: usize, result: &str) -> Result<PathBuf, Failed> {
         let job = nth(self.jobs(), run)?;
         let folder = ComparisonFolder::open(folder)?;
-        let path = folder.result_file(&job);
-        folder.parse_result(&job, result)?;
-        write(&path, result)
+        folder.files.parse_result::<RunResult>(&job, result)?;
+        write(&folder.files.result_file(&job), result)
     }
 
     fn agree(&self, one: &str, other: &str) -> Result<bool, Failed> {
-        Ok(ComparisonFolder::parse(Path::new("one"), one)?
-            .agrees_with(&ComparisonFolder::parse(Path::new("other"), other)?))
+        let one: RunResult = parse(Path::new("one"), one)?;
+        Ok(one.agrees_with(&parse(Path::new("other"), other)?))
     }
 
     fn conclude(&self, folder: &Path, _: &Registry) -> Result<Vec<PathBuf>, Failed> {

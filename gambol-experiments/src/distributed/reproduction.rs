@@ -1,11 +1,14 @@
 use super::{Experiment, Failed, digest, nth, read, temporary, write};
-use crate::reproduce::{Job, Plan, ReproductionFolder, WorkOptions, work, write_outcome};
+use crate::{
+    folder::{PlannedRun, parse},
+    reproduce::{Job, Plan, ReproductionFolder, RunResult, WorkOptions, work, write_outcome},
+};
 use gambol_runs::Registry;
 use ne_core::digest::Digest;
 use std::path::{Path, PathBuf};
 
 /// The runs that count generations: what timed runs find depends on the machine.
-fn untimed(plan: &Plan) -> impl Iterator<Item = Job> {
+fn untimed(plan: &Plan) -> impl Iterator<Item = Job<'_>> {
     plan.jobs().filter(|job| matches!(job, Job::Run { .. }))
 }
 
@@ -19,11 +22,7 @@ impl Experiment for Plan {
     }
 
     fn digest(&self) -> Result<Digest, Failed> {
-        let mut configs = Vec::new();
-        for job in untimed(self) {
-            configs.push((job.name(), self.generations, job.cell().settings(&self.registry)?));
-        }
-        digest(&configs)
+        digest(&untimed(self).map(|job| (job.name(), job.settings())).collect::<Vec<_>>())
     }
 
     fn begin(&self, folder: &Path) -> Result<(), Failed> {
@@ -32,7 +31,7 @@ impl Experiment for Plan {
     }
 
     fn is_done(&self, folder: &Path, run: usize) -> Result<bool, Failed> {
-        Ok(ReproductionFolder::create(folder, self)?.has(&nth(untimed(self), run)?)?)
+        Ok(ReproductionFolder::create(folder, self)?.has(nth(untimed(self), run)?)?)
     }
 
     fn carry_out(&self, run: usize, registry: &Registry) -> Result<String, Failed> {
@@ -40,20 +39,19 @@ impl Experiment for Plan {
         let place = temporary()?;
         let folder = ReproductionFolder::create(place.path(), self)?;
         work(&folder, self, &WorkOptions::of_one(run, self.jobs().count(), registry, &|_| {}))?;
-        read(&folder.result_file(&job))
+        read(&folder.files.result_file(&job))
     }
 
     fn place(&self, folder: &Path, run: usize, result: &str) -> Result<PathBuf, Failed> {
         let job = nth(untimed(self), run)?;
         let folder = ReproductionFolder::create(folder, self)?;
-        let path = folder.result_file(&job);
-        folder.check_run(&job, path.clone(), &ReproductionFolder::parse(&path, result)?)?;
-        write(&path, result)
+        folder.files.parse_result::<RunResult>(&job, result)?;
+        write(&folder.files.result_file(&job), result)
     }
 
     fn agree(&self, one: &str, other: &str) -> Result<bool, Failed> {
-        let one = ReproductionFolder::parse(Path::new("one"), one)?;
-        Ok(one.agrees_with(&ReproductionFolder::parse(Path::new("other"), other)?))
+        let one: RunResult = parse(Path::new("one"), one)?;
+        Ok(one.agrees_with(&parse(Path::new("other"), other)?))
     }
 
     fn conclude(&self, folder: &Path, _: &Registry) -> Result<Vec<PathBuf>, Failed> {

@@ -166,7 +166,7 @@ fn runs_done_elsewhere_are_those_done_here() {
     };
     assert_eq!(work(&here, &plan, &options).expect("can be done"), 0);
     for (run, job) in plan.jobs().enumerate() {
-        let here = read(&here.result_file(&job)).expect("it was done");
+        let here = read(&here.files.result_file(&job)).expect("it was done");
         let elsewhere = plan.carry_out(run, &options.registry).expect("can be done");
         assert!(plan.agree(&here, &elsewhere).expect("results"));
     }

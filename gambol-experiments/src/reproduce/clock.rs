@@ -1,9 +1,10 @@
 use super::{
-    Cell, ReproduceError, WorkOptions,
-    plan::settings_digest,
+    Cell, Job, WorkOptions,
     result::{ClockResult, Judged, Mark},
 };
+use crate::folder::{ExperimentError, PlannedRun};
 use gambol_runs::{
+    config::RunConfig,
     run_folder::FolderError,
     strategies::AnyStrategy,
     training::{Outcome, TrainError, resume, train},
@@ -14,13 +15,11 @@ use std::{path::Path, time::Instant};
 /// A run that goes on for some minutes and is looked at after each of these; while its champion is judged the clock
 /// stands still. `None`: it was interrupted.
 pub(super) fn time(
-    cell: &Cell,
+    job: Job<'_>,
     path: &Path,
     minutes: &[f64],
     options: &WorkOptions<'_, Judged>,
-) -> Result<Option<ClockResult>, ReproduceError> {
-    let name = || format!("{}, timed", cell.name());
-    let config = cell.config(1, StopConditions::default(), &options.registry)?;
+) -> Result<Option<ClockResult>, ExperimentError> {
     let (mut seconds, mut marks) = (0.0, Vec::<Mark>::new());
     for &minutes in minutes {
         let left = minutes - seconds / 60.0;
@@ -31,23 +30,24 @@ pub(super) fn time(
         }
         let stop = StopConditions { minutes: Some(left), ..StopConditions::default() };
         let began = Instant::now();
-        let outcome = leg(cell, path, stop, marks.is_empty(), options);
+        let outcome = leg(job, path, stop, marks.is_empty(), options);
         seconds += began.elapsed().as_secs_f64();
-        let outcome = match outcome? {
+        let outcome = match outcome {
             Err(TrainError::Folder(FolderError::Busy { .. } | FolderError::Exists { .. })) => return Ok(None),
-            Err(error) => return Err(ReproduceError::run(name(), error)),
+            Err(error) => return Err(ExperimentError::run(&job, error)),
             Ok(outcome) if outcome.reason == StopReason::Interrupted => return Ok(None),
             Ok(outcome) => outcome,
         };
         let champion = outcome.champion.map(|champion| Judged::of(&champion, &options.registry)).transpose();
-        let champion = champion.map_err(|error| ReproduceError::run(name(), error.into()))?;
+        let champion = champion.map_err(|error| ExperimentError::run(&job, error))?;
         marks.push(Mark { minutes, seconds, generations: outcome.progress.generations, champion });
     }
+    let Cell { preset, scenario, .. } = job.cell();
     Ok(Some(ClockResult {
-        preset: cell.preset.name.clone(),
-        creature: cell.scenario.creature.into(),
-        movement: cell.scenario.movement.into(),
-        settings: settings_digest(&config),
+        preset: preset.name.clone(),
+        creature: scenario.creature.into(),
+        movement: scenario.movement.into(),
+        settings: job.settings(),
         threads: options.threads,
         marks,
     }))
@@ -55,13 +55,13 @@ pub(super) fn time(
 
 /// The run up to the next moment.
 fn leg(
-    cell: &Cell,
+    job: Job<'_>,
     path: &Path,
     stop: StopConditions,
     first: bool,
     options: &WorkOptions<'_, Judged>,
-) -> Result<Result<Outcome, TrainError>, ReproduceError> {
+) -> Result<Outcome, TrainError> {
     let mut unseen = |_: &Generation<'_, AnyStrategy>| {};
     let how = options.training(&mut unseen);
-    Ok(if first { train(&cell.config(1, stop, &options.registry)?, path, how) } else { resume(path, Some(stop), how) })
+    if first { train(&RunConfig { stop, ..job.config() }, path, how) } else { resume(path, Some(stop), how) }
 }

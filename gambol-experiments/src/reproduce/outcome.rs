@@ -3,7 +3,6 @@ use super::{
     thesis::{SCENARIOS, Scenario},
 };
 use gambol_runs::presets::Preset;
-use ne_core::archive;
 use ne_statistics::quantile;
 
 /// Everything there is in the folder of a reproduction, and what is missing.
@@ -42,15 +41,12 @@ pub struct CellOutcome {
 /// If a file cannot be read or written, is damaged or of another run.
 pub fn write_outcome(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceError> {
     let outcome = read(folder, plan)?;
-    let files = [
-        (folder.path().join("results.csv"), csv::results(&outcome)),
-        (folder.path().join("times.csv"), csv::times(&outcome)),
-        (folder.path().join("timed.csv"), csv::timed(&outcome)),
-        (folder.page(), page::render(&outcome)),
-    ];
-    for (path, text) in files {
-        archive::write_whole(&path, text.as_bytes()).map_err(|source| ReproduceError::Write { path, source })?;
-    }
+    folder.files.write_files(&[
+        ("results.csv", csv::results(&outcome)),
+        ("times.csv", csv::times(&outcome)),
+        ("timed.csv", csv::timed(&outcome)),
+        ("index.html", page::render(&outcome)),
+    ])?;
     Ok(outcome)
 }
 
@@ -60,7 +56,7 @@ fn read(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceEr
     let mut cells = Vec::new();
     for scenario in SCENARIOS {
         for preset in plan.presets.iter().cloned().chain(others.clone()) {
-            let cell = Cell { preset, scenario };
+            let cell = Cell::new(&preset, scenario, plan.generations, &plan.registry)?;
             let mut runs = Vec::new();
             for seed in folder.seeds(&cell)? {
                 runs.extend(folder.run_result(&cell, seed)?);
@@ -91,7 +87,7 @@ fn read(folder: &ReproductionFolder, plan: &Plan) -> Result<Outcome, ReproduceEr
     });
     let mut missing = Vec::new();
     for job in plan.jobs() {
-        if !folder.has(&job)? {
+        if !folder.has(job)? {
             missing.push(job.name());
         }
     }

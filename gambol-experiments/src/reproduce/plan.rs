@@ -1,6 +1,6 @@
 use super::thesis::{self, Scenario};
 use gambol_runs::{Registry, config::RunConfig, presets::Preset, suggest};
-use ne_core::{SettingError, StopConditions, digest::Digest};
+use ne_core::{SettingError, StopConditions};
 use std::collections::BTreeSet;
 
 /// What a user wants reproduced. An empty list stands for everything.
@@ -51,6 +51,9 @@ pub enum RequestError {
     /// A number is out of range.
     #[error(transparent)]
     Setting(#[from] SettingError),
+    /// A creature that should be shipped is not.
+    #[error(transparent)]
+    Creature(#[from] creatures::UnknownCreature),
 }
 
 /// What is to be reproduced.
@@ -66,6 +69,8 @@ pub struct Plan {
     pub generations: u64,
     /// The minutes after which timed runs are looked at, rising; `None`: there are no timed runs.
     pub clock_minutes: Option<Vec<f64>>,
+    /// Each preset on each scenario: for each preset all scenarios.
+    pub cells: Vec<Cell>,
     /// What the presets are made of.
     pub registry: Registry,
 }
@@ -77,22 +82,24 @@ pub struct Cell {
     pub preset: Preset,
     /// The scenario.
     pub scenario: &'static Scenario,
+    /// The configuration of its runs that count generations, but for their seeds.
+    pub config: RunConfig,
 }
 
 /// One run of a plan.
-#[derive(Clone, Debug)]
-pub enum Job {
+#[derive(Clone, Copy, Debug)]
+pub enum Job<'a> {
     /// So many generations with this seed.
     Run {
         /// Which preset on which scenario.
-        cell: Cell,
+        cell: &'a Cell,
         /// With which seed.
         seed: u64,
     },
     /// So many minutes, with seed 1.
     Clock {
         /// Which preset on which scenario.
-        cell: Cell,
+        cell: &'a Cell,
     },
 }
 
@@ -107,19 +114,28 @@ impl Request {
         let asked_for = |names: &[String], name: &str| names.is_empty() || names.iter().any(|asked| asked == name);
         let scenarios = thesis::SCENARIOS
             .iter()
-            .filter(|scenario| asked_for(creatures, scenario.creature) && asked_for(movements, scenario.movement));
+            .filter(|scenario| asked_for(creatures, scenario.creature) && asked_for(movements, scenario.movement))
+            .collect::<Vec<_>>();
         for (field, number) in [("runs", self.runs), ("generations", self.generations)] {
             SettingError::check_range(field, number as f64, 1.0, 1e6)?;
         }
         if let Some(minutes) = &self.clock_minutes {
             check_minutes(minutes)?;
         }
+        let presets = self.presets(registry)?;
+        let mut cells = Vec::new();
+        for preset in &presets {
+            for scenario in &scenarios {
+                cells.push(Cell::new(preset, scenario, self.generations, registry)?);
+            }
+        }
         Ok(Plan {
-            presets: self.presets(registry)?,
-            scenarios: scenarios.collect(),
+            presets,
+            scenarios,
             runs: self.runs,
             generations: self.generations,
             clock_minutes: self.clock_minutes.clone(),
+            cells,
             registry: registry.clone(),
         })
     }
@@ -137,20 +153,14 @@ impl Request {
 
 impl Plan {
     /// All runs, the timed ones last. Those with the same seed stand together, so that what is done first makes a page.
-    pub fn jobs(&self) -> impl Iterator<Item = Job> {
-        let runs = (1..=self.runs).flat_map(|seed| self.cells().map(move |cell| Job::Run { cell, seed }));
-        let clocks = self.cells().filter(|_| self.clock_minutes.is_some()).map(|cell| Job::Clock { cell });
+    pub fn jobs(&self) -> impl Iterator<Item = Job<'_>> {
+        let runs = (1..=self.runs).flat_map(|seed| self.cells.iter().map(move |cell| Job::Run { cell, seed }));
+        let clocks = self.cells.iter().filter(|_| self.clock_minutes.is_some()).map(|cell| Job::Clock { cell });
         runs.chain(clocks)
-    }
-
-    fn cells(&self) -> impl Iterator<Item = Cell> {
-        let cell = |preset: &Preset, scenario| Cell { preset: preset.clone(), scenario };
-        let scenarios = move |preset| self.scenarios.iter().map(move |&scenario| cell(preset, scenario));
-        self.presets.iter().flat_map(scenarios)
     }
 }
 
-impl Job {
+impl<'a> Job<'a> {
     /// What a run is called: `thesis, biped-1 running, seed 3`.
     pub fn name(&self) -> String {
         match self {
@@ -160,7 +170,7 @@ impl Job {
     }
 
     /// Which preset on which scenario.
-    pub fn cell(&self) -> &Cell {
+    pub fn cell(&self) -> &'a Cell {
         match self {
             Self::Run { cell, .. } | Self::Clock { cell } => cell,
         }
@@ -173,33 +183,20 @@ impl Cell {
         format!("{}, {}", self.preset.name, self.scenario.name())
     }
 
-    /// The digest of the settings of its runs.
-    pub(crate) fn settings(&self, registry: &Registry) -> Result<String, creatures::UnknownCreature> {
-        Ok(settings_digest(&self.config(0, StopConditions::default(), registry)?))
-    }
-
-    /// The configuration of a run.
-    pub(super) fn config(
-        &self,
-        seed: u64,
-        stop: StopConditions,
+    /// A preset on a scenario, with runs of so many generations.
+    pub(super) fn new(
+        preset: &Preset,
+        scenario: &'static Scenario,
+        generations: u64,
         registry: &Registry,
-    ) -> Result<RunConfig, creatures::UnknownCreature> {
-        let creature = creatures::find(self.scenario.creature)?;
-        let mut config = registry.configure(&self.preset, creature, self.scenario.movement);
-        config.seed = seed;
-        config.stop = stop;
+    ) -> Result<Self, creatures::UnknownCreature> {
+        let creature = creatures::find(scenario.creature)?;
+        let mut config = registry.configure(preset, creature, scenario.movement);
+        config.stop = StopConditions { generations: Some(generations), ..StopConditions::default() };
         // Whole populations are not used here.
         config.record.populations_at.clear();
-        Ok(config)
+        Ok(Self { preset: preset.clone(), scenario, config })
     }
-}
-
-/// A digest of a configuration, whatever its seed and its end.
-pub(super) fn settings_digest(config: &RunConfig) -> String {
-    let timeless = RunConfig { seed: 0, stop: StopConditions::default(), ..config.clone() };
-    // Plain data: serialising cannot fail; were it to, all settings would be alike.
-    Digest::of_json(&serde_json::to_value(timeless).unwrap_or_default()).to_string()
 }
 
 /// Checks names against those of the thesis' scenarios.
@@ -284,20 +281,5 @@ mod tests {
         }
         assert!(refused(&Request { runs: 0, ..Request::default() }).contains("runs = 0"));
         assert!(refused(&Request { generations: 0, ..Request::default() }).contains("generations = 0"));
-    }
-
-    #[test]
-    fn a_digest_of_settings_knows_neither_seed_nor_end() {
-        let cell = |index: usize, name| Cell {
-            preset: Registry::default().presets.find(name).expect("there is one").clone(),
-            scenario: &thesis::SCENARIOS[index],
-        };
-        let digest = |cell: Cell, seed, generations| {
-            let stop = StopConditions { generations: Some(generations), ..StopConditions::default() };
-            settings_digest(&cell.config(seed, stop, &Registry::default()).expect("a shipped creature"))
-        };
-        assert_eq!(digest(cell(0, "thesis"), 1, 300), digest(cell(0, "thesis"), 2, 5));
-        assert_ne!(digest(cell(0, "thesis"), 1, 300), digest(cell(0, "default"), 1, 300));
-        assert_ne!(digest(cell(0, "thesis"), 1, 300), digest(cell(7, "thesis"), 1, 300));
     }
 }

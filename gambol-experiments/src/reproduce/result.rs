@@ -1,11 +1,13 @@
-use super::{Cell, ReproduceError};
-use gambol_runs::Registry;
+use super::{Cell, Job};
+use crate::folder::PlannedRun;
 use gambol_runs::{
+    Registry,
     champion::Champion,
     episode_parts::SetupError,
     gait::{self, GaitOfChampionError},
     recorder::{check_lines, read_champion},
     run_folder::RunFolder,
+    training::TrainError,
 };
 use serde::{Deserialize, Serialize};
 
@@ -135,28 +137,25 @@ impl Judged {
 impl RunResult {
     /// What an ended run left, its champion judged.
     pub(super) fn read(
-        cell: &Cell,
+        job: Job<'_>,
         folder: &RunFolder,
-        settings: String,
         threads: usize,
         registry: &Registry,
-    ) -> Result<Self, ReproduceError> {
+    ) -> Result<Self, TrainError> {
         let config = folder.read_config()?;
-        let seed = config.seed;
         check_lines(folder, &config)?;
         let (log, timing) = (folder.read_log()?, folder.read_timing()?);
         let champion = read_champion(folder, &config)?;
-        let judged = champion.map(|champion| Judged::of(&champion, registry)).transpose();
-        let failed = |source: SetupError| ReproduceError::run(format!("{}, seed {seed}", cell.name()), source.into());
+        let Cell { preset, scenario, .. } = job.cell();
         Ok(Self {
-            preset: cell.preset.name.clone(),
-            creature: cell.scenario.creature.into(),
-            movement: cell.scenario.movement.into(),
-            seed,
-            settings,
+            preset: preset.name.clone(),
+            creature: scenario.creature.into(),
+            movement: scenario.movement.into(),
+            seed: config.seed,
+            settings: job.settings(),
             best: log.iter().map(|line| line.fitness.map(|fitness| fitness.best)).collect(),
             mean: log.iter().map(|line| line.fitness.map(|fitness| fitness.mean)).collect(),
-            champion: judged.map_err(failed)?,
+            champion: champion.map(|champion| Judged::of(&champion, registry)).transpose()?,
             threads,
             seconds: timing.iter().map(|line| line.seconds).sum(),
         })

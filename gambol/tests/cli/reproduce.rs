@@ -227,7 +227,10 @@ fn a_run_that_was_begun_with_other_settings_is_noticed() -> Outcome {
     other.args(["biped-1", "jumping", "--preset", "thesis", "--population", "8", "--generations", "1", "--no-report"]);
     succeed(other.arg("--quiet").arg("--out").arg(&run));
     let message = fail(small(&out).args(["--presets", "thesis"]));
-    assert_says(&message, &[text(&run), "was made with other settings than the preset \"thesis\" of this Gambol has"]);
+    assert_says(
+        &message,
+        &[text(&run), "is the folder of another run: its config.json has another \"record\"", "move it away"],
+    );
     // As it says.
     fs::remove_dir_all(&run)?;
     assert_says(&succeed(small(&out).args(["--presets", "thesis"])), &["2 of 2 runs are there"]);
