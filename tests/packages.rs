@@ -47,7 +47,7 @@ fn licences_are_on_the_list() {
     let host = String::from_utf8(host.stdout).expect("text");
     let host = host.lines().find_map(|line| line.strip_prefix("host: ")).expect("it says for what it compiles");
     let metadata = Command::new(env!("CARGO"))
-        .args(["metadata", "--offline", "--filter-platform", host, "--format-version", "1"])
+        .args(["metadata", "--locked", "--filter-platform", host, "--format-version", "1"])
         .current_dir(root())
         .output()
         .expect("cargo runs");
