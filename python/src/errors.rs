@@ -1,5 +1,6 @@
 //! The library's errors as Python's.
 
+use ne_core::Parallel;
 use pyo3::{PyErr, PyResult, exceptions::PyValueError};
 
 /// An argument that is wrong, in the library's own words.
@@ -9,8 +10,9 @@ pub(crate) fn wrong(error: impl ToString) -> PyErr {
 
 /// Checks a number of threads; 0 is one for each core.
 pub(crate) fn check_threads(threads: usize) -> PyResult<()> {
-    match threads > 1024 {
-        true => Err(wrong(format!("threads = {threads}: must be from 0 to 1024"))),
+    let most = Parallel::MOST_THREADS;
+    match threads > most {
+        true => Err(wrong(format!("threads = {threads}: must be from 0 to {most}"))),
         false => Ok(()),
     }
 }

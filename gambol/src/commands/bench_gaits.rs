@@ -70,14 +70,14 @@ pub(super) struct Gaits {
     #[arg(long, conflicts_with = "seconds")]
     steps: Option<u64>,
     /// Runs at the same time, where steps are counted; 0: one for each core [default: 1]
-    #[arg(long, value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(long, value_parser = super::thread_count(0))]
     at_once: Option<usize>,
     /// Keep every run in this folder, where steps are counted; runs that it has are not done again. Empty it when code has changed
     #[arg(long, value_name = "DIR", requires = "steps")]
     keep: Option<PathBuf>,
     /// Threads of each training [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     threads: usize,
     /// Write the table as CSV as well, a row for each scenario or variant
     #[arg(long, value_name = "FILE", conflicts_with = "json")]

@@ -34,7 +34,7 @@ pub(super) struct Training {
     engine: String,
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     threads: usize,
     /// Print the figures as JSON
     #[arg(long)]

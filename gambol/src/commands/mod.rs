@@ -28,8 +28,8 @@ mod tune;
 mod verify;
 
 use crate::{Registry, program_name, set_program_name};
-use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand};
-use ne_core::archive;
+use clap::{Arg, CommandFactory, FromArgMatches, Parser, Subcommand, builder::RangedU64ValueParser};
+use ne_core::{Parallel, archive};
 use std::{error::Error, io, path::Path, process::ExitCode};
 
 /// What a command gives back: an exit code, or an error to be shown.
@@ -43,6 +43,11 @@ const NOT_USABLE: u8 = 3;
 const NOT_YET: u8 = 4;
 /// The exit code of a run that was interrupted and saved, as shells have it for Ctrl-C.
 const INTERRUPTED: u8 = 130;
+
+/// A number of threads or of runs at the same time, from `least` on.
+fn thread_count(least: u64) -> RangedU64ValueParser<usize> {
+    RangedU64ValueParser::new().range(least..=Parallel::MOST_THREADS as u64)
+}
 
 /// The `gambol` program, with everything that a registry adds to it: reads the command line, does what it says, and tells how
 /// it went on the standard streams. It is `main` for a program with movements of its own; all commands know them.

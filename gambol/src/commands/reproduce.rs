@@ -67,11 +67,11 @@ struct Thesis {
     out: PathBuf,
     /// Runs at the same time [default: one for each core]; timed runs are always alone
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     at_once: usize,
     /// Threads of each run; the thesis had one
     #[arg(long, default_value_t = 1)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(1..=1024))]
+    #[arg(value_parser = super::thread_count(1))]
     threads: usize,
     /// Show nothing but errors
     #[arg(long, short)]

@@ -44,7 +44,7 @@ pub(crate) struct Robust {
     variation: Option<String>,
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     threads: usize,
     /// Print everything as JSON, every world included
     #[arg(long)]

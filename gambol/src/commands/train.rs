@@ -151,7 +151,7 @@ pub(super) struct Limits {
 pub(super) struct RunFlags {
     /// Threads [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     threads: usize,
     /// Show nothing but errors
     #[arg(long, short)]

@@ -54,7 +54,7 @@ pub(crate) struct Tune {
     out: PathBuf,
     /// Runs at the same time [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]
-    #[arg(value_parser = clap::builder::RangedU64ValueParser::<usize>::new().range(..=1024))]
+    #[arg(value_parser = super::thread_count(0))]
     at_once: usize,
     /// Show nothing but the best settings
     #[arg(long, short)]

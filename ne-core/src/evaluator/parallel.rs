@@ -12,20 +12,35 @@ pub struct Parallel {
     pool: Option<rayon::ThreadPool>,
 }
 
-/// The operating system would not start the threads.
+/// Why an evaluator has no threads.
 #[derive(Debug, thiserror::Error)]
-#[error("cannot start {threads} threads: {source}")]
-pub struct ThreadsError {
-    threads: usize,
-    source: rayon::ThreadPoolBuildError,
+#[non_exhaustive]
+pub enum ThreadsError {
+    /// More than [`Parallel::MOST_THREADS`].
+    #[error("{0} threads: at most {most} are allowed", most = Parallel::MOST_THREADS)]
+    TooMany(usize),
+    /// The operating system would not start them.
+    #[error("cannot start {threads} threads: {source}")]
+    Start {
+        /// So many were asked for.
+        threads: usize,
+        /// What it said.
+        source: rayon::ThreadPoolBuildError,
+    },
 }
 
 impl Parallel {
-    /// An evaluator with this many threads; 0 means one for each core.
+    /// So many threads at most.
+    pub const MOST_THREADS: usize = 1024;
+
+    /// An evaluator with this many threads, up to [`MOST_THREADS`](Self::MOST_THREADS); 0 means one for each core.
     ///
     /// # Errors
-    /// If the threads cannot be started.
+    /// If there are too many, or they cannot be started.
     pub fn new(threads: usize) -> Result<Self, ThreadsError> {
+        if threads > Self::MOST_THREADS {
+            return Err(ThreadsError::TooMany(threads));
+        }
         if cfg!(target_family = "wasm") {
             return Ok(Self { pool: None });
         }
@@ -33,7 +48,7 @@ impl Parallel {
             .num_threads(threads)
             .thread_name(|index| format!("evaluator {index}"))
             .build()
-            .map_err(|source| ThreadsError { threads, source })?;
+            .map_err(|source| ThreadsError::Start { threads, source })?;
         Ok(Self { pool: Some(pool) })
     }
 
@@ -73,5 +88,16 @@ impl Evaluator for Parallel {
         let mut evaluations = Vec::with_capacity(genomes.len());
         genomes.chunks(AT_ONCE).for_each(|some| evaluations.extend(evaluate(some)));
         evaluations
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_threads_than_any_machine_has_are_refused() {
+        let refused = Parallel::new(100_000).expect_err("too many").to_string();
+        assert_eq!(refused, "100000 threads: at most 1024 are allowed");
     }
 }
