@@ -6,8 +6,12 @@ use serde_json::Map;
 
 /// 5 s: a jump and its landing.
 pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
+    // A body without legs lies in any posture, but not on its back.
+    let is_legless = body.legs == 0;
+    let stays_upright = if is_legless { "upright" } else { "posture" };
     let mut terms =
-        terms(&[("no-exploits", 0.0), ("posture", 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)]);
+        terms(&[("no-exploits", 0.0), (stays_upright, 0.0), ("leap", 4.0), ("landing", 3.0), ("vibration", -0.2)]);
+    let defaults = leap(body);
     for posture in terms.iter_mut().filter(|term| term.term == "posture") {
         // A jump crouches, and nothing but feet may touch the ground, however shortly.
         *posture = with(posture.clone(), "tilt", 35);
@@ -20,13 +24,15 @@ pub(super) fn jumping(body: &BodyFacts) -> MovementDefaults {
         training_steps: Some(250),
         terms,
         // Where a search begins with steps as wide as it does for a run, legs thrash, and hardly any of the first nets leaves
-        // the ground and lands.
-        strategy: Map::from_iter([("step_size".to_owned(), 0.2.into())]),
+        // the ground and lands. A body that has none must begin to bend.
+        strategy: Map::from_iter([("step_size".to_owned(), 0.2.into())].into_iter().filter(|_| !is_legless)),
         // Two legs without knees take off as they have landed, and no two of their jumps last equally long: the next begins
         // when they have landed, and not by the clock. Knees make up for it by themselves, and more legs, whose clocks run
         // ahead of each other by genes, get worse by it.
         from_landing: (1..=2).contains(&body.legs) && body.joints == 1,
-        ..leap(body)
+        // One that snaps to its angles rolls over.
+        gain: if is_legless { 15.0 } else { defaults.gain },
+        ..defaults
     }
 }
 

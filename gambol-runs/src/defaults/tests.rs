@@ -56,7 +56,7 @@ fn clock_angle_law_step_size_and_bumps_are_those_of_the_movement() {
         ("biped-1", "jumping", 1.0, 20.0, 0.2, false),
         ("decapod-1", "jumping", 0.84, 10.0, 0.2, false),
         ("tetrapod-2", "jumping", 1.0, 15.0, 0.2, false),
-        ("apod", "jumping", 1.0, 20.0, 0.2, false),
+        ("apod", "jumping", 1.0, 15.0, 0.5, false),
     ] {
         let config = config(creature, movement);
         let name = format!("{creature} {movement}");

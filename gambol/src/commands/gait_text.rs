@@ -3,7 +3,7 @@
 use crate::Registry;
 use crate::obstacles::ObstaclesPassed;
 use std::fmt::Write;
-use tasks::gait::{GaitReport, JointUse, LegUse, NearWorlds};
+use tasks::gait::{GaitReport, Interval, JointUse, LegUse, NearWorlds};
 
 /// How much of the end the footfall diagram shows, s.
 const DIAGRAM_SECONDS: f64 = 3.0;
@@ -160,8 +160,13 @@ fn footfalls(report: &GaitReport) -> String {
     let mut text = format!("\n  footfalls, the last {seconds:.1} s\n");
     for leg in &report.legs {
         let stands = |cell: usize| {
-            let time = from + (cell as f64 + 0.5) / DIAGRAM_WIDTH as f64 * seconds;
-            leg.stances.iter().any(|stance| (stance.from..stance.to).contains(&time))
+            let [begin, middle, end] =
+                [0.0, 0.5, 1.0].map(|share| from + (cell as f64 + share) / DIAGRAM_WIDTH as f64 * seconds);
+            // A stance that is shorter than a character has one all the same.
+            let is_seen = |stance: &Interval| {
+                (stance.from..stance.to).contains(&middle) || (begin..end).contains(&(0.5 * (stance.from + stance.to)))
+            };
+            leg.stances.iter().any(is_seen)
         };
         let row: String = (0..DIAGRAM_WIDTH).map(|cell| if stands(cell) { '█' } else { '·' }).collect();
         line(&mut text, &format!("  {:<name_width$}  {row}", leg.foot));
@@ -179,15 +184,26 @@ mod tests {
 
     /// A lone foot that stands in every other 0.2 s.
     fn report() -> GaitReport {
+        standing(20, 10)
+    }
+
+    /// A lone foot that stands in so many steps of each stride.
+    fn standing(stride: u16, stance: u16) -> GaitReport {
         let part = BodyPart { name: "foot".into(), mass: 1.0, corners: vec![[0.0, 0.0]], ..BodyPart::default() };
         let body =
             Body { body_length: 1.0, start_height: 1.0, parts: vec![part], legs: vec![vec![0]], ..Body::default() };
         let snapshot = |step: u16| {
-            let state = PartState { y: 1.0, cos: 1.0, touching: step % 20 < 10, ..PartState::default() };
+            let state = PartState { y: 1.0, cos: 1.0, touching: step % stride < stance, ..PartState::default() };
             Snapshot { time: f32::from(step) * 0.02, parts: vec![state], motor_work: 0.0, ..Snapshot::default() }
         };
         let film: Vec<Snapshot> = (0..=200).map(snapshot).collect();
         GaitReport::of(&Trajectory::new(&body, &film).expect("a script"), Some(&tasks::gait::RunningRules::default()))
+    }
+
+    #[test]
+    fn short_stances_are_drawn_too() {
+        let text = footfalls(&standing(25, 2));
+        assert_eq!(text.matches('█').count(), 6, "{text}");
     }
 
     #[test]

@@ -99,9 +99,14 @@ impl Replay {
             report::write_replay(&champion, &registry, steps, path)?;
             say!("page        {}", path.display())?;
         }
+        // Terms are of other units.
         let (value, unit) = (played.movement.value(), played.movement.unit());
+        let value = match champion.movement.terms.is_empty() {
+            true => format!("{value:.3} {unit}"),
+            false => format!("fitness {value:.3}"),
+        };
         let seconds = f64::from(played.outcome.steps) * f64::from(champion.physics.time_step);
-        say!("{} {}: {value:.3} {unit} in {seconds:.2} s", champion.creature.name, champion.movement.name)?;
+        say!("{} {}: {value} in {seconds:.2} s", champion.creature.name, champion.movement.name)?;
         Ok(ExitCode::SUCCESS)
     }
 

@@ -31,6 +31,8 @@ pub enum Reason {
     NoTouchdown { foot: String, seconds: f64, allowed: f64 },
     /// A foot does not leave the ground for too long, s.
     NoLiftoff { foot: String, seconds: f64, allowed: f64 },
+    /// The joints of a leg hardly move, all of them together, degrees.
+    LegUnused { foot: String, range: f64, required: f64 },
     /// A joint of a legless body hardly moves, degrees.
     JointUnused { joint: String, range: f64, required: f64 },
     /// There is nothing for a controller to move.
@@ -89,6 +91,7 @@ impl Reason {
             Self::Irregular { .. } => "irregular",
             Self::NoTouchdown { .. } => "no-touchdown",
             Self::NoLiftoff { .. } => "no-liftoff",
+            Self::LegUnused { .. } => "leg-unused",
             Self::JointUnused { .. } => "joint-unused",
             Self::NothingActuated => "nothing-actuated",
             Self::TooFast { .. } => "too-fast",
@@ -165,6 +168,12 @@ impl fmt::Display for Reason {
             }
             Self::NoLiftoff { foot, seconds, allowed } => {
                 write!(f, "{foot}: did not leave the ground for {seconds:.1} s, at most {allowed:.0} s allowed")
+            }
+            Self::LegUnused { foot, range, required } => {
+                write!(
+                    f,
+                    "{foot}: the joints of its leg move by {range:.0}° in all in the second half, at least {required:.0}° required"
+                )
             }
             Self::JointUnused { joint, range, required } => {
                 write!(
@@ -247,6 +256,7 @@ mod tests {
             Reason::Tilted { tilt: 91.0, allowed: 90.0, time: 0.0 },
             Reason::NoTouchdown { foot: foot(), seconds: 4.0, allowed: 3.0 },
             Reason::NoLiftoff { foot: foot(), seconds: 4.0, allowed: 3.0 },
+            Reason::LegUnused { foot: foot(), range: 0.0, required: 1.0 },
             Reason::JointUnused { joint: foot(), range: 0.0, required: 1.0 },
             Reason::NothingActuated,
             Reason::TooFast { joint: foot(), frequency: 6.0, allowed: 5.0 },

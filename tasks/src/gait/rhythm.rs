@@ -8,6 +8,8 @@ use std::ops::RangeInclusive;
 
 /// Of several peaks the first counts that is nearly as high as the highest: two strides repeat as well as one.
 const NEARLY: f64 = 0.95;
+/// Longer strides than this are none, s: what repeats itself after many uneven steps still stumbles.
+const LONGEST_STRIDE: f64 = 3.0;
 /// Joints that together swing less than this on average, in rad, have no rhythm.
 const STILL: f64 = 1e-3;
 /// Where signals have less than this share of their energy, what is left of it is rounding.
@@ -18,7 +20,7 @@ const NEGLIGIBLE: f64 = 1e-12;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rhythm {
     /// Height of the highest peak beyond the main lobe around lag 0, from 0 (no rhythm) to 1 (repeats exactly). Lags up
-    /// to half the window are tried.
+    /// to half the window, and to 3 s, are tried.
     pub strength: f64,
     /// Lag of the first peak about as high, s; `None` if there is no peak.
     #[serde(rename = "stride_time_s")]
@@ -35,7 +37,8 @@ impl Rhythm {
         let joints = 0..trajectory.body().hinges.len();
         let signals: Vec<Vec<f64>> =
             joints.map(|hinge| detrended(&trajectory.hinge_angles(hinge)[window.clone()])).collect();
-        let correlations = autocorrelations(&signals);
+        let longest = libm::round(LONGEST_STRIDE / trajectory.time_step()) as usize;
+        let correlations = autocorrelations(&signals, longest);
         let Some((lag, strength)) = stride(&correlations) else {
             return Self { strength: 0.0, stride_time: None, strides: 0.0, progress_per_stride: None };
         };
@@ -50,9 +53,9 @@ impl Rhythm {
     }
 }
 
-/// For each lag up to half the signals, how well they fit themselves when shifted by it, from −1 to 1. Empty for signals
+/// For each lag up to half the signals, and up to the longest and the next, how well they fit themselves when shifted by it, from −1 to 1. Empty for signals
 /// that keep still.
-fn autocorrelations(signals: &[Vec<f64>]) -> Vec<f64> {
+fn autocorrelations(signals: &[Vec<f64>], longest: usize) -> Vec<f64> {
     let samples = signals.first().map_or(0, Vec::len);
     // Energy of all signals before each sample.
     let mut energy = vec![0.0; samples + 1];
@@ -62,12 +65,14 @@ fn autocorrelations(signals: &[Vec<f64>]) -> Vec<f64> {
     if samples == 0 || energy[samples] < STILL * STILL * (samples * signals.len()) as f64 {
         return Vec::new();
     }
-    let products = products(signals, samples / 2);
+    // A peak is higher than the lag after it.
+    let greatest = (samples / 2).min(longest.saturating_add(1));
+    let products = products(signals, greatest);
     let at_lag = |lag: usize| {
         let alone = (energy[samples - lag] * (energy[samples] - energy[lag])).sqrt();
         if alone > NEGLIGIBLE * energy[samples] { (products[lag] / alone).clamp(-1.0, 1.0) } else { 0.0 }
     };
-    (0..=samples / 2).map(at_lag).collect()
+    (0..=greatest).map(at_lag).collect()
 }
 
 /// For each lag up to the greatest, the sum over all signals of the products of each sample and the one that much later.
@@ -111,9 +116,16 @@ mod tests {
     #[test]
     fn a_sine_repeats_after_its_period() {
         let sine = |phase: f64| (0..500).map(|step| libm::sin(TAU * f64::from(step) / 40.0 + phase)).collect();
-        let (lag, strength) = stride(&autocorrelations(&[sine(0.0), sine(1.0)])).expect("a rhythm");
+        let (lag, strength) = stride(&autocorrelations(&[sine(0.0), sine(1.0)], usize::MAX)).expect("a rhythm");
         assert_eq!(lag, 40);
         assert!(strength > 0.999, "{strength}");
+    }
+
+    #[test]
+    fn what_repeats_itself_after_too_long_is_no_stride() {
+        let sine: Vec<f64> = (0..500).map(|step| libm::sin(TAU * f64::from(step) / 40.0)).collect();
+        let found = |longest| stride(&autocorrelations(std::slice::from_ref(&sine), longest)).map(|(lag, _)| lag);
+        assert_eq!([found(39), found(40)], [None, Some(40)]);
     }
 
     #[test]
@@ -129,7 +141,7 @@ mod tests {
 
     #[test]
     fn still_joints_and_no_joints_have_no_rhythm() {
-        assert_eq!(stride(&autocorrelations(&[vec![0.0; 100]])), None);
-        assert_eq!(stride(&autocorrelations(&[])), None);
+        assert_eq!(stride(&autocorrelations(&[vec![0.0; 100]], usize::MAX)), None);
+        assert_eq!(stride(&autocorrelations(&[], usize::MAX)), None);
     }
 }

@@ -1,7 +1,7 @@
 use super::{Cheat, CheatKind};
 use crate::gait::{Goal, JointUse, Trajectory};
 
-/// The eye blurs what swings faster, Hz; a usable gait stays below 5.
+/// The eye blurs what swings faster, Hz; a usable run stays below 4.
 const FASTEST: f64 = 8.0;
 /// Smaller swings than this to either side, in degrees, propel no body.
 const MATTERS: f64 = 2.0;

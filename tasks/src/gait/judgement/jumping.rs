@@ -15,8 +15,10 @@ const LOWEST_RISE_METRES: f64 = 0.05;
 const LOWEST_LEGLESS_RISE: f64 = 0.25;
 /// Legs that push off farther apart in time stumble into the air, s.
 const WIDEST_SPREAD: f64 = 0.15;
-/// Beyond this a torso has begun to fall, degrees.
+/// Beyond this a torso has begun to fall, degrees...
 const LARGEST_TILT: f64 = 45.0;
+/// ...and beyond this a body without legs, which bends when it takes off, is on its way to its back.
+const LARGEST_LEGLESS_TILT: f64 = 90.0;
 /// What stands again is within this of its start, degrees...
 const STANDING_TILT: f64 = 20.0;
 /// ...within this share of its start height...
@@ -35,8 +37,8 @@ const JUMPS_ON: f64 = 1.5;
 /// It is usable if in one and the same flight every part is off the ground for at least 0.2 s, the centre of mass rises
 /// at least 0.3 × the start height and 5 cm above its start (without legs 0.25 body lengths), and all legs lose contact
 /// within 0.15 s before it; if from the take-off of the first such flight to the end the torso stays within 45° and nothing
-/// but feet touches the ground; if the body stands again in the last second, or jumps on; and no cheat is flagged. Legs,
-/// tilt and contacts are not asked of a legless body, which lies at the end as it lay.
+/// but feet touches the ground; if the body stands again in the last second, or jumps on; and no cheat is flagged. Legs
+/// and contacts are not asked of a legless body, whose torso stays within 90°.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct JumpingRules;
 
@@ -66,7 +68,10 @@ impl Rules for JumpingRules {
         };
         let mut reasons = Vec::new();
         let take_off = step_at(trajectory, flights[first].interval.from);
-        if !trajectory.body().legless {
+        if trajectory.body().legless {
+            stays_upright(trajectory, take_off, LARGEST_LEGLESS_TILT, &mut reasons);
+        } else {
+            stays_upright(trajectory, take_off, LARGEST_TILT, &mut reasons);
             lands_on_its_feet(trajectory, take_off, &mut reasons);
         }
         let jumps_on = jumps.len() > 1
@@ -105,15 +110,19 @@ pub(super) fn against(flight: &Flight, trajectory: &Trajectory<'_>) -> Vec<Reaso
     reasons
 }
 
-/// From take-off to the end the torso stays upright, and nothing but feet touches the ground.
-fn lands_on_its_feet(trajectory: &Trajectory<'_>, take_off: usize, reasons: &mut Vec<Reason>) {
+/// From take-off to the end the torso tilts by no more than so many degrees, whole turns counted.
+fn stays_upright(trajectory: &Trajectory<'_>, take_off: usize, allowed: f64, reasons: &mut Vec<Reason>) {
     let tilts = trajectory.tilts().iter().enumerate().skip(take_off).map(|(step, tilt)| (step, tilt.abs()));
     if let Some((step, tilt)) = tilts.max_by(|(_, one), (_, other)| one.total_cmp(other))
-        && tilt.to_degrees() > LARGEST_TILT
+        && tilt.to_degrees() > allowed
     {
         let time = trajectory.time(step);
-        reasons.push(Reason::Tilted { tilt: tilt.to_degrees(), allowed: LARGEST_TILT, time });
+        reasons.push(Reason::Tilted { tilt: tilt.to_degrees(), allowed, time });
     }
+}
+
+/// From take-off to the end nothing but feet touches the ground.
+fn lands_on_its_feet(trajectory: &Trajectory<'_>, take_off: usize, reasons: &mut Vec<Reason>) {
     let others = trajectory.body().parts_without_feet();
     let touches = |step: &usize| others.iter().find(|&&part| trajectory.snapshots()[*step].parts[part].touching);
     let first = (take_off..=trajectory.steps()).find_map(|step| Some((step, *touches(&step)?)));

@@ -1,7 +1,7 @@
 use super::CLOCK_ERROR;
 use crate::{
     Body, Snapshot,
-    gait::{Findings, GaitReport, LegUse, Reason, Rules, Trajectory, View},
+    gait::{Findings, GaitReport, JointUse, LegUse, Reason, Rules, Trajectory, View},
 };
 
 /// How long the episode must be, s: bipeds that fall between 18 and 60 s of running look sound for 20 s.
@@ -29,7 +29,7 @@ const LARGEST_SLIP: f64 = 0.3;
 const HIGHEST_FREQUENCY: f64 = 4.0;
 /// Strides that repeat themselves less look like stumbling.
 const LEAST_REGULARITY: f64 = 0.8;
-/// A joint of a legless body that moves by less is not used, degrees.
+/// A leg whose joints move by less in all is carried along, and a joint of a legless body that does is not used, degrees.
 const SMALLEST_RANGE: f64 = 20.0;
 
 /// Running, forwards or backwards, and everything that is judged like it: 60 s.
@@ -37,7 +37,8 @@ const SMALLEST_RANGE: f64 = 20.0;
 /// It is usable if over the second half the mean forward speed is at least 0.5 body lengths/s; the torso gets ahead
 /// in each quarter of the episode and in each quarter of its second half; every leg comes down (its foot touches the
 /// ground, or is less than 1 % of the body length above it) and lifts off at least once every second, from the
-/// start to the end, and its foot rises by at least 2 % of the body length between; the torso
+/// start to the end, its foot rises by at least 2 % of the body length between, and its joints move by at least 20° in all
+/// in the second half; the torso
 /// stays within 45° of its start, with a standard deviation of at most 12° over the second half, and above 0.6 of its start
 /// height on flat ground; parts that are no feet touch the ground for at most 1 % of the time; feet slip by at most
 /// 0.3 m for each metre of way, as a mean over all; no actuated joint's dominant frequency is above 4 Hz; the joints repeat
@@ -80,6 +81,7 @@ impl Rules for RunningRules {
             on_its_feet(report, &mut reasons);
             for leg in &report.legs {
                 steps(leg, trajectory, &mut reasons);
+                swings(leg, &report.joints, &mut reasons);
             }
             let slips: f64 = report.legs.iter().filter_map(|leg| leg.slip_per_distance).sum();
             let slip = slips / report.legs.len() as f64;
@@ -144,6 +146,15 @@ fn steps(leg: &LegUse, trajectory: &Trajectory<'_>, reasons: &mut Vec<Reason>) {
     // A foot that never swings is named above.
     if let Some(clearance) = leg.clearance.filter(|&clearance| clearance < required) {
         reasons.push(Reason::LowStep { foot: foot(), clearance, required });
+    }
+}
+
+/// A body that rocks itself along on stiff legs does not run.
+fn swings(leg: &LegUse, joints: &[JointUse], reasons: &mut Vec<Reason>) {
+    let is_of_leg = |joint: &&JointUse| joint.actuated && leg.joints.iter().any(|own| own.name == joint.name);
+    let range: f64 = joints.iter().filter(is_of_leg).map(|joint| joint.window_range).sum();
+    if range < SMALLEST_RANGE {
+        reasons.push(Reason::LegUnused { foot: leg.foot.clone(), range, required: SMALLEST_RANGE });
     }
 }
 
