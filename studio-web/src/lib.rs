@@ -16,7 +16,7 @@
 //! - **Two workers.** A generation may take a second. What moves on the page is therefore elsewhere: the worker of runs sends the
 //!   [scene](studio::Scene) that is to be shown, and that of the arena plays it.
 //!
-//! `build-page` beside this crate makes the page; *docs/studio.md* says how it is hosted.
+//! `build_page`, a program of this crate, makes the page; *docs/studio.md* says how it is hosted.
 
 pub mod desk;
 mod host;

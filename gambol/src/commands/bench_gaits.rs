@@ -17,7 +17,7 @@ use std::{error::Error, path::PathBuf, process::ExitCode};
 Examples:
   gambol bench gaits                                         14 scenarios, 10 seeds each, until usable or 10 s
   gambol bench gaits --whole --seconds 60 --seeds 3          how good gaits are after a minute
-  gambol bench gaits --creatures biped-1 --movements running --set controller.modular=null
+  gambol bench gaits --creatures tetrapod-1 --movements running --set controller.modular=null
   gambol bench gaits --creatures examples/creatures/hopper.json --seconds 30 --robust
   gambol bench gaits --ablate \"the term\" --steps 3000000 --whole --seeds 2 \\
       --at-once 2 --threads 1 --keep runs/ablation
@@ -72,8 +72,9 @@ pub(super) struct Gaits {
     /// Runs at the same time, where steps are counted; 0: one for each core [default: 1]
     #[arg(long, value_parser = super::thread_count(0))]
     at_once: Option<usize>,
-    /// Keep every run in this folder, where steps are counted; runs that it has are not done again. Empty it when code has changed
-    #[arg(long, value_name = "DIR", requires = "steps")]
+    /// Keep every run in this folder; runs that it has are not done again, whatever the machine: best with --steps. Empty it when code
+    /// has changed
+    #[arg(long, value_name = "DIR")]
     keep: Option<PathBuf>,
     /// Threads of each training [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]

@@ -89,7 +89,7 @@ fn check_creature(path: &Path, creature: Creature, registry: &Registry) -> Resul
     }
     let world = (PhysicsSettings::default(), Ground::flat(), Conditions::reference(motors.len()));
     if let Err(refusal) = LaneEngine::new(&blueprint, &world.0, &world.1, &world.2) {
-        say!("  note: {refusal}; train it with --engine rapier")?;
+        say!("  note: {refusal}; the default preset trains it in rapier, for others say --engine rapier")?;
     }
     if blueprint.symmetry().is_none() {
         say!("  note: it looks the same from both sides: what it learns one way, a game can play the other way")?;

@@ -46,7 +46,7 @@ pub(crate) struct Compare {
     /// The first of them
     #[arg(long, default_value_t = 1, value_name = "SEED", value_parser = super::first_seed())]
     first_seed: u64,
-    /// What each run may use up: so many evaluations
+    /// What each run may use up: so many evaluations; this or --steps is needed, and both together where the fitness has no terms
     #[arg(long, required_unless_present = "steps")]
     evaluations: Option<u64>,
     /// What each run may use up: so many physics steps

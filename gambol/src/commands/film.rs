@@ -11,7 +11,7 @@ use std::{path::PathBuf, process::ExitCode};
 #[command(after_help = "\
 Examples:
   gambol film runs/biped-1-running --out gentleman.png
-  gambol film runs/* --out all.png --columns 4 --from 5 --seconds 3
+  gambol film runs/*-running --out all.png --columns 4 --from 5 --seconds 3
 
 The image is a PNG with 25 frames a second that repeats for ever; browsers and chats play it, other programs show its first \
 frame. Each creature is played in rapier, in the world without variation, and the camera follows it.")]

@@ -31,8 +31,8 @@ Examples:
 
 The contact sheet is one image: twelve frames over a stride or a jump, footfalls, pitch and height of the torso, the verdict.
 
-A champion is replayed in rapier, for as long as its movement is judged: 60 s of running and what is judged like it, 5 s \
-of jumps, 20 s of swimming and of what is not judged. One that is usable must be so in 7 of 8 near worlds as well: \
+A champion is replayed in rapier, for as long as its movement is judged: 60 s of running, what is judged like it, and playing, \
+5 s of jumps, 20 s of swimming and of what is not judged. One that is usable must be so in 7 of 8 near worlds as well: \
 friction, gravity, mass and time step off by up to 1 %, the start pose by up to 1 degree, the torso spinning by up to 0.05 \
 rad/s. A trajectory is taken as it is and judged alone; of flat ground, with gravity as on Earth. Where it has no columns \
 for speeds they are found by central differences; where it has none for torques, what a step costs is not known, and \

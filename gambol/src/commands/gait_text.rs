@@ -203,7 +203,7 @@ mod tests {
     #[test]
     fn short_stances_are_drawn_too() {
         let text = footfalls(&standing(25, 2));
-        assert_eq!(text.matches('█').count(), 6, "{text}");
+        assert_eq!(text.matches('█').count(), 7, "{text}");
     }
 
     #[test]

@@ -102,7 +102,7 @@ pub(crate) struct Train {
     /// One setting, such as physics.time_step=0.01; can be given several times
     #[arg(long, value_name = "KEY=VALUE")]
     set: Vec<String>,
-    /// The seed: the same seed gives the same run to the bit
+    /// The seed: the same seed gives the same run to the bit [default: 1]
     #[arg(long)]
     seed: Option<u64>,
     /// Individuals in a generation

@@ -49,8 +49,8 @@ fn a_creature_that_lanes_cannot_simulate_is_refused_and_rapier_trains_it() -> Ou
     let shipped = creatures::shipped().iter().find(|shipped| shipped.name == "biped-1").ok_or("it is shipped")?;
     fs::write(&creature, shipped.json.replace(r#""self_collision": false"#, r#""self_collision": true"#))?;
     let said = succeed(gambol("check").arg(&creature));
-    let note =
-        "note: lanes cannot simulate this creature: its parts collide with each other (self_collision); train it";
+    let note = "note: lanes cannot simulate this creature: its parts collide with each other (self_collision); the default \
+                preset trains it in rapier, for others say --engine rapier";
     assert!(said.contains(note), "{said}");
     let train = |flags: &[&str]| {
         let mut train = gambol("train");

@@ -292,10 +292,11 @@ def make_vec(
         movement: what is rewarded (:func:`gambol.movement_names`).
         num_envs: how many; a multiple of 16 wastes nothing.
         terrain: ``"NAME"`` or ``"NAME:DIFFICULTY"`` (:func:`gambol.terrain_names`), such as ``"hurdles:0.5"``; flat by default.
-        variation: how worlds differ from episode to episode (:func:`gambol.variation_names`); not at all by default.
+        variation: how worlds differ from episode to episode (:func:`gambol.variation_names`); by default as the preset has it, which with
+            ``"plain"`` is not at all.
         max_episode_steps: the longest an episode lasts, in steps; by default the length of the preset.
         preset: where settings begin. ``"plain"``: the movement alone, and the senses of the creature's file. ``"default"``:
-            what the program trains with, reward shaping, clocks, target angles and light variation included.
+            what the program trains with, reward shaping, clocks, target angles and the variation of the movement included.
         settings: single settings by their path, such as ``{"physics.gravity": 5.0}``; see docs/configuration.md.
         engine: ``"lanes"``, or ``"rapier"``, the reference, some thirty times slower; by default lanes, and for movements in
             water rapier.
