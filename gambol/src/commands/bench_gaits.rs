@@ -72,9 +72,8 @@ pub(super) struct Gaits {
     /// Runs at the same time, where steps are counted; 0: one for each core [default: 1]
     #[arg(long, value_parser = super::thread_count(0))]
     at_once: Option<usize>,
-    /// Keep every run in this folder; runs that it has are not done again, whatever the machine: best with --steps. Empty it when code
-    /// has changed
-    #[arg(long, value_name = "DIR")]
+    /// Keep every run in this folder, where steps are counted; runs that it has are not done again. Empty it when code has changed
+    #[arg(long, value_name = "DIR", requires = "steps", conflicts_with = "seconds")]
     keep: Option<PathBuf>,
     /// Threads of each training [default: one for each core]
     #[arg(long, default_value_t = 0, hide_default_value = true)]

@@ -140,6 +140,7 @@ fn wrong_times_and_ends_are_named() -> Outcome {
         (&gaits, &["--seconds", "soon"], "'--seconds <SECONDS>': must be a number above 0"),
         (&gaits, &["--seconds", "inf"], "'--seconds <SECONDS>': must be a number above 0"),
         (&gaits, &["--keep", "runs"], "--steps <STEPS>"),
+        (&gaits, &["--keep", "runs", "--seconds", "1"], "cannot be used with"),
         (&gaits, &["--seconds", "1", "--steps", "1000"], "'--seconds <SECONDS>' cannot be used with"),
         (&gaits, &["--seeds", "0"], "'--seeds <SEEDS>': 0 is not in 1..=10000"),
     ] {
