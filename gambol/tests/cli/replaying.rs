@@ -90,6 +90,17 @@ fn a_replay_says_what_it_reached_in_which_time() -> Outcome {
 }
 
 #[test]
+fn what_has_terms_of_other_units_is_a_fitness() -> Outcome {
+    let folder = tempfile::tempdir()?;
+    let run = folder.path().join("run");
+    let mut train = gambol("train");
+    train.args(["biped-1", "jumping", "--preset", "default", "--generations", "10", "--no-report", "--quiet"]);
+    succeed(train.arg("--out").arg(&run));
+    assert_says(&succeed(gambol("replay").arg(&run)), &["biped-1 jumping: fitness "]);
+    Ok(())
+}
+
+#[test]
 fn a_page_shows_the_replay_and_needs_no_network() -> Outcome {
     let folder = tempfile::tempdir()?;
     let champion = trained(folder.path(), "biped-1");
